@@ -1,0 +1,10 @@
+//! `phase` turns a TOML file into a phase diagram.
+
+pub mod classify;
+pub mod dem;
+pub mod observe;
+pub mod plot;
+pub mod record;
+pub mod scene;
+pub mod store;
+pub mod sweep;

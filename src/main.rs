@@ -1,0 +1,3 @@
+//! The `phase` program: parse and dispatch, nothing else.
+
+fn main() {}

@@ -1,0 +1,7 @@
+//! What is measured on a simulation while it runs, frame by frame.
+
+mod observations;
+mod observer;
+
+pub use observations::{Observations, Series, Snapshot};
+pub use observer::Observer;

@@ -1,0 +1,92 @@
+//! The observables of a run: one value (or one row) per frame.
+
+use ndarray::{Array2, Array3};
+
+/// One named scalar observable.
+pub struct Series<'a> {
+    /// Name, as in the record.
+    pub name: &'static str,
+    /// Unit, as in the record.
+    pub unit: &'static str,
+    /// What it is, in one line.
+    pub description: &'static str,
+    /// One value per frame.
+    pub values: &'a [f32],
+}
+
+/// Declares the scalar observables once: as fields, as a list to write, as a list to read.
+macro_rules! scalars {
+    ($($name:ident $unit:literal $description:literal;)*) => {
+        /// Observables of a run, one entry per frame; the first frame is the start.
+        ///
+        /// Values are single precision: the record stays small, and sieves read exactly what a
+        /// record holds.
+        #[derive(Clone, Debug, Default, PartialEq)]
+        pub struct Observations {
+            /// Time of each frame (s).
+            pub time: Vec<f64>,
+            $(#[doc = concat!($description, " (", $unit, ").")] pub $name: Vec<f32>,)*
+            /// Height of the highest centre in each radial bin (m); not a number for an empty
+            /// bin. Shape: frames x bins, inner bin first, bins of equal width up to R.
+            pub profile: Array2<f32>,
+            /// Number of spheres within a radius fraction of the axis that rose faster than the
+            /// mean by a speed, since the frame before. Shape: frames x `rise_radii` x
+            /// `rise_speeds` of the scene's output table.
+            pub rising: Array3<u16>,
+        }
+
+        impl Observations {
+            /// The scalar observables, in a fixed order.
+            pub fn scalars(&self) -> Vec<Series<'_>> {
+                vec![$(Series {
+                    name: stringify!($name),
+                    unit: $unit,
+                    description: $description,
+                    values: &self.$name,
+                },)*]
+            }
+
+            /// The scalar observable of that name, to fill it.
+            pub fn scalar_mut(&mut self, name: &str) -> Option<&mut Vec<f32>> {
+                match name {
+                    $(stringify!($name) => Some(&mut self.$name),)*
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+scalars! {
+    kinetic "J" "Translational kinetic energy of all spheres";
+    rotational "J" "Rotational kinetic energy of all spheres";
+    gravitational "J" "Gravitational energy m g z of all spheres";
+    elastic "J" "Elastic energy of all contacts";
+    height_mean "m" "Mean height z of the centres";
+    height_max "m" "Height z of the highest centre";
+    hole_radius "m" "Distance from the axis of the centre next to it";
+    speed_mean "m/s" "Mean speed of the spheres";
+    air_speed_mean "m/s" "Mean speed of the swirling air at the spheres";
+    rotation "rad/s" "Rotation rate of the spheres about the axis: angular momentum over moment of inertia of the centres";
+    fluctuation "m/s" "Root mean square velocity relative to rigid rotation at that rate and to the mean vertical velocity";
+}
+
+impl Observations {
+    /// Number of frames.
+    pub fn frames(&self) -> usize {
+        self.time.len()
+    }
+}
+
+/// All spheres at one instant, in double precision.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Snapshot {
+    /// Time (s).
+    pub time: f64,
+    /// Centres (m), n x 3.
+    pub position: Array2<f64>,
+    /// Velocities (m/s), n x 3.
+    pub velocity: Array2<f64>,
+    /// Spins (rad/s), n x 3; empty (0 x 3) in a scene without rotation.
+    pub spin: Array2<f64>,
+}

@@ -1,0 +1,110 @@
+//! The record of one run, in memory.
+
+use crate::observe::{Observations, Snapshot};
+use crate::scene::Scene;
+
+/// Everything kept of one run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunRecord {
+    /// The resolved scene.
+    pub scene: Scene,
+    /// The program that ran it.
+    pub program: Program,
+    /// How the run ended.
+    pub outcome: Outcome,
+    /// Radius of every sphere (m).
+    pub radius: Vec<f64>,
+    /// Mass of every sphere (kg).
+    pub mass: Vec<f64>,
+    /// Observables of every frame.
+    pub observations: Observations,
+    /// All spheres now and then; the last one is the end of the run.
+    pub snapshots: Vec<Snapshot>,
+    /// All spheres at every frame, if the scene's output asks for it; else empty.
+    pub trajectory: Vec<Snapshot>,
+    /// Processor time of the run (s). Differs from run to run.
+    pub cpu_seconds: f64,
+}
+
+/// The program that made a record.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Program {
+    /// Version of this package.
+    pub version: String,
+    /// Commit it was built from, or "unknown".
+    pub commit: String,
+}
+
+impl Program {
+    /// The program that is running.
+    pub fn current() -> Self {
+        Self {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            commit: env!("PHASE_COMMIT").to_owned(),
+        }
+    }
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// It reached its duration.
+    Completed,
+    /// A guard ended it.
+    Unstable(Instability),
+}
+
+/// What broke, when and where.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{guard} guard at step {step} (t = {time:.6} s), sphere {sphere}: {detail}")]
+pub struct Instability {
+    /// Which guard.
+    pub guard: Guard,
+    /// Step at which it was found, counted from 1.
+    pub step: u64,
+    /// Time of that step (s).
+    pub time: f64,
+    /// Index of the sphere, from 0.
+    pub sphere: usize,
+    /// The value that broke the limit, and the limit.
+    pub detail: String,
+}
+
+/// A numerical guard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Guard {
+    /// A position or velocity is not a number.
+    NotANumber,
+    /// A centre is out of bounds.
+    OutOfBounds,
+    /// Two spheres, or a sphere and a wall, overlap too far.
+    Overlap,
+    /// A sphere moved too far in one step.
+    Displacement,
+}
+
+impl Guard {
+    /// All guards.
+    pub const ALL: [Self; 4] = [
+        Self::NotANumber,
+        Self::OutOfBounds,
+        Self::Overlap,
+        Self::Displacement,
+    ];
+
+    /// Name, as in records and tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NotANumber => "not-a-number",
+            Self::OutOfBounds => "out-of-bounds",
+            Self::Overlap => "overlap",
+            Self::Displacement => "displacement",
+        }
+    }
+}
+
+impl std::fmt::Display for Guard {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(self.name())
+    }
+}

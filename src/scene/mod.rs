@@ -1,0 +1,321 @@
+//! What a scene file may say.
+//!
+//! A [`Scene`] is one simulation, fully specified: the spheres, the effects
+//! that act on them, the walls, the start, and time. SI units throughout,
+//! angles in radians, z up; the tank's axis is the z axis. An effect whose table
+//! is absent from the file does not exist in the simulation.
+
+mod drag;
+mod identity;
+mod radius;
+
+pub use drag::{Drag, DragForm, DragLaw};
+pub use radius::{Radii, RadiusShare};
+
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// One simulation, fully specified.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// Free text, shown in figures and reports.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// Seed of everything random in this run (default 1).
+    #[serde(default = "default_seed")]
+    pub seed: u64,
+    /// The spheres: how many, how large, how heavy.
+    pub spheres: Spheres,
+    /// Normal contact law, between spheres and with walls alike. Absent: spheres pass through
+    /// each other and through walls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact: Option<Contact>,
+    /// Tangential contact law. Absent: frictionless, and spheres have no spin.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<Friction>,
+    /// The tank's walls. Absent: unbounded space.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tank: Option<Tank>,
+    /// Where and how the spheres start.
+    pub start: Start,
+    /// Gravity. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gravity: Option<Gravity>,
+    /// The drag law that `swirl` and `updraught` share. Needed by either.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drag: Option<Drag>,
+    /// Drag toward air in rigid rotation about the axis. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub swirl: Option<Swirl>,
+    /// Rising air that lower spheres shield. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub updraught: Option<Updraught>,
+    /// Viscous damping of spins. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spin_damping: Option<SpinDamping>,
+    /// Time step, duration, frames, integrator.
+    pub time: Time,
+    /// Limits beyond which a run is ended and reported as unstable.
+    #[serde(default)]
+    pub guards: Guards,
+    /// What is stored besides the observables of every frame. Never changes the motion.
+    #[serde(default)]
+    pub output: Output,
+}
+
+fn default_seed() -> u64 {
+    1
+}
+
+/// The spheres: how many, how large, how heavy.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Spheres {
+    /// Number of spheres, n.
+    pub count: usize,
+    /// Radius r (m): one value, a list of `{ radius, share }`, or `{ file = "radii.txt" }`.
+    pub radius: Radii,
+    /// Density of the solid (kg/m3); the mass is that of the true sphere volume.
+    pub density: f64,
+}
+
+/// Normal contact law.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Contact {
+    /// Viscoelastic Hertz contact (Brilliantov et al., 1996), never attractive.
+    Hertz {
+        /// Young's modulus Y (Pa).
+        young_modulus: f64,
+        /// Poisson's ratio nu.
+        poisson_ratio: f64,
+        /// Dissipation time A (s). Give this or `restitution`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        dissipation_time: Option<f64>,
+        /// Restitution of a head-on pair at `restitution_speed`, from which A follows for
+        /// the scene's (mean) radius. Give this or `dissipation_time`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        restitution: Option<f64>,
+        /// Relative speed at which `restitution` holds (m/s, default 1).
+        #[serde(default = "one")]
+        restitution_speed: f64,
+        /// Factor c of the dissipative term: 1 as the thesis prints it (default), 3/2 as
+        /// Brilliantov et al. derive it.
+        #[serde(default = "one")]
+        dissipation_factor: f64,
+    },
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// Tangential contact law.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Friction {
+    /// The thesis's rule (Rice, 2012, eqs. 10 to 14): from spins alone, an impulse per step.
+    /// Depends on the time step, knows no sliding, does not conserve angular momentum.
+    Spin {
+        /// Coefficient mu.
+        coefficient: f64,
+    },
+    /// Sliding friction capped at mu F_n, from the velocity of the contact point.
+    Coulomb {
+        /// Coefficient mu.
+        coefficient: f64,
+        /// Sliding speed below which the force falls linearly to zero (m/s).
+        regularisation: f64,
+    },
+    /// Mindlin's history spring by increments, capped at mu F_n; needs the Hertz contact.
+    Mindlin {
+        /// Coefficient mu.
+        coefficient: f64,
+    },
+}
+
+/// The tank's walls, of the same material as the spheres.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tank {
+    /// Radius R of the cylindrical wall (m). Absent: no cylinder.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+    /// Height of the floor (m). Absent: no floor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub floor: Option<f64>,
+}
+
+/// Where and how the spheres start.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Start {
+    /// Random positions without overlap, inside the tank's cylinder.
+    Random {
+        /// Lowest start height of a centre (m).
+        z_min: f64,
+        /// Highest start height of a centre (m).
+        z_max: f64,
+        /// Each velocity component is uniform in plus or minus this (m/s).
+        #[serde(default)]
+        speed: f64,
+        /// Each spin component is uniform in plus or minus this (rad/s); no effect
+        /// in a scene without friction.
+        #[serde(default)]
+        spin: f64,
+    },
+    /// Every sphere listed in the scene.
+    List {
+        /// One entry per sphere; their number must equal `spheres.count`.
+        spheres: Vec<StartSphere>,
+    },
+    /// Every sphere from a CSV file: x, y, z, then optionally vx, vy, vz, wx, wy, wz, radius,
+    /// named by its header line.
+    File {
+        /// Path of the file, relative to the scene file.
+        path: PathBuf,
+    },
+}
+
+/// One sphere of a start list.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StartSphere {
+    /// Centre (m).
+    pub position: [f64; 3],
+    /// Velocity (m/s).
+    #[serde(default)]
+    pub velocity: [f64; 3],
+    /// Spin (rad/s).
+    #[serde(default)]
+    pub spin: [f64; 3],
+    /// Radius (m), if it differs from `spheres.radius`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+}
+
+/// Gravity.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gravity {
+    /// Acceleration g, downward (m/s2).
+    pub acceleration: f64,
+}
+
+/// Air in rigid rotation about the axis (Rice, 2012, eqs. 21 to 27).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Swirl {
+    /// Angular velocity Omega of the air (rad/s), counter-clockwise seen from above.
+    pub omega: f64,
+}
+
+/// Rising air with the rectangular counting shield (Rice, 2012, eq. 24).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Updraught {
+    /// Speed v_z of the rising air (m/s).
+    pub speed: f64,
+    /// Factor s on the force.
+    #[serde(default = "one")]
+    pub strength: f64,
+    /// Decay beta of the force with height (1/m).
+    pub decay: f64,
+    /// Height z0 at which the decay is 1 (m).
+    pub origin: f64,
+    /// Factor alpha per shielding sphere below, 0 to 1.
+    pub alpha: f64,
+}
+
+/// Viscous damping of spins.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SpinDamping {
+    /// Torque per spin, c (kg m2/s).
+    pub coefficient: f64,
+}
+
+/// Time step, duration, frames, integrator.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Time {
+    /// Time step dt (s).
+    pub dt: f64,
+    /// Duration of the run (s).
+    pub duration: f64,
+    /// Time between frames (s); a whole number of steps.
+    pub frame_interval: f64,
+    /// Integration scheme.
+    #[serde(default)]
+    pub integrator: Integrator,
+}
+
+/// Integration scheme.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Integrator {
+    /// Symplectic (semi-implicit) Euler, as the thesis: first order.
+    #[default]
+    SymplecticEuler,
+    /// Velocity Verlet, forces at the half-step velocity: second order without
+    /// velocity-dependent forces, first order with them.
+    VelocityVerlet,
+}
+
+/// Limits beyond which a run is ended and reported as unstable.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Guards {
+    /// Largest overlap, in radii of the smaller partner.
+    pub overlap: f64,
+    /// Largest displacement in one step, in radii of the sphere.
+    pub displacement: f64,
+    /// Largest |x| and |y| of a centre (m). Default: twice the tank's radius, if there is a tank.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub horizontal: Option<f64>,
+    /// Largest |z| of a centre (m). Default: ten times the larger of the floor's depth and the
+    /// start height, if there is a floor.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub vertical: Option<f64>,
+}
+
+impl Default for Guards {
+    fn default() -> Self {
+        Self {
+            overlap: 1.5,
+            displacement: 1.0,
+            horizontal: None,
+            vertical: None,
+        }
+    }
+}
+
+/// What is stored besides the observables of every frame. Never changes the motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Output {
+    /// Time between snapshots of all spheres (s); 0 for none but the last.
+    pub snapshot_interval: f64,
+    /// Store position, velocity and spin of every sphere at every frame.
+    pub trajectory: bool,
+    /// Radial bins of the surface profile. Default: round(R / 2r).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub profile_bins: Option<usize>,
+    /// Rise speeds, in radii per second above the mean, for which rising spheres are counted.
+    pub rise_speeds: Vec<f64>,
+    /// Distances from the axis, over R, within which rising spheres are counted.
+    pub rise_radii: Vec<f64>,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self {
+            snapshot_interval: 1.0,
+            trajectory: false,
+            profile_bins: None,
+            rise_speeds: vec![5.0, 10.0, 20.0],
+            rise_radii: vec![0.5, 0.75, 1.0],
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! The table of labels: one row per job, and the points where replicates are put together.
+
+use crate::classify::{Label, Verdict};
+
+/// Labels of all jobs of a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LabelTable {
+    /// Names of the axes, in the sweep's order.
+    pub axes: Vec<String>,
+    /// One row per job, in the sweep's order.
+    pub rows: Vec<LabelRow>,
+}
+
+/// Label of one job.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LabelRow {
+    /// Identity of the run.
+    pub id: String,
+    /// Value on each axis.
+    pub values: Vec<f64>,
+    /// Seed.
+    pub seed: u64,
+    /// What the sieves say.
+    pub verdict: Verdict,
+}
+
+/// One point of the grid, its replicate seeds put together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Value on each axis.
+    pub values: Vec<f64>,
+    /// The majority label; of equally frequent ones that with the lower code.
+    pub label: Label,
+    /// Share of the seeds that agree with the majority.
+    pub agreement: f64,
+    /// The rows of this point, as indices into the table.
+    pub rows: Vec<usize>,
+}
+
+impl LabelTable {
+    /// The points of the grid, in order of their first row.
+    pub fn points(&self) -> Vec<Point> {
+        let mut points: Vec<Point> = Vec::new();
+        let mut index = std::collections::HashMap::new();
+        for (row, entry) in self.rows.iter().enumerate() {
+            let key: Vec<u64> = entry.values.iter().map(|value| value.to_bits()).collect();
+            let at = *index.entry(key).or_insert_with(|| {
+                points.push(Point {
+                    values: entry.values.clone(),
+                    label: entry.verdict.label,
+                    agreement: 1.0,
+                    rows: Vec::new(),
+                });
+                points.len() - 1
+            });
+            points[at].rows.push(row);
+        }
+        for point in &mut points {
+            let count = |label: Label| {
+                point
+                    .rows
+                    .iter()
+                    .filter(|&&row| self.rows[row].verdict.label == label)
+                    .count()
+            };
+            let (label, votes) = Label::ALL
+                .into_iter()
+                .map(|label| (label, count(label)))
+                .fold((Label::Unstable, 0), |best, next| {
+                    if next.1 > best.1 { next } else { best }
+                });
+            point.label = label;
+            point.agreement = votes as f64 / point.rows.len() as f64;
+        }
+        points
+    }
+}

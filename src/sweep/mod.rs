@@ -1,0 +1,42 @@
+//! Sweeps: a scene, the axes it is varied over, and the jobs that follow.
+
+mod axis;
+mod job;
+mod labels;
+
+pub use axis::Axis;
+pub use job::Job;
+pub use labels::{LabelRow, LabelTable, Point};
+
+use crate::classify::Sieves;
+use crate::scene::Scene;
+use serde::{Deserialize, Serialize};
+
+/// A sweep, fully resolved: this is what the results folder keeps as `sweep.json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sweep {
+    /// Free text, the title of figures.
+    pub title: Option<String>,
+    /// The scene that every job starts from, before its axes' values are put in.
+    pub scene: Scene,
+    /// Up to four axes. The first varies slowest.
+    pub axes: Vec<Axis>,
+    /// Seeds; each point of the grid runs once per seed.
+    pub seeds: Vec<u64>,
+    /// Thresholds of the sieves.
+    pub sieves: Sieves,
+    /// What the phase diagram shows.
+    pub plot: PlotSettings,
+}
+
+/// What the phase diagram shows.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PlotSettings {
+    /// Name of the horizontal axis (default: the first axis).
+    pub x: Option<String>,
+    /// Name of the vertical axis (default: the second axis).
+    pub y: Option<String>,
+    /// Name of the axis of small multiples (default: the third axis, if any).
+    pub panels: Option<String>,
+}
