@@ -5,6 +5,7 @@ pub mod dem;
 pub mod observe;
 pub mod plot;
 pub mod record;
+pub mod run;
 pub mod scene;
 pub mod store;
 pub mod sweep;

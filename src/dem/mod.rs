@@ -1,1 +1,22 @@
 //! The discrete element engine.
+//!
+//! The effects of a [`Scene`](crate::scene::Scene) are fixed when its [`Simulation`] is built: the
+//! inner loops are compiled for the laws in use, and what the scene does not name allocates and
+//! computes nothing.
+
+pub mod contact;
+mod effects;
+pub mod friction;
+mod guard;
+pub mod math;
+pub mod neighbours;
+mod particles;
+mod simulation;
+pub mod start;
+mod system;
+pub mod timestep;
+pub mod vector;
+pub mod walls;
+
+pub use particles::Particles;
+pub use simulation::{BuildError, Simulation};

@@ -4,4 +4,4 @@ mod observations;
 mod observer;
 
 pub use observations::{Observations, Series, Snapshot};
-pub use observer::Observer;
+pub use observer::{FrameView, Observer};

@@ -1,0 +1,40 @@
+//! Effects on single spheres: one file each, its formula, its parameters, its loop.
+
+mod drag;
+mod gravity;
+mod spin_damping;
+mod swirl;
+mod updraught;
+
+use super::particles::Particles;
+use crate::scene::Scene;
+
+/// An effect adds to the forces and torques of the spheres.
+pub trait Effect: Send {
+    /// Adds its forces and torques. `shielding` holds, where the scene has an updraught, the number
+    /// of spheres that shield each one from below.
+    fn apply(&mut self, particles: &mut Particles, shielding: &[u32]);
+
+    /// Short name, for reports.
+    fn name(&self) -> &'static str;
+}
+
+/// The effects that a scene names, in the order in which they are applied.
+pub fn of_scene(scene: &Scene, particles: &Particles) -> Vec<Box<dyn Effect>> {
+    let mut effects: Vec<Box<dyn Effect>> = Vec::new();
+    if let Some(gravity) = &scene.gravity {
+        effects.push(Box::new(gravity::Gravity::new(gravity)));
+    }
+    if let Some(drag) = &scene.drag {
+        if let Some(swirl) = &scene.swirl {
+            effects.push(swirl::of_scene(swirl, drag, particles));
+        }
+        if let Some(updraught) = &scene.updraught {
+            effects.push(updraught::of_scene(updraught, drag, particles));
+        }
+    }
+    if let Some(damping) = &scene.spin_damping {
+        effects.push(Box::new(spin_damping::SpinDamping::new(damping)));
+    }
+    effects
+}

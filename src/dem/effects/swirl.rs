@@ -1,0 +1,59 @@
+//! Drag toward air in rigid rotation about the axis.
+
+use super::Effect;
+use super::drag::{
+    Coefficients, DragKernel, Form, Linear, QuadraticComponents, QuadraticVector, form,
+};
+use crate::dem::particles::Particles;
+use crate::dem::vector::Vector;
+use crate::scene::{self, Drag};
+use std::marker::PhantomData;
+
+/// Rice (2012), eqs. 21 to 27: drag toward the air's velocity Omega x r, on all three
+/// components, the air's own vertical speed being zero in this term.
+struct Swirl<K> {
+    omega: f64,
+    coefficients: Coefficients,
+    kernel: PhantomData<K>,
+}
+
+pub(super) fn of_scene(
+    swirl: &scene::Swirl,
+    drag: &Drag,
+    particles: &Particles,
+) -> Box<dyn Effect> {
+    fn boxed<K: DragKernel>(omega: f64, coefficients: Coefficients) -> Box<dyn Effect> {
+        Box::new(Swirl::<K> {
+            omega,
+            coefficients,
+            kernel: PhantomData,
+        })
+    }
+    let coefficients = Coefficients::new(drag, particles);
+    match form(drag) {
+        Form::Linear => boxed::<Linear>(swirl.omega, coefficients),
+        Form::Vector => boxed::<QuadraticVector>(swirl.omega, coefficients),
+        Form::Components => boxed::<QuadraticComponents>(swirl.omega, coefficients),
+    }
+}
+
+impl<K: DragKernel> Effect for Swirl<K> {
+    fn apply(&mut self, particles: &mut Particles, _: &[u32]) {
+        let coefficients = self
+            .coefficients
+            .linear
+            .iter()
+            .zip(&self.coefficients.quadratic);
+        let motion = particles.position.iter().zip(&particles.velocity);
+        for ((force, (x, v)), (&c1, &c2)) in
+            particles.force.iter_mut().zip(motion).zip(coefficients)
+        {
+            let air = Vector::new(-self.omega * x.y, self.omega * x.x, 0.0);
+            *force += K::vector(c1, c2, air - *v);
+        }
+    }
+
+    fn name(&self) -> &'static str {
+        "swirl"
+    }
+}

@@ -1,0 +1,37 @@
+//! Coulomb friction, regularised at rest.
+
+use super::{TangentialLaw, Touch, Traction};
+
+/// f = -mu F_n u / max(|u|, u_0), with the sliding velocity u of the contact point (translation
+/// and spin). Below the regularisation speed u_0 it is viscous, so a pile at rest creeps.
+#[derive(Clone, Copy, Debug)]
+pub struct Coulomb {
+    coefficient: f64,
+    regularisation: f64,
+}
+
+impl Coulomb {
+    /// The law with coefficient mu and regularisation speed u_0 (m/s).
+    pub fn new(coefficient: f64, regularisation: f64) -> Self {
+        Self {
+            coefficient,
+            regularisation,
+        }
+    }
+}
+
+impl TangentialLaw for Coulomb {
+    type History = ();
+
+    #[inline]
+    fn traction(&self, touch: &Touch, (): &mut ()) -> Traction {
+        let sliding = touch.sliding_velocity();
+        let speed = sliding.norm();
+        let speed = if speed < self.regularisation {
+            self.regularisation
+        } else {
+            speed
+        };
+        touch.traction(sliding * (-self.coefficient * touch.normal_force / speed))
+    }
+}

@@ -1,0 +1,65 @@
+//! Mindlin friction by increments.
+
+use super::{TangentialLaw, Touch, Traction};
+use crate::dem::vector::Vector;
+
+/// Mindlin's tangential stiffness k_t = 8 G* sqrt(R_eff xi) on a contact that sticks, loaded by
+/// increments of the sliding displacement and capped at mu F_n; G* = G / (2 (2 - nu)) for equal
+/// materials. When the normal force falls, the spring's force shrinks with its stiffness
+/// (Thornton, Cummins and Cleary, Powder Technology 233, 30 (2013)), so that unloading creates no
+/// energy.
+#[derive(Clone, Copy, Debug)]
+pub struct Mindlin {
+    coefficient: f64,
+    /// 8 G* (Pa).
+    modulus: f64,
+    dt: f64,
+}
+
+impl Mindlin {
+    /// The law with coefficient mu, Young's modulus (Pa) and Poisson's ratio of both partners, for
+    /// time steps of `dt` (s).
+    pub fn new(coefficient: f64, young_modulus: f64, poisson_ratio: f64, dt: f64) -> Self {
+        let shear_modulus = young_modulus / (2.0 * (1.0 + poisson_ratio));
+        Self {
+            coefficient,
+            modulus: 8.0 * shear_modulus / (2.0 * (2.0 - poisson_ratio)),
+            dt,
+        }
+    }
+}
+
+/// The loaded spring of a contact.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Spring {
+    force: Vector,
+    stiffness: f64,
+}
+
+impl TangentialLaw for Mindlin {
+    type History = Spring;
+
+    #[inline]
+    fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction {
+        let stiffness = self.modulus * (touch.effective_radius * touch.overlap).sqrt();
+        // The contact plane turns with the pair: keep the length of the force while turning it.
+        let turned = spring.force.perpendicular_to(touch.normal);
+        let (before, after) = (spring.force.norm_squared(), turned.norm_squared());
+        let mut force = if after > 0.0 {
+            turned * (before / after).sqrt()
+        } else {
+            Vector::ZERO
+        };
+        if stiffness < spring.stiffness {
+            force = force * (stiffness / spring.stiffness);
+        }
+        force -= touch.sliding_velocity() * (stiffness * self.dt);
+        let limit = self.coefficient * touch.normal_force;
+        let norm = force.norm();
+        if norm > limit {
+            force = force * (limit / norm);
+        }
+        *spring = Spring { force, stiffness };
+        touch.traction(force)
+    }
+}

@@ -1,0 +1,93 @@
+//! Tangential contact laws: one file each. Pairs and walls go through the same code.
+
+mod coulomb;
+mod mindlin;
+mod spin;
+
+pub use coulomb::Coulomb;
+pub use mindlin::Mindlin;
+pub use spin::SpinFriction;
+
+use super::vector::Vector;
+
+/// A touching pair, or a sphere touching a wall, as a tangential law sees it. The first
+/// partner is the sphere that the force acts on; a wall is a partner at rest, of infinite mass.
+#[derive(Clone, Copy, Debug)]
+pub struct Touch {
+    /// Unit normal, from the other partner to this one.
+    pub normal: Vector,
+    /// Velocity of this centre relative to the other (m/s).
+    pub velocity: Vector,
+    /// Spins of both partners (rad/s).
+    pub spin: [Vector; 2],
+    /// Distances of both centres from the contact point (m); zero for a wall.
+    pub lever: [f64; 2],
+    /// Moments of inertia of both partners (kg m2); zero for a wall.
+    pub inertia: [f64; 2],
+    /// The smaller of the two masses (kg).
+    pub lesser_mass: f64,
+    /// Overlap (m).
+    pub overlap: f64,
+    /// Effective radius (m).
+    pub effective_radius: f64,
+    /// Normal force (N). Zero while the contact parts faster than its elasticity recovers: no
+    /// tangential force acts then.
+    pub normal_force: f64,
+}
+
+impl Touch {
+    /// Velocity of this surface relative to the other at the contact point (m/s), tangential part.
+    #[inline]
+    pub fn sliding_velocity(&self) -> Vector {
+        let surface = self.spin[0] * self.lever[0] + self.spin[1] * self.lever[1];
+        self.velocity.perpendicular_to(self.normal) - surface.cross(self.normal)
+    }
+
+    /// The traction of a tangential force on this partner at the contact point: by reaction
+    /// the opposite force acts on the other, and both get a torque of the same sense.
+    #[inline]
+    pub fn traction(&self, force: Vector) -> Traction {
+        let arm = force.cross(self.normal);
+        Traction {
+            force,
+            torque: [arm * self.lever[0], arm * self.lever[1]],
+        }
+    }
+}
+
+/// What a tangential law answers.
+#[derive(Clone, Copy, Debug)]
+pub struct Traction {
+    /// Tangential force on this partner (N); the other gets the opposite.
+    pub force: Vector,
+    /// Torques on both partners (N m).
+    pub torque: [Vector; 2],
+}
+
+/// A tangential contact law. The engine is compiled for each law by itself.
+pub trait TangentialLaw: Copy + Send + 'static {
+    /// Whether spheres rotate, which costs spins and torques.
+    const ROTATES: bool = true;
+    /// What a contact remembers from step to step; `()` costs nothing.
+    type History: Copy + Default + Send;
+
+    /// Traction at a contact over the coming step; none where the normal force is zero.
+    fn traction(&self, touch: &Touch, history: &mut Self::History) -> Traction;
+}
+
+/// No friction: spheres do not rotate.
+#[derive(Clone, Copy, Debug)]
+pub struct Frictionless;
+
+impl TangentialLaw for Frictionless {
+    const ROTATES: bool = false;
+    type History = ();
+
+    #[inline]
+    fn traction(&self, _: &Touch, (): &mut ()) -> Traction {
+        Traction {
+            force: Vector::ZERO,
+            torque: [Vector::ZERO; 2],
+        }
+    }
+}

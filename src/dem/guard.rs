@@ -1,0 +1,139 @@
+//! Numerical guards: a run that breaks one is ended and reported, never mended.
+
+use super::particles::Particles;
+use super::vector::Vector;
+use crate::record::{Guard, Instability};
+use crate::scene::Scene;
+
+/// Limits beyond which a run is ended.
+#[derive(Clone, Debug)]
+pub(super) struct Limits {
+    /// Largest overlap, in radii of the smaller partner.
+    pub(super) overlap: f64,
+    /// Square of the largest speed of each sphere, from the largest displacement per step (m2/s2).
+    pub(super) speed_squared: Vec<f64>,
+    displacement: f64,
+    horizontal: f64,
+    vertical: f64,
+}
+
+impl Limits {
+    /// The scene's limits, or their defaults.
+    pub(super) fn new(scene: &Scene, particles: &Particles) -> Self {
+        let guards = &scene.guards;
+        let tank_radius = scene.tank.as_ref().and_then(|tank| tank.radius);
+        let floor = scene.tank.as_ref().and_then(|tank| tank.floor);
+        let highest = particles
+            .position
+            .iter()
+            .fold(0.0, |most: f64, centre| most.max(centre.z.abs()));
+        let speed_squared = particles
+            .radius
+            .iter()
+            .map(|radius| {
+                let speed = guards.displacement * radius / scene.time.dt;
+                speed * speed
+            })
+            .collect();
+        Self {
+            overlap: guards.overlap,
+            speed_squared,
+            displacement: guards.displacement,
+            horizontal: guards
+                .horizontal
+                .or(tank_radius.map(|r| 2.0 * r))
+                .unwrap_or(f64::MAX),
+            vertical: guards
+                .vertical
+                .or(floor.map(|floor| 10.0 * floor.abs().max(highest)))
+                .unwrap_or(f64::MAX),
+        }
+    }
+
+    /// Refuses positions that are not a number or out of bounds.
+    pub(super) fn check_positions(
+        &self,
+        particles: &Particles,
+        step: u64,
+        dt: f64,
+    ) -> Result<(), Instability> {
+        let outside = |centre: &Vector| {
+            !(centre.x.abs() <= self.horizontal
+                && centre.y.abs() <= self.horizontal
+                && centre.z.abs() <= self.vertical)
+        };
+        let Some(sphere) = particles.position.iter().position(outside) else {
+            return Ok(());
+        };
+        let Vector { x, y, z } = particles.position[sphere];
+        let place = format!("centre at ({x:.4e}, {y:.4e}, {z:.4e}) m");
+        let number = !(x.is_nan() || y.is_nan() || z.is_nan());
+        Err(Instability {
+            guard: if number {
+                Guard::OutOfBounds
+            } else {
+                Guard::NotANumber
+            },
+            step,
+            time: step as f64 * dt,
+            sphere,
+            detail: if number {
+                format!(
+                    "{place}; bounds |x|, |y| <= {:.4e} m, |z| <= {:.4e} m",
+                    self.horizontal, self.vertical
+                )
+            } else {
+                place
+            },
+        })
+    }
+
+    /// Names the first sphere that is too fast for its limit.
+    pub(super) fn check_speeds(
+        &self,
+        particles: &Particles,
+        step: u64,
+        dt: f64,
+    ) -> Result<(), Instability> {
+        let speed = |i: usize| particles.velocity[i].norm_squared();
+        let broken = |&i: &usize| !(speed(i) <= self.speed_squared[i]);
+        let Some(sphere) = (0..particles.len()).find(broken) else {
+            return Ok(());
+        };
+        let speed = speed(sphere).sqrt();
+        let (guard, detail) = if speed.is_nan() {
+            (Guard::NotANumber, "velocity is not a number".to_owned())
+        } else {
+            let radii = speed * dt / particles.radius[sphere];
+            let detail = format!(
+                "{radii:.3} radii in one step ({speed:.4e} m/s); limit {}",
+                self.displacement
+            );
+            (Guard::Displacement, detail)
+        };
+        Err(Instability {
+            guard,
+            step,
+            time: step as f64 * dt,
+            sphere,
+            detail,
+        })
+    }
+
+    /// The report of an overlap (m) beyond the limit.
+    pub(super) fn overlap_broken(
+        &self,
+        step: u64,
+        dt: f64,
+        sphere: usize,
+        overlap: f64,
+    ) -> Instability {
+        Instability {
+            guard: Guard::Overlap,
+            step,
+            time: step as f64 * dt,
+            sphere,
+            detail: format!("overlap {overlap:.4e} m; limit {} radii", self.overlap),
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! From a scene to a running simulation.
+
+use super::contact::{Hertz, NoContact, NormalLaw};
+use super::friction::{Coulomb, Frictionless, Mindlin, SpinFriction, TangentialLaw};
+use super::guard::Limits;
+use super::neighbours::VerletList;
+use super::particles::Particles;
+use super::start::{self, StartError};
+use super::system::{Engine, Parts, System};
+use super::walls::{Cylinder, Floor};
+use super::{effects, timestep};
+use crate::observe::FrameView;
+use crate::record::Instability;
+use crate::scene::{Contact, Friction, Scene};
+
+/// Why a scene cannot be run.
+#[derive(Debug, thiserror::Error)]
+pub enum BuildError {
+    /// The spheres cannot be placed.
+    #[error(transparent)]
+    Start(#[from] StartError),
+    /// Mindlin friction takes its stiffness from a Hertz contact.
+    #[error("mindlin friction needs the hertz contact law; add [contact] with law = \"hertz\"")]
+    MindlinWithoutHertz,
+}
+
+/// A running simulation.
+pub struct Simulation {
+    engine: Box<dyn Engine>,
+    dt: f64,
+    components: [[Vec<f64>; 3]; 3],
+}
+
+impl Simulation {
+    /// Places the spheres of a scene and makes it ready to run.
+    ///
+    /// # Errors
+    /// If the spheres cannot be placed, or laws do not fit together.
+    pub fn new(scene: &Scene) -> Result<Self, BuildError> {
+        let particles = start::place(scene)?;
+        let tank = scene.tank.as_ref();
+        let parts = Parts {
+            floor: tank
+                .and_then(|tank| tank.floor)
+                .map(|height| Floor { height }),
+            cylinder: tank
+                .and_then(|tank| tank.radius)
+                .map(|radius| Cylinder { radius }),
+            effects: effects::of_scene(scene, &particles),
+            shielded: scene.updraught.is_some(),
+            limits: Limits::new(scene, &particles),
+            dt: scene.time.dt,
+            integrator: scene.time.integrator,
+            particles,
+        };
+        let engine = match scene.contact {
+            None => with_normal(NoContact, scene, parts)?,
+            Some(Contact::Hertz {
+                young_modulus,
+                poisson_ratio,
+                dissipation_factor,
+                ..
+            }) => {
+                let dissipation_time = timestep::dissipation_time(scene);
+                let law = Hertz::new(
+                    young_modulus,
+                    poisson_ratio,
+                    dissipation_time,
+                    dissipation_factor,
+                );
+                with_normal(law, scene, parts)?
+            }
+        };
+        Ok(Self {
+            engine,
+            dt: scene.time.dt,
+            components: Default::default(),
+        })
+    }
+
+    /// Advances by a number of steps.
+    ///
+    /// # Errors
+    /// The guard that was broken; the simulation must not be advanced any further.
+    pub fn advance(&mut self, steps: u64) -> Result<(), Instability> {
+        self.engine.advance(steps)
+    }
+
+    /// The spheres.
+    pub fn particles(&self) -> &Particles {
+        self.engine.particles()
+    }
+
+    /// Steps done.
+    pub fn step(&self) -> u64 {
+        self.engine.step()
+    }
+
+    /// Time (s).
+    pub fn time(&self) -> f64 {
+        self.engine.step() as f64 * self.dt
+    }
+
+    /// The neighbour list, if any pairs interact.
+    pub fn list(&self) -> Option<&VerletList> {
+        self.engine.list()
+    }
+
+    /// Elastic energy of all contacts (J). Asking for it never changes the motion.
+    pub fn elastic_energy(&mut self) -> f64 {
+        self.engine.elastic_energy()
+    }
+
+    /// Everything an observer may see now.
+    pub fn frame(&mut self) -> FrameView<'_> {
+        let elastic_energy = self.engine.elastic_energy();
+        let particles = self.engine.particles();
+        let vectors = [&particles.position, &particles.velocity, &particles.spin];
+        for (components, vectors) in self.components.iter_mut().zip(vectors) {
+            components[0].clear();
+            components[1].clear();
+            components[2].clear();
+            components[0].extend(vectors.iter().map(|vector| vector.x));
+            components[1].extend(vectors.iter().map(|vector| vector.y));
+            components[2].extend(vectors.iter().map(|vector| vector.z));
+        }
+        let [position, velocity, spin] = self
+            .components
+            .each_ref()
+            .map(|c| c.each_ref().map(|c| &c[..]));
+        FrameView {
+            position,
+            velocity,
+            spin: particles.rotate().then_some(spin),
+            radius: &particles.radius,
+            mass: &particles.mass,
+            inertia: &particles.inertia,
+            elastic_energy,
+        }
+    }
+}
+
+fn with_normal<N: NormalLaw>(
+    normal: N,
+    scene: &Scene,
+    parts: Parts,
+) -> Result<Box<dyn Engine>, BuildError> {
+    fn boxed<N: NormalLaw, T: TangentialLaw>(
+        normal: N,
+        tangential: T,
+        parts: Parts,
+    ) -> Box<dyn Engine> {
+        Box::new(System::new(normal, tangential, parts))
+    }
+    let dt = scene.time.dt;
+    Ok(match scene.friction {
+        None => boxed(normal, Frictionless, parts),
+        Some(Friction::Spin { coefficient }) => {
+            boxed(normal, SpinFriction::new(coefficient, dt), parts)
+        }
+        Some(Friction::Coulomb {
+            coefficient,
+            regularisation,
+        }) => boxed(normal, Coulomb::new(coefficient, regularisation), parts),
+        Some(Friction::Mindlin { coefficient }) => {
+            let Some(Contact::Hertz {
+                young_modulus,
+                poisson_ratio,
+                ..
+            }) = scene.contact
+            else {
+                return Err(BuildError::MindlinWithoutHertz);
+            };
+            boxed(
+                normal,
+                Mindlin::new(coefficient, young_modulus, poisson_ratio, dt),
+                parts,
+            )
+        }
+    })
+}

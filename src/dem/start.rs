@@ -1,0 +1,222 @@
+//! Where and how the spheres start.
+
+use super::particles::Particles;
+use super::vector::Vector;
+use crate::scene::{Radii, Scene, Start};
+use rand::Rng;
+use std::collections::HashMap;
+
+/// Why the spheres of a scene cannot be placed.
+#[derive(Debug, thiserror::Error)]
+pub enum StartError {
+    /// The random placement found no room.
+    #[error(
+        "no room for sphere {placed} of {count} (radius {radius} m) after {ATTEMPTS} attempts; \
+         use fewer or smaller spheres, or a larger range of start.z_min to start.z_max"
+    )]
+    NoRoom {
+        /// Spheres placed before.
+        placed: usize,
+        /// Spheres of the scene.
+        count: usize,
+        /// Radius of the sphere that found no room (m).
+        radius: f64,
+    },
+    /// Random positions need a tank to be in.
+    #[error(
+        "start.kind = \"random\" needs tank.radius; give the tank a radius or list the spheres"
+    )]
+    NoTank,
+    /// A file of radii or positions has not been read yet.
+    #[error("{0} is still the name of a file; load the scene with scene::load")]
+    NotLoaded(&'static str),
+    /// Numbers of spheres differ.
+    #[error("{what} holds {found} spheres, spheres.count is {count}")]
+    Count {
+        /// The list.
+        what: &'static str,
+        /// Its length.
+        found: usize,
+        /// What the scene says.
+        count: usize,
+    },
+}
+
+/// Random places tried for a sphere before the tank counts as full.
+const ATTEMPTS: usize = 100_000;
+
+/// The spheres of a scene at time zero.
+///
+/// # Errors
+/// If they cannot be placed.
+pub fn place(scene: &Scene) -> Result<Particles, StartError> {
+    let count = scene.spheres.count;
+    let mut particles = Particles {
+        radius: radii(scene)?,
+        velocity: vec![Vector::ZERO; count],
+        ..Particles::default()
+    };
+    let mut spins = vec![Vector::ZERO; count];
+    match &scene.start {
+        Start::Random {
+            z_min,
+            z_max,
+            speed,
+            spin,
+        } => {
+            let tank = scene
+                .tank
+                .as_ref()
+                .and_then(|tank| tank.radius)
+                .ok_or(StartError::NoTank)?;
+            let mut random = scene.random_stream("positions");
+            particles.position = scatter(&particles.radius, tank, [*z_min, *z_max], &mut random)?;
+            let mut random = scene.random_stream("velocities");
+            for i in 0..count {
+                particles.velocity[i] = within(*speed, &mut random);
+                spins[i] = within(*spin, &mut random);
+            }
+        }
+        Start::List { spheres } => {
+            if spheres.len() != count {
+                return Err(StartError::Count {
+                    what: "start.spheres",
+                    found: spheres.len(),
+                    count,
+                });
+            }
+            for (i, sphere) in spheres.iter().enumerate() {
+                particles.position.push(sphere.position.into());
+                particles.velocity[i] = sphere.velocity.into();
+                spins[i] = sphere.spin.into();
+                particles.radius[i] = sphere.radius.unwrap_or(particles.radius[i]);
+            }
+        }
+        Start::File { .. } => return Err(StartError::NotLoaded("start.path")),
+    }
+    give_mass(&mut particles, scene.spheres.density);
+    if scene.friction.is_some() {
+        give_rotation(&mut particles, spins);
+    }
+    Ok(particles)
+}
+
+fn give_mass(particles: &mut Particles, density: f64) {
+    let volume = |radius: &f64| 4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius;
+    particles.mass = particles
+        .radius
+        .iter()
+        .map(|radius| density * volume(radius))
+        .collect();
+    particles.inverse_mass = particles.mass.iter().map(|mass| 1.0 / mass).collect();
+    particles.force = vec![Vector::ZERO; particles.len()];
+}
+
+fn give_rotation(particles: &mut Particles, spins: Vec<Vector>) {
+    let pairs = particles.mass.iter().zip(&particles.radius);
+    particles.inertia = pairs
+        .map(|(mass, radius)| 0.4 * mass * radius * radius)
+        .collect();
+    particles.inverse_inertia = particles
+        .inertia
+        .iter()
+        .map(|inertia| 1.0 / inertia)
+        .collect();
+    particles.spin = spins;
+    particles.torque = vec![Vector::ZERO; particles.len()];
+}
+
+fn radii(scene: &Scene) -> Result<Vec<f64>, StartError> {
+    let count = scene.spheres.count;
+    match &scene.spheres.radius {
+        Radii::One(radius) => Ok(vec![*radius; count]),
+        Radii::Each(radii) if radii.len() == count => Ok(radii.clone()),
+        Radii::Each(radii) => Err(StartError::Count {
+            what: "spheres.radius",
+            found: radii.len(),
+            count,
+        }),
+        Radii::File { .. } => Err(StartError::NotLoaded("spheres.radius")),
+        Radii::Shares(shares) => {
+            let total: f64 = shares.iter().map(|share| share.share).sum();
+            let mut radii = Vec::with_capacity(count);
+            let mut sum = 0.0;
+            for share in shares {
+                sum += share.share;
+                radii.resize((sum / total * count as f64).round() as usize, share.radius);
+            }
+            shuffle(&mut radii, &mut scene.random_stream("radii"));
+            Ok(radii)
+        }
+    }
+}
+
+/// Random centres without overlap, uniform in the cylinder that keeps each sphere off the wall.
+fn scatter(
+    radii: &[f64],
+    tank: f64,
+    [low, high]: [f64; 2],
+    random: &mut impl Rng,
+) -> Result<Vec<Vector>, StartError> {
+    let width = 2.0 * radii.iter().copied().fold(0.0, f64::max);
+    let cell = |p: Vector| [p.x, p.y, p.z].map(|value| libm::floor(value / width) as i64);
+    let mut placed: Vec<Vector> = Vec::with_capacity(radii.len());
+    // Looked up only, never walked through: its order does not matter.
+    let mut occupied: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
+    for (i, &radius) in radii.iter().enumerate() {
+        let reach = tank - radius;
+        let free = |p: Vector| {
+            let [a, b, c] = cell(p);
+            let near = (-1..=1).flat_map(|da| {
+                (-1..=1).flat_map(move |db| (-1..=1).map(move |dc| [a + da, b + db, c + dc]))
+            });
+            near.filter_map(|key| occupied.get(&key))
+                .flatten()
+                .all(|&j| {
+                    let distance = radius + radii[j as usize];
+                    (p - placed[j as usize]).norm_squared() > distance * distance
+                })
+        };
+        let candidate = (0..ATTEMPTS)
+            .map(|_| {
+                let (x, y, z) = (uniform(random), uniform(random), uniform(random));
+                Vector::new(
+                    tank * (2.0 * x - 1.0),
+                    tank * (2.0 * y - 1.0),
+                    low + (high - low) * z,
+                )
+            })
+            .find(|&p| p.x * p.x + p.y * p.y < reach * reach && free(p))
+            .ok_or(StartError::NoRoom {
+                placed: i,
+                count: radii.len(),
+                radius,
+            })?;
+        placed.push(candidate);
+        occupied.entry(cell(candidate)).or_default().push(i as u32);
+    }
+    Ok(placed)
+}
+
+/// A number in [0, 1) with 53 random bits.
+fn uniform(random: &mut impl Rng) -> f64 {
+    (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// Components uniform in plus or minus `bound`.
+fn within(bound: f64, random: &mut impl Rng) -> Vector {
+    let mut component = || bound * (2.0 * uniform(random) - 1.0);
+    Vector {
+        x: component(),
+        y: component(),
+        z: component(),
+    }
+}
+
+/// Fisher-Yates.
+fn shuffle<T>(items: &mut [T], random: &mut impl Rng) {
+    for last in (1..items.len()).rev() {
+        let other = (uniform(random) * (last + 1) as f64) as usize;
+        items.swap(last, other);
+    }
+}

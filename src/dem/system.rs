@@ -1,0 +1,481 @@
+//! A simulation compiled for its contact laws.
+
+use super::contact::NormalLaw;
+use super::effects::Effect;
+use super::friction::{TangentialLaw, Touch};
+use super::guard::Limits;
+use super::neighbours::{Reach, VerletList};
+use super::particles::Particles;
+use super::vector::Vector;
+use super::walls::{Cylinder, Floor, Wall};
+use crate::record::Instability;
+use crate::scene::Integrator;
+
+/// What the rest of the program needs of a system, whatever its laws.
+pub(super) trait Engine: Send {
+    fn advance(&mut self, steps: u64) -> Result<(), Instability>;
+    fn particles(&self) -> &Particles;
+    fn step(&self) -> u64;
+    fn list(&self) -> Option<&VerletList>;
+    fn elastic_energy(&mut self) -> f64;
+}
+
+/// What a system is made of besides its laws.
+pub(super) struct Parts {
+    pub(super) particles: Particles,
+    pub(super) floor: Option<Floor>,
+    pub(super) cylinder: Option<Cylinder>,
+    pub(super) effects: Vec<Box<dyn Effect>>,
+    /// Whether an effect needs the number of spheres below each sphere.
+    pub(super) shielded: bool,
+    pub(super) limits: Limits,
+    pub(super) dt: f64,
+    pub(super) integrator: Integrator,
+}
+
+/// A pair that touches, and its entry in the list.
+#[derive(Clone, Copy, Default)]
+struct TouchingPair {
+    i: u32,
+    j: u32,
+    entry: u32,
+}
+
+/// A simulation compiled for its contact laws.
+pub(super) struct System<N, T: TangentialLaw> {
+    parts: Parts,
+    normal: N,
+    tangential: T,
+    /// Absent where no pair interacts.
+    list: Option<VerletList>,
+    stale: bool,
+    touching: Vec<TouchingPair>,
+    shielding: Vec<u32>,
+    /// Histories of listed pairs, of the floor and of the cylinder. A law without history has one
+    /// of no size, and these take no memory.
+    pair_history: Vec<T::History>,
+    floor_history: Vec<T::History>,
+    cylinder_history: Vec<T::History>,
+    step: u64,
+    /// The first sphere found beyond the overlap limit in this step, with its overlap.
+    too_deep: Option<(usize, f64)>,
+}
+
+impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
+    const REMEMBERS: bool = size_of::<T::History>() > 0;
+
+    pub(super) fn new(normal: N, tangential: T, parts: Parts) -> Self {
+        let count = parts.particles.len();
+        let reach = if parts.shielded {
+            Reach::Column
+        } else {
+            Reach::Contact
+        };
+        let skin = 0.5 * parts.particles.largest_radius();
+        let histories =
+            |present: bool| vec![T::History::default(); if present { count } else { 0 }];
+        Self {
+            list: (N::ACTS || parts.shielded).then(|| VerletList::new(reach, skin)),
+            stale: true,
+            touching: Vec::new(),
+            shielding: vec![0; if parts.shielded { count } else { 0 }],
+            pair_history: Vec::new(),
+            floor_history: histories(parts.floor.is_some()),
+            cylinder_history: histories(parts.cylinder.is_some()),
+            normal,
+            tangential,
+            parts,
+            step: 0,
+            too_deep: None,
+        }
+    }
+
+    /// Evaluates all forces and torques at the present positions and velocities.
+    fn evaluate(&mut self) -> Result<(), Instability> {
+        if self.stale {
+            self.rebuild()?;
+        }
+        self.parts.particles.force.fill(Vector::ZERO);
+        self.parts.particles.torque.fill(Vector::ZERO);
+        if self.list.is_some() {
+            if self.parts.shielded {
+                self.scan::<true>()
+            } else {
+                self.scan::<false>()
+            }
+        }
+        if N::ACTS {
+            self.pair_forces();
+            if let Some(floor) = self.parts.floor {
+                let mut history = std::mem::take(&mut self.floor_history);
+                self.wall_forces(floor, &mut history);
+                self.floor_history = history;
+            }
+            if let Some(cylinder) = self.parts.cylinder {
+                let mut history = std::mem::take(&mut self.cylinder_history);
+                self.wall_forces(cylinder, &mut history);
+                self.cylinder_history = history;
+            }
+        }
+        for effect in &mut self.parts.effects {
+            effect.apply(&mut self.parts.particles, &self.shielding);
+        }
+        match self.too_deep.take() {
+            Some((sphere, overlap)) => {
+                Err(self
+                    .parts
+                    .limits
+                    .overlap_broken(self.step, self.parts.dt, sphere, overlap))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Builds the list anew, after making sure that every sphere is somewhere.
+    fn rebuild(&mut self) -> Result<(), Instability> {
+        let Parts {
+            particles,
+            limits,
+            dt,
+            ..
+        } = &self.parts;
+        limits.check_positions(particles, self.step, *dt)?;
+        self.stale = false;
+        let Some(list) = &mut self.list else {
+            return Ok(());
+        };
+        if !Self::REMEMBERS {
+            list.build(particles);
+            self.pair_history
+                .resize(list.pairs(), T::History::default());
+            return Ok(());
+        }
+        let (start, neighbour) = (list.start().to_vec(), list.neighbour().to_vec());
+        list.build(particles);
+        let old = std::mem::take(&mut self.pair_history);
+        self.pair_history = carry_over(&start, &neighbour, &old, list.start(), list.neighbour());
+        Ok(())
+    }
+
+    /// Goes through the list once: notes the pairs that touch and counts the shielding spheres.
+    fn scan<const SHIELD: bool>(&mut self) {
+        let Some(list) = &self.list else { return };
+        let Particles {
+            position, radius, ..
+        } = &self.parts.particles;
+        let count = radius.len();
+        let position = &position[..count];
+        if SHIELD {
+            self.shielding.fill(0);
+        }
+        // One spare slot: a pair is always written, and kept only if it touches.
+        self.touching
+            .resize(list.pairs() + 1, TouchingPair::default());
+        let mut kept = 0;
+        for i in 0..count {
+            let (centre, ri) = (position[i], radius[i]);
+            let entries = list.start()[i] as usize..list.start()[i + 1] as usize;
+            let mut below = 0;
+            for (entry, &j) in entries.clone().zip(&list.neighbour()[entries]) {
+                let j = j as usize;
+                let (offset, rj) = (centre - position[j], radius[j]);
+                if N::ACTS {
+                    self.touching[kept] = TouchingPair {
+                        i: i as u32,
+                        j: j as u32,
+                        entry: entry as u32,
+                    };
+                    let touches = offset.norm_squared() < (ri + rj) * (ri + rj);
+                    kept += usize::from(touches);
+                    if Self::REMEMBERS && !touches {
+                        self.pair_history[entry] = T::History::default();
+                    }
+                }
+                if SHIELD {
+                    let (dx, dy) = (offset.x.abs(), offset.y.abs());
+                    let within = |diameter: f64| (dx < diameter) & (dy < diameter);
+                    below += u32::from(within(2.0 * ri) & (offset.z > 0.0));
+                    self.shielding[j] += u32::from(within(2.0 * rj) & (offset.z < 0.0));
+                }
+            }
+            if SHIELD {
+                self.shielding[i] += below;
+            }
+        }
+        self.touching.truncate(kept);
+    }
+
+    fn pair_forces(&mut self) {
+        let touching = std::mem::take(&mut self.touching);
+        for &TouchingPair { i, j, entry } in &touching {
+            let (i, j) = (i as usize, j as usize);
+            let particles = &self.parts.particles;
+            let offset = particles.position[i] - particles.position[j];
+            let distance = offset.norm();
+            let normal = offset * (1.0 / distance);
+            let (ri, rj) = (particles.radius[i], particles.radius[j]);
+            let overlap = ri + rj - distance;
+            let effective_radius = ri * rj / (ri + rj);
+            let velocity = particles.velocity[i] - particles.velocity[j];
+            let normal_force = self
+                .normal
+                .force(overlap, -velocity.dot(normal), effective_radius);
+            if overlap > self.parts.limits.overlap * ri.min(rj) || distance == 0.0 {
+                self.too_deep.get_or_insert((i, overlap));
+            }
+            let mut force = normal * normal_force;
+            if T::ROTATES {
+                // Both centres turn about the point where the surfaces meet, so that the pair
+                // keeps its angular momentum.
+                let lever = distance / (ri + rj);
+                let touch = Touch {
+                    normal,
+                    velocity,
+                    spin: [particles.spin[i], particles.spin[j]],
+                    lever: [ri * lever, rj * lever],
+                    inertia: [particles.inertia[i], particles.inertia[j]],
+                    lesser_mass: particles.mass[i].min(particles.mass[j]),
+                    overlap,
+                    effective_radius,
+                    normal_force,
+                };
+                let traction = self
+                    .tangential
+                    .traction(&touch, &mut self.pair_history[entry as usize]);
+                force += traction.force;
+                let torque = &mut self.parts.particles.torque;
+                torque[i] += traction.torque[0];
+                torque[j] += traction.torque[1];
+            }
+            let forces = &mut self.parts.particles.force;
+            forces[i] += force;
+            forces[j] -= force;
+        }
+        self.touching = touching;
+    }
+
+    fn wall_forces<W: Wall>(&mut self, wall: W, histories: &mut [T::History]) {
+        let Parts {
+            particles, limits, ..
+        } = &mut self.parts;
+        for i in 0..particles.len() {
+            let radius = particles.radius[i];
+            let Some((overlap, normal)) = wall.touch(particles.position[i], radius) else {
+                if Self::REMEMBERS {
+                    histories[i] = T::History::default();
+                }
+                continue;
+            };
+            let velocity = particles.velocity[i];
+            let normal_force = self.normal.force(overlap, -velocity.dot(normal), radius);
+            if overlap > limits.overlap * radius {
+                self.too_deep.get_or_insert((i, overlap));
+            }
+            let mut force = normal * normal_force;
+            if T::ROTATES {
+                let touch = Touch {
+                    normal,
+                    velocity,
+                    spin: [particles.spin[i], Vector::ZERO],
+                    lever: [radius, 0.0],
+                    inertia: [particles.inertia[i], 0.0],
+                    lesser_mass: particles.mass[i],
+                    overlap,
+                    effective_radius: radius,
+                    normal_force,
+                };
+                let traction = self.tangential.traction(&touch, &mut histories[i]);
+                force += traction.force;
+                particles.torque[i] += traction.torque[0];
+            }
+            particles.force[i] += force;
+        }
+    }
+
+    /// v += a dt for a time `dt`, and the same for spins. True if a sphere is too fast.
+    fn kick(&mut self, dt: f64) -> bool {
+        let Particles {
+            velocity,
+            force,
+            spin,
+            torque,
+            inverse_mass,
+            inverse_inertia,
+            ..
+        } = &mut self.parts.particles;
+        let mut too_fast = false;
+        let limits = &self.parts.limits.speed_squared;
+        for (((velocity, &force), inverse), &limit) in velocity
+            .iter_mut()
+            .zip(force.iter())
+            .zip(inverse_mass.iter())
+            .zip(limits)
+        {
+            *velocity += force * (inverse * dt);
+            // Written so that a speed which is not a number counts.
+            too_fast |= !(velocity.norm_squared() <= limit);
+        }
+        for ((spin, &torque), inverse) in spin
+            .iter_mut()
+            .zip(torque.iter())
+            .zip(inverse_inertia.iter())
+        {
+            *spin += torque * (inverse * dt);
+        }
+        too_fast
+    }
+
+    /// x += v dt. Notes whether a sphere left the skin of the list.
+    fn drift(&mut self) {
+        let dt = self.parts.dt;
+        let Particles {
+            position, velocity, ..
+        } = &mut self.parts.particles;
+        let Some(list) = &self.list else {
+            for (position, &velocity) in position.iter_mut().zip(velocity.iter()) {
+                *position += velocity * dt;
+            }
+            return;
+        };
+        let tolerance = list.tolerance_squared();
+        let mut moved = false;
+        for ((position, &velocity), &reference) in position
+            .iter_mut()
+            .zip(velocity.iter())
+            .zip(list.reference())
+        {
+            *position += velocity * dt;
+            moved |= !((*position - reference).norm_squared() <= tolerance);
+        }
+        self.stale = moved;
+    }
+
+    fn check_speeds(&self, too_fast: bool) -> Result<(), Instability> {
+        if too_fast {
+            let Parts {
+                particles,
+                limits,
+                dt,
+                ..
+            } = &self.parts;
+            limits.check_speeds(particles, self.step, *dt)?;
+        }
+        Ok(())
+    }
+
+    /// One step of symplectic Euler: v += a(x, v) dt, then x += v dt.
+    fn symplectic_euler(&mut self) -> Result<(), Instability> {
+        self.step += 1;
+        self.evaluate()?;
+        let too_fast = self.kick(self.parts.dt);
+        self.check_speeds(too_fast)?;
+        self.drift();
+        Ok(())
+    }
+
+    /// One step of velocity Verlet, with forces from the new positions and the half-step
+    /// velocities. The forces of the step before serve its first half.
+    fn velocity_verlet(&mut self) -> Result<(), Instability> {
+        if self.step == 0 {
+            self.evaluate()?;
+        }
+        self.step += 1;
+        let half = 0.5 * self.parts.dt;
+        let too_fast = self.kick(half);
+        self.check_speeds(too_fast)?;
+        self.drift();
+        self.evaluate()?;
+        let too_fast = self.kick(half);
+        self.check_speeds(too_fast)
+    }
+}
+
+impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
+    fn advance(&mut self, steps: u64) -> Result<(), Instability> {
+        match self.parts.integrator {
+            Integrator::SymplecticEuler => (0..steps).try_for_each(|_| self.symplectic_euler())?,
+            Integrator::VelocityVerlet => (0..steps).try_for_each(|_| self.velocity_verlet())?,
+        }
+        let Parts {
+            particles,
+            limits,
+            dt,
+            ..
+        } = &self.parts;
+        limits.check_positions(particles, self.step, *dt)
+    }
+
+    fn particles(&self) -> &Particles {
+        &self.parts.particles
+    }
+
+    fn step(&self) -> u64 {
+        self.step
+    }
+
+    fn list(&self) -> Option<&VerletList> {
+        self.list.as_ref()
+    }
+
+    /// Reads positions alone, and builds the list at most earlier than a step would: bits of
+    /// the motion do not depend on when the list is built.
+    fn elastic_energy(&mut self) -> f64 {
+        if !N::ACTS || (self.stale && self.rebuild().is_err()) {
+            return 0.0;
+        }
+        let Some(list) = &self.list else { return 0.0 };
+        let Particles {
+            position, radius, ..
+        } = &self.parts.particles;
+        let mut energy = 0.0;
+        for i in 0..radius.len() {
+            let (centre, ri) = (position[i], radius[i]);
+            let entries = list.start()[i] as usize..list.start()[i + 1] as usize;
+            for &j in &list.neighbour()[entries] {
+                let rj = radius[j as usize];
+                let distance_squared = (centre - position[j as usize]).norm_squared();
+                if distance_squared < (ri + rj) * (ri + rj) {
+                    let overlap = ri + rj - distance_squared.sqrt();
+                    energy += self.normal.elastic_energy(overlap, ri * rj / (ri + rj));
+                }
+            }
+            let walls = [
+                self.parts.floor.and_then(|floor| floor.touch(centre, ri)),
+                self.parts
+                    .cylinder
+                    .and_then(|cylinder| cylinder.touch(centre, ri)),
+            ];
+            for (overlap, _) in walls.into_iter().flatten() {
+                energy += self.normal.elastic_energy(overlap, ri);
+            }
+        }
+        energy
+    }
+}
+
+/// Histories in the order of a new list; both lists are sorted, so one pass over each suffices.
+fn carry_over<H: Copy + Default>(
+    old_start: &[u32],
+    old_neighbour: &[u32],
+    old: &[H],
+    start: &[u32],
+    neighbour: &[u32],
+) -> Vec<H> {
+    let mut histories = vec![H::default(); neighbour.len()];
+    if old.is_empty() {
+        return histories;
+    }
+    for i in 0..start.len() - 1 {
+        let mut from = old_start[i] as usize;
+        let end = old_start[i + 1] as usize;
+        for entry in start[i] as usize..start[i + 1] as usize {
+            while from < end && old_neighbour[from] < neighbour[entry] {
+                from += 1;
+            }
+            if from < end && old_neighbour[from] == neighbour[entry] {
+                histories[entry] = old[from];
+            }
+        }
+    }
+    histories
+}
