@@ -22,8 +22,4 @@ impl Effect for Gravity {
             force.z -= mass * self.acceleration;
         }
     }
-
-    fn name(&self) -> &'static str {
-        "gravity"
-    }
 }

@@ -10,17 +10,14 @@ use super::particles::Particles;
 use crate::scene::Scene;
 
 /// An effect adds to the forces and torques of the spheres.
-pub trait Effect: Send {
+pub(super) trait Effect: Send {
     /// Adds its forces and torques. `shielding` holds, where the scene has an updraught, the number
     /// of spheres that shield each one from below.
     fn apply(&mut self, particles: &mut Particles, shielding: &[u32]);
-
-    /// Short name, for reports.
-    fn name(&self) -> &'static str;
 }
 
 /// The effects that a scene names, in the order in which they are applied.
-pub fn of_scene(scene: &Scene, particles: &Particles) -> Vec<Box<dyn Effect>> {
+pub(super) fn of_scene(scene: &Scene, particles: &Particles) -> Vec<Box<dyn Effect>> {
     let mut effects: Vec<Box<dyn Effect>> = Vec::new();
     if let Some(gravity) = &scene.gravity {
         effects.push(Box::new(gravity::Gravity::new(gravity)));

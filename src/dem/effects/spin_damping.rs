@@ -22,8 +22,4 @@ impl Effect for SpinDamping {
             *torque -= spin * self.coefficient;
         }
     }
-
-    fn name(&self) -> &'static str {
-        "spin damping"
-    }
 }

@@ -52,8 +52,4 @@ impl<K: DragKernel> Effect for Swirl<K> {
             *force += K::vector(c1, c2, air - *v);
         }
     }
-
-    fn name(&self) -> &'static str {
-        "swirl"
-    }
 }

@@ -76,8 +76,4 @@ impl<K: DragKernel> Effect for Updraught<K> {
             force[i].z += factor[i] * shield * K::along(c1[i], c2[i], speed - velocity[i].z);
         }
     }
-
-    fn name(&self) -> &'static str {
-        "updraught"
-    }
 }
