@@ -397,6 +397,8 @@ mod tests {
     }
 
     proptest! {
+        // Every case makes two files durable, which takes a disk a while.
+        #![proptest_config(ProptestConfig::with_cases(64))]
         #[test]
         fn reads_back_the_same_bits(table in any_table()) {
             let text = written(&table, write_labels);

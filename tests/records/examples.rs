@@ -6,7 +6,7 @@ use phase::record::{Guard, Instability, Outcome, Program, RunRecord};
 use phase::scene::Scene;
 
 /// A scene with one start sphere, numbers that have no short decimal form, and a long text.
-pub fn scene() -> Scene {
+pub(crate) fn scene() -> Scene {
     let mut scene: Scene = toml::from_str(
         r#"
         title = "two lines, \"quotes\",\na tab\t and Ω"
@@ -34,11 +34,11 @@ pub fn scene() -> Scene {
 }
 
 /// Numbers that look like measured noise: reproducible, and with no pattern to compress.
-pub struct Noise(pub u64);
+pub(crate) struct Noise(pub(crate) u64);
 
 impl Noise {
     /// The next number, uniform in 0 to 1.
-    pub fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         // splitmix64 (Steele et al., 2014).
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut bits = self.0;
@@ -49,7 +49,7 @@ impl Noise {
 }
 
 /// A record of noise.
-pub fn record(frames: usize, bins: usize, spheres: usize, snapshots: usize) -> RunRecord {
+pub(crate) fn record(frames: usize, bins: usize, spheres: usize, snapshots: usize) -> RunRecord {
     let mut noise = Noise(frames as u64);
     let mut observations = Observations {
         time: (0..frames).map(|frame| frame as f64 * 1e-3).collect(),
@@ -82,7 +82,7 @@ pub fn record(frames: usize, bins: usize, spheres: usize, snapshots: usize) -> R
         program: Program::current(),
         outcome: Outcome::Completed,
         radius: vec![0.002; spheres],
-        mass: vec![1.2566370614359172e-4; spheres],
+        mass: vec![1.256_637_061_435_917e-4; spheres],
         snapshots: (0..snapshots).map(&mut snapshot).collect(),
         trajectory: Vec::new(),
         observations,
@@ -91,7 +91,7 @@ pub fn record(frames: usize, bins: usize, spheres: usize, snapshots: usize) -> R
 }
 
 /// How a run ends that a guard ended.
-pub fn unstable() -> Outcome {
+pub(crate) fn unstable() -> Outcome {
     Outcome::Unstable(Instability {
         guard: Guard::Overlap,
         step: u64::MAX,

@@ -7,6 +7,9 @@ use phase::record::{Outcome, Program, RunRecord};
 use phase::store::{StoreError, content_digest, read_record, read_record_header, write_record};
 use proptest::prelude::*;
 
+/// A change to a record.
+type Change = fn(&mut RunRecord);
+
 /// Writes a record; returns what is read from the file, and the file.
 fn through_file(record: &RunRecord) -> Result<(RunRecord, Vec<u8>), StoreError> {
     let folder = tempfile::tempdir().unwrap();
@@ -117,7 +120,7 @@ fn the_digest_ignores_only_program_and_processor_time() {
     same.program.version = "9.9.9".to_owned();
     assert_eq!(content_digest(&same).unwrap(), digest);
 
-    let changes: [fn(&mut RunRecord); 7] = [
+    let changes: [Change; 7] = [
         |record| record.scene.seed += 1,
         |record| record.outcome = examples::unstable(),
         |record| record.mass[4] *= 1.0 + f64::EPSILON,
@@ -135,7 +138,7 @@ fn the_digest_ignores_only_program_and_processor_time() {
 
 #[test]
 fn what_does_not_fit_together_is_not_written() {
-    let faults: [(fn(&mut RunRecord), &str); 4] = [
+    let faults: [(Change, &str); 4] = [
         (
             |record| record.observations.kinetic.truncate(2),
             "`kinetic` has 2 frames, but `time` has 3",

@@ -28,8 +28,8 @@ use std::path::Path;
 
 /// What the attribute `format` of a record says.
 const FORMAT: &str = "phase run record";
-/// Raised whenever records change so that this program cannot read older ones, or older programs
-/// cannot read its own.
+/// Raised with every change after which this program cannot read older records (a new
+/// observable, say) or older programs cannot read its own.
 const FORMAT_VERSION: u64 = 1;
 
 /// What a record says of its run besides what was measured.

@@ -6,8 +6,8 @@ use crate::record::{Outcome, Program, RunRecord};
 use hdf5_pure::{AttrValue, FileBuilder, GroupBuilder, H5Element};
 use ndarray::Array2;
 
-/// Effort of the compression, 1 to 9. Most of what is measured is noise in its last digits:
-/// higher levels take far longer and gain a few percent.
+/// Effort of the compression, 1 to 9. Most of what is measured is noise in its last digits: on a
+/// record of 5001 frames (0.96 MB) level 1 saves a quarter in 6 ms, level 6 as much in 20 ms.
 const DEFLATE_LEVEL: u32 = 1;
 /// Datasets below this size (bytes) are stored as they are.
 const COMPRESS_FROM: usize = 4096;
