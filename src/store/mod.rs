@@ -1,1 +1,153 @@
 //! Files: run records (HDF5), tables (CSV). One file per format, the only place that knows it.
+//!
+//! Whatever is written here appears whole or not at all (see [`write_atomic`]).
+
+mod atomic;
+mod labels;
+mod radii;
+mod record;
+mod start;
+mod text;
+
+pub use atomic::{remove_leftovers, write_atomic};
+pub use labels::{read_labels, write_labels, write_points};
+pub use radii::read_radii;
+pub use record::{RecordHeader, content_digest, read_record, read_record_header, write_record};
+pub use start::read_start;
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why a file could not be read or written: which file, what about it, and what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    /// The file cannot be opened or read.
+    #[error("cannot read {}: {source}{}", path.display(), advice(source))]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The file cannot be written, for a reason other than space.
+    #[error("cannot write {}: {source}{}", path.display(), advice(source))]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// There is no room for the file.
+    #[error(
+        "disk full while writing {} ({source}); nothing already written is lost; \
+         free space and run the same command again",
+        path.display()
+    )]
+    DiskFull {
+        /// The file.
+        path: PathBuf,
+        /// What the system said: no space, quota exceeded or file too large.
+        source: io::Error,
+    },
+    /// The record is not what was once written.
+    #[error("{} is damaged: {reason}; delete it and run the sweep again", path.display())]
+    Damaged {
+        /// The record.
+        path: PathBuf,
+        /// What shows it.
+        reason: String,
+    },
+    /// The file is something other than a run record.
+    #[error("{} is not a run record of phase: {reason}", path.display())]
+    NotARecord {
+        /// The file.
+        path: PathBuf,
+        /// What shows it.
+        reason: String,
+    },
+    /// The record has a form that this program does not know.
+    #[error(
+        "{} has record format {found} (written by phase {program}), but this program \
+         reads format {known}; use that version, or delete the record and run the sweep again",
+        path.display()
+    )]
+    Format {
+        /// The record.
+        path: PathBuf,
+        /// Its format.
+        found: u64,
+        /// The format of this program.
+        known: u64,
+        /// Version of the program that wrote it.
+        program: String,
+    },
+    /// What should be stored does not fit together, or does not fit the format.
+    #[error("cannot write {}: {reason}", path.display())]
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// What does not fit.
+        reason: String,
+    },
+    /// A text file says something it must not.
+    #[error("{}:{line}: {reason}", path.display())]
+    Text {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// What is wrong and what is expected.
+        reason: String,
+    },
+}
+
+impl StoreError {
+    fn reading(path: &Path, source: io::Error) -> Self {
+        Self::Read {
+            path: path.to_owned(),
+            source,
+        }
+    }
+
+    fn writing(path: &Path, source: io::Error) -> Self {
+        use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
+        let path = path.to_owned();
+        match source.kind() {
+            StorageFull | QuotaExceeded | FileTooLarge => Self::DiskFull { path, source },
+            _ => Self::Write { path, source },
+        }
+    }
+
+    fn damaged(path: &Path, reason: impl ToString) -> Self {
+        Self::Damaged {
+            path: path.to_owned(),
+            reason: reason.to_string(),
+        }
+    }
+
+    fn content(path: &Path, reason: impl ToString) -> Self {
+        Self::Content {
+            path: path.to_owned(),
+            reason: reason.to_string(),
+        }
+    }
+
+    fn text(path: &Path, line: u64, reason: impl ToString) -> Self {
+        Self::Text {
+            path: path.to_owned(),
+            line,
+            reason: reason.to_string(),
+        }
+    }
+}
+
+/// What to do about an error of the system, where that is not obvious from its text.
+fn advice(error: &io::Error) -> &'static str {
+    match error.kind() {
+        io::ErrorKind::NotFound => "; check the path",
+        io::ErrorKind::PermissionDenied => "; check the permissions of the file and its folder",
+        io::ErrorKind::InvalidData => "; save the file as UTF-8 text",
+        io::ErrorKind::IsADirectory => "; give a file, not a folder",
+        _ => "",
+    }
+}

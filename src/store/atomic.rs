@@ -1,0 +1,146 @@
+//! Files that appear whole or not at all.
+
+use super::StoreError;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// How the name of an unfinished file begins.
+const PREFIX: &str = ".phase-";
+/// How the name of an unfinished file ends.
+const SUFFIX: &str = ".tmp";
+
+/// Writes `bytes` to `path`, replacing what was there, all or nothing.
+///
+/// The bytes go to a temporary file in the same folder, which is made durable and then
+/// renamed. Whenever the program or the machine stops, `path` holds either the old content or
+/// the new one.
+///
+/// # Errors
+/// [`StoreError::DiskFull`] or [`StoreError::Write`]; the old content is still there.
+pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
+    replace(path, |file| file.write_all(bytes)).map_err(|error| StoreError::writing(path, error))
+}
+
+fn replace(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX).suffix(SUFFIX);
+    // Temporary files are private by default; results are as readable as other files.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut temporary = builder.tempfile_in(folder)?;
+    fill(temporary.as_file_mut())?;
+    temporary.as_file().sync_all()?;
+    temporary.persist(path)?;
+    // The new name must be durable too; only Unix can open a folder for that.
+    #[cfg(unix)]
+    File::open(folder)?.sync_all()?;
+    Ok(())
+}
+
+/// Removes the temporary files that killed programs left in `folder`; returns their number.
+///
+/// Call it only while nothing else writes there.
+///
+/// # Errors
+/// [`StoreError::Read`] or [`StoreError::Write`] if the folder cannot be listed or changed.
+pub fn remove_leftovers(folder: &Path) -> Result<usize, StoreError> {
+    let mut removed = 0;
+    for entry in fs::read_dir(folder).map_err(|error| StoreError::reading(folder, error))? {
+        let entry = entry.map_err(|error| StoreError::reading(folder, error))?;
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        if name.starts_with(PREFIX) && name.ends_with(SUFFIX) {
+            let path = entry.path();
+            fs::remove_file(&path).map_err(|error| StoreError::writing(&path, error))?;
+            removed += 1;
+        }
+    }
+    Ok(removed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<String> = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn replaces_the_whole_file_and_leaves_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table.csv");
+        write_atomic(&path, b"a longer first content").unwrap();
+        write_atomic(&path, b"second").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"second");
+        assert_eq!(names(folder.path()), ["table.csv"]);
+    }
+
+    #[test]
+    fn a_failed_write_keeps_the_old_content() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table.csv");
+        write_atomic(&path, b"old").unwrap();
+        let error = replace(&path, |file| {
+            file.write_all(b"half of the n")?;
+            Err(io::ErrorKind::StorageFull.into())
+        })
+        .unwrap_err();
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(names(folder.path()), ["table.csv"]);
+
+        let error = StoreError::writing(&path, error);
+        assert!(matches!(error, StoreError::DiskFull { .. }));
+        let message = error.to_string();
+        assert!(message.starts_with("disk full while writing "), "{message}");
+        assert!(message.contains("table.csv"), "{message}");
+        assert!(message.contains("run the same command again"), "{message}");
+    }
+
+    #[test]
+    fn a_missing_folder_is_named_with_the_fix() {
+        let folder = tempfile::tempdir().unwrap();
+        let message = write_atomic(&folder.path().join("no/table.csv"), b"")
+            .unwrap_err()
+            .to_string();
+        assert!(message.contains("no/table.csv"), "{message}");
+        assert!(message.ends_with("; check the path"), "{message}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn others_may_read_what_is_written() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let mode = |name: &str| {
+            let metadata = fs::metadata(folder.path().join(name)).unwrap();
+            metadata.permissions().mode() & 0o777
+        };
+        write_atomic(&folder.path().join("ours"), b"").unwrap();
+        File::create(folder.path().join("ordinary")).unwrap();
+        assert_eq!(mode("ours"), mode("ordinary"));
+    }
+
+    #[test]
+    fn leftovers_go_and_everything_else_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in [".phase-a1b2c3.tmp", "run.h5", "other.tmp", ".phase-notes"] {
+            File::create(folder.path().join(name)).unwrap();
+        }
+        assert_eq!(remove_leftovers(folder.path()).unwrap(), 1);
+        assert_eq!(
+            names(folder.path()),
+            [".phase-notes", "other.tmp", "run.h5"]
+        );
+    }
+}

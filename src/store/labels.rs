@@ -1,0 +1,410 @@
+//! `labels.csv`, one row per job, and `points.csv`, one row per point of the grid.
+//!
+//! Columns of `labels.csv`: `id`, the axes by their names, `seed`, `label`, its `code`,
+//! `settle_time`, then the fields of [`Evidence`] and of [`OrderParameters`] by their names. What
+//! is not known is empty. Numbers are written with as many digits as it takes to read back the
+//! same bits.
+
+use super::{StoreError, text, write_atomic};
+use crate::classify::{Evidence, Label, OrderParameters, Verdict};
+use crate::sweep::{LabelRow, LabelTable};
+use csv::StringRecord;
+use serde::Serialize;
+use std::path::Path;
+
+/// The columns between the axes and the evidence.
+const VERDICT: [&str; 4] = ["seed", "label", "code", "settle_time"];
+
+/// Writes a table of labels.
+///
+/// # Errors
+/// [`StoreError::DiskFull`], [`StoreError::Write`], or [`StoreError::Content`] if a row does not
+/// have one value per axis.
+pub fn write_labels(table: &LabelTable, path: &Path) -> Result<(), StoreError> {
+    let fail = |error| StoreError::content(path, error);
+    let mut writer = csv_writer();
+    writer.write_record(columns(&table.axes)).map_err(fail)?;
+    for row in &table.rows {
+        let verdict = &row.verdict;
+        writer
+            .serialize((
+                &row.id,
+                &row.values,
+                row.seed,
+                verdict.label,
+                verdict.label.code(),
+                verdict.settle_time,
+                &verdict.evidence,
+                &verdict.order,
+            ))
+            .map_err(fail)?;
+    }
+    save(writer, path)
+}
+
+/// Writes the points of a table's grid, replicate seeds put together: the axes by their names,
+/// the majority `label`, its `code`, the `agreement` of the seeds and their number, `seeds`.
+///
+/// # Errors
+/// Those of [`write_labels`].
+pub fn write_points(table: &LabelTable, path: &Path) -> Result<(), StoreError> {
+    let fail = |error| StoreError::content(path, error);
+    let mut writer = csv_writer();
+    let axes = table.axes.iter().map(String::as_str);
+    writer
+        .write_record(axes.chain(["label", "code", "agreement", "seeds"]))
+        .map_err(fail)?;
+    for point in table.points() {
+        writer
+            .serialize((
+                &point.values,
+                point.label,
+                point.label.code(),
+                point.agreement,
+                point.rows.len(),
+            ))
+            .map_err(fail)?;
+    }
+    save(writer, path)
+}
+
+/// Reads a table of labels.
+///
+/// # Errors
+/// [`StoreError::Read`], or [`StoreError::Text`] with the line at fault.
+pub fn read_labels(path: &Path) -> Result<LabelTable, StoreError> {
+    let content = text::read(path)?;
+    let mut reader = csv::Reader::from_reader(content.as_bytes());
+    let header = reader.headers().map_err(|error| malformed(path, &error))?;
+    let axes = read_header(header).map_err(|reason| StoreError::text(path, 1, reason))?;
+    let names = columns(&axes);
+    let rows = reader
+        .records()
+        .map(|record| {
+            let record = record.map_err(|error| malformed(path, &error))?;
+            read_row(&names, axes.len(), &record).map_err(|reason| {
+                let line = record.position().map_or(1, csv::Position::line);
+                StoreError::text(path, line, reason)
+            })
+        })
+        .collect::<Result<_, _>>()?;
+    Ok(LabelTable { axes, rows })
+}
+
+/// Names of all columns.
+fn columns(axes: &[String]) -> Vec<String> {
+    let mut names = vec!["id".to_owned()];
+    names.extend_from_slice(axes);
+    names.extend(VERDICT.map(str::to_owned));
+    names.extend(field_names(&Evidence::default()));
+    names.extend(field_names(&OrderParameters::default()));
+    names
+}
+
+/// Names of the fields of `measures`, in their order.
+fn field_names(measures: &impl Serialize) -> Vec<String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let written = writer
+        .serialize(measures)
+        .and_then(|()| Ok(writer.flush()?));
+    written.expect("plain fields, written to memory");
+    let mut reader = csv::Reader::from_reader(writer.get_ref().as_slice());
+    let header = reader.headers().expect("what was written just now");
+    header.iter().map(str::to_owned).collect()
+}
+
+/// The axes that the header line names.
+fn read_header(header: &StringRecord) -> Result<Vec<String>, String> {
+    let others = columns(&[]).len();
+    let axes = header.len().saturating_sub(others);
+    let axes: Vec<_> = header
+        .iter()
+        .skip(1)
+        .take(axes)
+        .map(str::to_owned)
+        .collect();
+    let expected = columns(&axes);
+    if header.iter().eq(&expected) {
+        return Ok(axes);
+    }
+    Err(format!(
+        "the header line is not that of a table of labels, which is {}; \
+         make the table again with `phase classify`",
+        columns(&["<axes>".to_owned()]).join(",")
+    ))
+}
+
+fn read_row(names: &[String], axes: usize, record: &StringRecord) -> Result<LabelRow, String> {
+    fn parse<T: std::str::FromStr>(name: &str, field: &str, what: &str) -> Result<T, String> {
+        let parsed = field.parse();
+        parsed.map_err(|_| format!("column `{name}`: `{field}` is not {what}"))
+    }
+    let number = |at: usize| parse::<f64>(&names[at], &record[at], "a number");
+    let optional = |at: usize| match &record[at] {
+        "" => Ok(None),
+        _ => number(at).map(Some),
+    };
+    let seed = 1 + axes;
+    let evidence = seed + VERDICT.len();
+
+    let label = Label::from_name(&record[seed + 1]);
+    let label = label.ok_or_else(|| format!("`{}` is not a label", &record[seed + 1]))?;
+    if parse::<i8>("code", &record[seed + 2], "a whole number")? != label.code() {
+        let (code, name) = (&record[seed + 2], label.name());
+        return Err(format!("label `{name}` does not have code {code}"));
+    }
+    for at in evidence..names.len() {
+        optional(at)?;
+    }
+    let measures: StringRecord = record.iter().skip(evidence).collect();
+    let (evidence, order) = measures
+        .deserialize(None)
+        .map_err(|error| error.to_string())?;
+    Ok(LabelRow {
+        id: record[0].to_owned(),
+        values: (1..seed).map(number).collect::<Result<_, _>>()?,
+        seed: parse("seed", &record[seed], "a whole number")?,
+        verdict: Verdict {
+            label,
+            settle_time: optional(seed + 3)?,
+            evidence,
+            order,
+        },
+    })
+}
+
+fn malformed(path: &Path, error: &csv::Error) -> StoreError {
+    match error.kind() {
+        csv::ErrorKind::UnequalLengths {
+            pos,
+            expected_len,
+            len,
+        } => {
+            let line = pos.as_ref().map_or(1, csv::Position::line);
+            let reason = format!("{len} values, but the header line names {expected_len} columns");
+            StoreError::text(path, line, reason)
+        }
+        _ => StoreError::text(path, error.position().map_or(1, csv::Position::line), error),
+    }
+}
+
+fn csv_writer() -> csv::Writer<Vec<u8>> {
+    csv::WriterBuilder::new()
+        .has_headers(false)
+        .from_writer(Vec::new())
+}
+
+fn save(writer: csv::Writer<Vec<u8>>, path: &Path) -> Result<(), StoreError> {
+    let bytes = writer
+        .into_inner()
+        .map_err(|error| StoreError::content(path, error))?;
+    write_atomic(path, &bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn in_file<T>(content: &str, read: impl FnOnce(&Path) -> T) -> T {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("labels.csv");
+        std::fs::write(&path, content).unwrap();
+        read(&path)
+    }
+
+    fn written(
+        table: &LabelTable,
+        write: fn(&LabelTable, &Path) -> Result<(), StoreError>,
+    ) -> String {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("labels.csv");
+        write(table, &path).unwrap();
+        std::fs::read_to_string(&path).unwrap()
+    }
+
+    fn example() -> LabelTable {
+        let row = |seed, label, settle_time| LabelRow {
+            id: format!("0123456789abcde{seed}"),
+            values: vec![0.1 + 0.2, 40.0],
+            seed,
+            verdict: Verdict {
+                label,
+                settle_time,
+                evidence: Evidence {
+                    fluid_margin: Some(-0.9),
+                    ..Evidence::default()
+                },
+                order: OrderParameters {
+                    spout_count: Some(1e-300),
+                    ..OrderParameters::default()
+                },
+            },
+        };
+        LabelTable {
+            axes: vec!["radius".to_owned(), "omega".to_owned()],
+            rows: vec![
+                row(1, Label::Pinned, Some(0.25)),
+                row(2, Label::SmallSpout, None),
+                row(3, Label::Pinned, Some(0.75)),
+            ],
+        }
+    }
+
+    #[test]
+    fn a_table_looks_as_documented() {
+        let text = written(&example(), write_labels);
+        let mut lines = text.lines();
+        assert_eq!(
+            lines.next().unwrap(),
+            "id,radius,omega,seed,label,code,settle_time,settle_change,fluid_share,fluid_margin,\
+             pinned_share,pinned_margin,spout_share,spout_margin,spout_peak,hole_radius,\
+             paraboloid_rotation,paraboloid_residual,rotation,mobility,packing_height,spout_count"
+        );
+        assert_eq!(
+            lines.next().unwrap(),
+            "0123456789abcde1,0.30000000000000004,40.0,1,pinned,3,0.25,\
+             ,,-0.9,,,,,,,,,,,,1e-300"
+        );
+        assert!(lines.next().unwrap().contains(",2,small-spout,4,,,"));
+    }
+
+    #[test]
+    fn points_put_the_seeds_together() {
+        assert_eq!(
+            written(&example(), write_points),
+            "radius,omega,label,code,agreement,seeds\n\
+             0.30000000000000004,40.0,pinned,3,0.6666666666666666,3\n"
+        );
+    }
+
+    #[test]
+    fn a_malformed_table_is_refused_with_line_and_reason() {
+        let good = written(&example(), write_labels);
+        for (from, to, message) in [
+            (
+                ",2,small-spout,4,",
+                ",2,small-spout,4",
+                "labels.csv:3: 21 values, but the header line names 22 columns",
+            ),
+            (
+                ",40.0,1,",
+                ",forty,1,",
+                "labels.csv:2: column `omega`: `forty` is not a number",
+            ),
+            (
+                ",40.0,3,",
+                ",40.0,-3,",
+                "labels.csv:4: column `seed`: `-3` is not a whole number",
+            ),
+            (
+                "small-spout",
+                "spout",
+                "labels.csv:3: `spout` is not a label",
+            ),
+            (
+                "small-spout,4",
+                "small-spout,5",
+                "labels.csv:3: label `small-spout` does not have code 5",
+            ),
+            (
+                "0.25",
+                "soon",
+                "labels.csv:2: column `settle_time`: `soon` is not a number",
+            ),
+            (
+                "-0.9",
+                "x",
+                "labels.csv:2: column `fluid_margin`: `x` is not a number",
+            ),
+            (
+                "settle_change",
+                "change",
+                "labels.csv:1: the header line is not that of a table of labels",
+            ),
+            (
+                "id,",
+                "",
+                "labels.csv:1: the header line is not that of a table of labels",
+            ),
+        ] {
+            let bad = good.replacen(from, to, 1);
+            assert_ne!(bad, good);
+            let found = in_file(&bad, read_labels).unwrap_err().to_string();
+            assert!(found.contains(message), "{found}\nis not\n{message}");
+        }
+        assert!(in_file("", read_labels).is_err());
+    }
+
+    #[test]
+    fn a_row_of_too_few_values_is_not_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("labels.csv");
+        let mut table = example();
+        table.rows[1].values.pop();
+        let message = write_labels(&table, &path).unwrap_err().to_string();
+        assert!(message.contains("labels.csv"), "{message}");
+        assert!(!path.exists());
+    }
+
+    fn any_table() -> impl Strategy<Value = LabelTable> {
+        let finite = || prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL | prop::num::f64::ZERO;
+        let row = move |axes: usize| {
+            (
+                "[0-9a-f]{16}",
+                prop::collection::vec(finite(), axes),
+                any::<u64>(),
+                prop::sample::select(&Label::ALL[..]),
+                prop::collection::vec(prop::option::of(finite()), 16),
+            )
+                .prop_map(|(id, values, seed, label, m)| LabelRow {
+                    id,
+                    values,
+                    seed,
+                    verdict: Verdict {
+                        label,
+                        settle_time: m[0],
+                        evidence: Evidence {
+                            settle_change: m[1],
+                            fluid_share: m[2],
+                            fluid_margin: m[3],
+                            pinned_share: m[4],
+                            pinned_margin: m[5],
+                            spout_share: m[6],
+                            spout_margin: m[7],
+                            spout_peak: m[8],
+                        },
+                        order: OrderParameters {
+                            hole_radius: m[9],
+                            paraboloid_rotation: m[10],
+                            paraboloid_residual: m[11],
+                            rotation: m[12],
+                            mobility: m[13],
+                            packing_height: m[14],
+                            spout_count: m[15],
+                        },
+                    },
+                })
+        };
+        prop::collection::vec("[a-z_]{1,8}|a, \"quoted\" one|seed", 0..5).prop_flat_map(
+            move |axes| {
+                prop::collection::vec(row(axes.len()), 0..6).prop_map(move |rows| LabelTable {
+                    axes: axes.clone(),
+                    rows,
+                })
+            },
+        )
+    }
+
+    proptest! {
+        // Every case makes two files durable, which takes a disk a while.
+        #![proptest_config(ProptestConfig::with_cases(64))]
+        #[test]
+        fn reads_back_the_same_bits(table in any_table()) {
+            let text = written(&table, write_labels);
+            let back = in_file(&text, read_labels).unwrap();
+            prop_assert_eq!(&back, &table);
+            prop_assert_eq!(written(&back, write_labels), text);
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! The record of one run: an HDF5 file, then a checksum.
+//!
+//! ```text
+//! /             attributes: format, format_version, program_version, program_commit, identity,
+//!               seed, scene (JSON), scene_toml, outcome, cpu_seconds; of an unstable run also
+//!               guard, guard_step, guard_time, guard_sphere, guard_detail
+//! /spheres      radius, mass                                n
+//! /observations time and each scalar                        frames
+//!               profile                                     frames x bins
+//!               rising                                      frames x radii x speeds
+//! /snapshots    time                                        snapshots
+//!               position, velocity, spin (if there is any)  snapshots x n x 3
+//! /trajectory   the same at every frame, if it was asked for
+//! ```
+//!
+//! Every dataset has the attributes `unit` and `description`. The checksum comes after the end
+//! that the HDF5 file knows of, where other programs do not look. A record holds no time of
+//! day: the same run gives the same bytes, but for `cpu_seconds`.
+
+mod read;
+mod seal;
+mod write;
+
+use super::{StoreError, write_atomic};
+use crate::record::{Outcome, Program, RunRecord};
+use crate::scene::Scene;
+use std::path::Path;
+
+/// What the attribute `format` of a record says.
+const FORMAT: &str = "phase run record";
+/// Raised with every change after which this program cannot read older records (a new
+/// observable, say) or older programs cannot read its own.
+const FORMAT_VERSION: u64 = 1;
+
+/// What a record says of its run besides what was measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordHeader {
+    /// The resolved scene.
+    pub scene: Scene,
+    /// The program that ran it.
+    pub program: Program,
+    /// How the run ended.
+    pub outcome: Outcome,
+    /// Processor time of the run (s).
+    pub cpu_seconds: f64,
+}
+
+/// Writes a record, all or nothing.
+///
+/// # Errors
+/// [`StoreError::DiskFull`], [`StoreError::Write`], or [`StoreError::Content`] if the parts of the
+/// record do not fit together.
+pub fn write_record(record: &RunRecord, path: &Path) -> Result<(), StoreError> {
+    let mut bytes = write::encode(record, Some((&record.program, record.cpu_seconds)))
+        .map_err(|reason| StoreError::content(path, reason))?;
+    seal::append(&mut bytes);
+    write_atomic(path, &bytes)
+}
+
+/// Reads a record.
+///
+/// # Errors
+/// [`StoreError::Read`]; [`StoreError::Damaged`] if any bit is not as it was written;
+/// [`StoreError::NotARecord`] or [`StoreError::Format`] if it is another kind of file.
+pub fn read_record(path: &Path) -> Result<RunRecord, StoreError> {
+    read::Reader::open(path)?.record()
+}
+
+/// Reads the header of a record. The whole file is checked for damage, but what was measured is
+/// not unpacked, which makes this several times faster than [`read_record`].
+///
+/// # Errors
+/// Those of [`read_record`].
+pub fn read_record_header(path: &Path) -> Result<RecordHeader, StoreError> {
+    read::Reader::open(path)?.header()
+}
+
+/// A hash of everything in a record but the program and its processor time: equal for two runs
+/// that measured the same bits.
+///
+/// # Errors
+/// What does not fit together in the record.
+pub fn content_digest(record: &RunRecord) -> Result<String, String> {
+    let bytes = write::encode(record, None)?;
+    Ok(blake3::hash(&bytes).to_hex().to_string())
+}

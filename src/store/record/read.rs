@@ -1,0 +1,188 @@
+//! From the bytes of an HDF5 file to a record.
+
+use super::{FORMAT, FORMAT_VERSION, RecordHeader, seal};
+use crate::observe::{Observations, Snapshot};
+use crate::record::{Guard, Instability, Outcome, Program, RunRecord};
+use crate::store::StoreError;
+use hdf5_pure::{AttrValue, File, H5Element};
+use ndarray::{Array, Array1, Array3, Axis, Dimension};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// An open record whose checksum and format are right.
+pub(super) struct Reader<'a> {
+    path: &'a Path,
+    file: File,
+    attributes: HashMap<String, AttrValue>,
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn open(path: &'a Path) -> Result<Self, StoreError> {
+        let mut bytes = std::fs::read(path).map_err(|error| StoreError::reading(path, error))?;
+        seal::verify(&mut bytes, path)?;
+        let damaged = |error| StoreError::damaged(path, error);
+        let file = File::from_bytes(bytes).map_err(damaged)?;
+        let attributes = file.root().attrs().map_err(damaged)?;
+        let reader = Self {
+            path,
+            file,
+            attributes,
+        };
+        reader.check_format()?;
+        Ok(reader)
+    }
+
+    fn check_format(&self) -> Result<(), StoreError> {
+        if self.text("format").ok() != Some(FORMAT) {
+            return Err(StoreError::NotARecord {
+                path: self.path.to_owned(),
+                reason: format!("its attribute `format` is not `{FORMAT}`"),
+            });
+        }
+        match self.whole("format_version")? {
+            FORMAT_VERSION => Ok(()),
+            found => Err(StoreError::Format {
+                path: self.path.to_owned(),
+                found,
+                known: FORMAT_VERSION,
+                program: self.text("program_version").unwrap_or("unknown").to_owned(),
+            }),
+        }
+    }
+
+    pub(super) fn header(&self) -> Result<RecordHeader, StoreError> {
+        Ok(RecordHeader {
+            scene: serde_json::from_str(self.text("scene")?)
+                .map_err(|error| self.damaged(format!("its scene: {error}")))?,
+            program: Program {
+                version: self.text("program_version")?.to_owned(),
+                commit: self.text("program_commit")?.to_owned(),
+            },
+            outcome: self.outcome()?,
+            cpu_seconds: self.number("cpu_seconds")?,
+        })
+    }
+
+    pub(super) fn record(&self) -> Result<RunRecord, StoreError> {
+        let RecordHeader {
+            scene,
+            program,
+            outcome,
+            cpu_seconds,
+        } = self.header()?;
+        Ok(RunRecord {
+            scene,
+            program,
+            outcome,
+            radius: self.values("spheres/radius")?,
+            mass: self.values("spheres/mass")?,
+            observations: self.observations()?,
+            snapshots: self.snapshots("snapshots")?,
+            trajectory: self.snapshots("trajectory")?,
+            cpu_seconds,
+        })
+    }
+
+    fn outcome(&self) -> Result<Outcome, StoreError> {
+        match self.text("outcome")? {
+            "completed" => Ok(Outcome::Completed),
+            "unstable" => {
+                let name = self.text("guard")?;
+                let guard = Guard::ALL.into_iter().find(|guard| guard.name() == name);
+                Ok(Outcome::Unstable(Instability {
+                    guard: guard.ok_or_else(|| self.damaged(format!("no guard is `{name}`")))?,
+                    step: self.whole("guard_step")?,
+                    time: self.number("guard_time")?,
+                    sphere: usize::try_from(self.whole("guard_sphere")?)
+                        .map_err(|error| self.damaged(error))?,
+                    detail: self.text("guard_detail")?.to_owned(),
+                }))
+            }
+            other => Err(self.damaged(format!("no outcome is `{other}`"))),
+        }
+    }
+
+    fn observations(&self) -> Result<Observations, StoreError> {
+        let mut observations = Observations {
+            time: self.values("observations/time")?,
+            profile: self.array("observations/profile")?,
+            rising: self.array("observations/rising")?,
+            ..Observations::default()
+        };
+        let names: Vec<_> = observations.scalars().iter().map(|s| s.name).collect();
+        for name in names {
+            if let Some(values) = observations.scalar_mut(name) {
+                *values = self.values(&format!("observations/{name}"))?;
+            }
+        }
+        Ok(observations)
+    }
+
+    fn snapshots(&self, group: &str) -> Result<Vec<Snapshot>, StoreError> {
+        if self.file.group(group).is_err() {
+            return Ok(Vec::new());
+        }
+        let time: Vec<f64> = self.values(&format!("{group}/time"))?;
+        let position: Array3<f64> = self.array(&format!("{group}/position"))?;
+        let velocity: Array3<f64> = self.array(&format!("{group}/velocity"))?;
+        let spin = format!("{group}/spin");
+        let spin: Array3<f64> = match self.file.dataset(&spin) {
+            Ok(_) => self.array(&spin)?,
+            Err(_) => Array::zeros((time.len(), 0, 3)),
+        };
+        for (name, array) in [
+            ("position", &position),
+            ("velocity", &velocity),
+            ("spin", &spin),
+        ] {
+            if array.len_of(Axis(0)) != time.len() {
+                return Err(self.damaged(format!("`{group}/{name}` does not match its times")));
+            }
+        }
+        let at = |array: &Array3<f64>, index| array.index_axis(Axis(0), index).to_owned();
+        let snapshot = |(index, &time)| Snapshot {
+            time,
+            position: at(&position, index),
+            velocity: at(&velocity, index),
+            spin: at(&spin, index),
+        };
+        Ok(time.iter().enumerate().map(snapshot).collect())
+    }
+
+    fn values<T: H5Element>(&self, name: &str) -> Result<Vec<T>, StoreError> {
+        let array: Array1<T> = self.array(name)?;
+        Ok(array.into_raw_vec_and_offset().0)
+    }
+
+    fn array<T: H5Element, D: Dimension>(&self, name: &str) -> Result<Array<T, D>, StoreError> {
+        self.file
+            .dataset(name)
+            .and_then(|dataset| dataset.read_array())
+            .map_err(|error| self.damaged(format!("its dataset `{name}`: {error}")))
+    }
+
+    fn text(&self, name: &str) -> Result<&str, StoreError> {
+        self.attribute(name, AttrValue::as_str)
+    }
+
+    fn whole(&self, name: &str) -> Result<u64, StoreError> {
+        self.attribute(name, AttrValue::as_u64)
+    }
+
+    fn number(&self, name: &str) -> Result<f64, StoreError> {
+        self.attribute(name, AttrValue::as_f64)
+    }
+
+    fn attribute<'s, T>(
+        &'s self,
+        name: &str,
+        value: impl Fn(&'s AttrValue) -> Option<T>,
+    ) -> Result<T, StoreError> {
+        let attribute = self.attributes.get(name).and_then(value);
+        attribute.ok_or_else(|| self.damaged(format!("its attribute `{name}` is missing")))
+    }
+
+    fn damaged(&self, reason: impl ToString) -> StoreError {
+        StoreError::damaged(self.path, reason)
+    }
+}

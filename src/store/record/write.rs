@@ -1,0 +1,201 @@
+//! From a record to the bytes of an HDF5 file.
+
+use super::{FORMAT, FORMAT_VERSION};
+use crate::observe::{Observations, Snapshot};
+use crate::record::{Outcome, Program, RunRecord};
+use hdf5_pure::{AttrValue, FileBuilder, GroupBuilder, H5Element};
+use ndarray::Array2;
+
+/// Effort of the compression, 1 to 9. Most of what is measured is noise in its last digits: on a
+/// record of 5001 frames (0.96 MB) level 1 saves a quarter in 6 ms, level 6 as much in 20 ms.
+const DEFLATE_LEVEL: u32 = 1;
+/// Datasets below this size (bytes) are stored as they are.
+const COMPRESS_FROM: usize = 4096;
+/// Size of a chunk of a large dataset (bytes): what a reader must unpack to see one frame.
+const CHUNK: usize = 1 << 20;
+
+/// The HDF5 file of a record, with the program and its processor time if they are wanted.
+pub(super) fn encode(
+    record: &RunRecord,
+    provenance: Option<(&Program, f64)>,
+) -> Result<Vec<u8>, String> {
+    check_observations(&record.observations)?;
+    let mut file = FileBuilder::new();
+    if let Some((program, cpu_seconds)) = provenance {
+        file.set_attr("program_version", text(&program.version));
+        file.set_attr("program_commit", text(&program.commit));
+        file.set_attr("cpu_seconds", AttrValue::F64(cpu_seconds));
+    }
+    header(&mut file, record)?;
+    let mut group = file.create_group("spheres");
+    spheres(&mut group, record);
+    file.add_group(group.finish());
+    let mut group = file.create_group("observations");
+    observations(&mut group, &record.observations);
+    file.add_group(group.finish());
+    for (name, states) in [
+        ("snapshots", &record.snapshots),
+        ("trajectory", &record.trajectory),
+    ] {
+        if !states.is_empty() {
+            let mut group = file.create_group(name);
+            snapshots(&mut group, states).map_err(|reason| format!("{name}: {reason}"))?;
+            file.add_group(group.finish());
+        }
+    }
+    file.finish().map_err(|error| error.to_string())
+}
+
+fn text(value: &str) -> AttrValue {
+    AttrValue::VarLenString(value.to_owned())
+}
+
+fn header(file: &mut FileBuilder, record: &RunRecord) -> Result<(), String> {
+    let scene = &record.scene;
+    let json = serde_json::to_string(scene).map_err(|error| error.to_string())?;
+    if serde_json::from_str(&json).ok().as_ref() != Some(scene) {
+        return Err("its scene holds a number that is not finite; check the scene file".to_owned());
+    }
+    file.set_attr("format", text(FORMAT));
+    file.set_attr("format_version", AttrValue::U64(FORMAT_VERSION));
+    file.set_attr("identity", text(&scene.identity()));
+    file.set_attr("seed", AttrValue::U64(scene.seed));
+    file.set_attr("scene", text(&json));
+    // For people only, so it may be missing: TOML has no whole numbers beyond 64 signed bits.
+    if let Ok(toml) = toml::to_string(scene) {
+        file.set_attr("scene_toml", text(&toml));
+    }
+    match &record.outcome {
+        Outcome::Completed => file.set_attr("outcome", text("completed")),
+        Outcome::Unstable(instability) => {
+            file.set_attr("outcome", text("unstable"));
+            file.set_attr("guard", text(instability.guard.name()));
+            file.set_attr("guard_step", AttrValue::U64(instability.step));
+            file.set_attr("guard_time", AttrValue::F64(instability.time));
+            file.set_attr("guard_sphere", AttrValue::U64(instability.sphere as u64));
+            file.set_attr("guard_detail", text(&instability.detail));
+        }
+    }
+    Ok(())
+}
+
+/// Name, unit and description of a dataset.
+struct Quantity<'a>(&'a str, &'a str, &'a str);
+
+fn dataset<T: H5Element>(
+    group: &mut GroupBuilder,
+    Quantity(name, unit, description): Quantity<'_>,
+    shape: &[usize],
+    values: &[T],
+) {
+    let shape: Vec<u64> = shape.iter().map(|&extent| extent as u64).collect();
+    let dataset = group.create_dataset(name);
+    dataset
+        .with_data(values)
+        .with_shape(&shape)
+        .set_attr("unit", text(unit))
+        .set_attr("description", text(description));
+    let size = size_of_val(values);
+    if size >= COMPRESS_FROM {
+        let row = size / shape[0] as usize;
+        let mut chunk = shape;
+        chunk[0] = chunk[0].min((CHUNK / row).max(1) as u64);
+        dataset
+            .with_chunks(&chunk)
+            .with_shuffle()
+            .with_deflate(DEFLATE_LEVEL);
+    }
+}
+
+fn spheres(group: &mut GroupBuilder, record: &RunRecord) {
+    let count = [record.radius.len()];
+    let quantity = Quantity("radius", "m", "Radius of every sphere");
+    dataset(group, quantity, &count, &record.radius);
+    let count = [record.mass.len()];
+    let quantity = Quantity("mass", "kg", "Mass of every sphere");
+    dataset(group, quantity, &count, &record.mass);
+}
+
+fn observations(group: &mut GroupBuilder, observations: &Observations) {
+    let frames = [observations.frames()];
+    let quantity = Quantity("time", "s", "Time of each frame");
+    dataset(group, quantity, &frames, &observations.time);
+    for series in observations.scalars() {
+        let quantity = Quantity(series.name, series.unit, series.description);
+        dataset(group, quantity, &frames, series.values);
+    }
+    let quantity = Quantity(
+        "profile",
+        "m",
+        "Height of the highest centre in each radial bin, inner bin first; \
+         not a number for an empty bin. Shape: frames x bins",
+    );
+    let profile = observations.profile.as_standard_layout();
+    let values = profile.as_slice().expect("standard layout");
+    dataset(group, quantity, profile.shape(), values);
+    let quantity = Quantity(
+        "rising",
+        "1",
+        "Number of spheres within a radius fraction that rose faster than the mean by a speed. \
+         Shape: frames x rise_radii x rise_speeds of the scene's output table",
+    );
+    let rising = observations.rising.as_standard_layout();
+    let values = rising.as_slice().expect("standard layout");
+    dataset(group, quantity, rising.shape(), values);
+}
+
+fn check_observations(observations: &Observations) -> Result<(), String> {
+    let frames = observations.frames();
+    let scalars = observations.scalars();
+    let lengths = scalars
+        .iter()
+        .map(|series| (series.name, series.values.len()))
+        .chain([
+            ("profile", observations.profile.nrows()),
+            ("rising", observations.rising.shape()[0]),
+        ]);
+    for (name, length) in lengths {
+        if length != frames {
+            return Err(format!(
+                "`{name}` has {length} frames, but `time` has {frames}"
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn snapshots(group: &mut GroupBuilder, snapshots: &[Snapshot]) -> Result<(), String> {
+    let time: Vec<f64> = snapshots.iter().map(|snapshot| snapshot.time).collect();
+    let quantity = Quantity("time", "s", "Time of each snapshot");
+    dataset(group, quantity, &[snapshots.len()], &time);
+
+    type Part = fn(&Snapshot) -> &Array2<f64>;
+    let parts: [(Quantity<'_>, Part); 3] = [
+        (Quantity("position", "m", "Centres x, y, z"), |at| {
+            &at.position
+        }),
+        (Quantity("velocity", "m/s", "Velocities x, y, z"), |at| {
+            &at.velocity
+        }),
+        (Quantity("spin", "rad/s", "Spins x, y, z"), |at| &at.spin),
+    ];
+    let count = snapshots[0].position.nrows();
+    let spins = snapshots[0].spin.nrows();
+    for (quantity, part) in parts {
+        let rows = if quantity.0 == "spin" { spins } else { count };
+        if let Some(odd) = snapshots.iter().find(|at| part(at).dim() != (rows, 3)) {
+            let name = quantity.0;
+            return Err(format!(
+                "`{name}` at t = {} s has shape {:?}, but ({rows}, 3) is expected",
+                odd.time,
+                part(odd).dim()
+            ));
+        }
+        if quantity.0 == "spin" && spins == 0 {
+            continue;
+        }
+        let values: Vec<f64> = snapshots.iter().flat_map(part).copied().collect();
+        dataset(group, quantity, &[snapshots.len(), rows, 3], &values);
+    }
+    Ok(())
+}
