@@ -1,7 +1,9 @@
 //! What is measured on a simulation while it runs, frame by frame.
 
+mod frame;
 mod observations;
 mod observer;
 
+pub use frame::FrameView;
 pub use observations::{Observations, Series, Snapshot};
 pub use observer::{FrameView, Observer};

@@ -27,11 +27,13 @@ macro_rules! scalars {
             pub time: Vec<f64>,
             $(#[doc = concat!($description, " (", $unit, ").")] pub $name: Vec<f32>,)*
             /// Height of the highest centre in each radial bin (m); not a number for an empty
-            /// bin. Shape: frames x bins, inner bin first, bins of equal width up to R.
+            /// bin. Shape: frames x bins, inner bin first, bins of equal width up to R; the
+            /// outermost also holds what is beyond R. No bins without a tank radius.
             pub profile: Array2<f32>,
-            /// Number of spheres within a radius fraction of the axis that rose faster than the
-            /// mean by a speed, since the frame before. Shape: frames x `rise_radii` x
-            /// `rise_speeds` of the scene's output table.
+            /// Number of spheres that rose faster than the mean of all by a speed, since the frame
+            /// before, and were within a share of R of the axis then; none at the first frame,
+            /// and 65535 also stands for more. Shape: frames x `rise_radii` x `rise_speeds` of
+            /// the scene's output table; without a tank radius, frames x 0 x `rise_speeds`.
             pub rising: Array3<u16>,
         }
 
@@ -66,8 +68,8 @@ scalars! {
     height_max "m" "Height z of the highest centre";
     hole_radius "m" "Distance from the axis of the centre next to it";
     speed_mean "m/s" "Mean speed of the spheres";
-    air_speed_mean "m/s" "Mean speed of the swirling air at the spheres";
-    rotation "rad/s" "Rotation rate of the spheres about the axis: angular momentum over moment of inertia of the centres";
+    air_speed_mean "m/s" "Mean speed of the swirling air at the spheres, 0 without swirl";
+    rotation "rad/s" "Rotation rate of the spheres about the axis: angular momentum over moment of inertia of the centres, 0 if all lie on it";
     fluctuation "m/s" "Root mean square velocity relative to rigid rotation at that rate and to the mean vertical velocity";
 }
 

@@ -1,34 +1,265 @@
-//! Measures a simulation at a frame.
-use super::*;
+//! Measures a simulation at every frame.
+
+use super::{FrameView, Observations};
 use crate::scene::Scene;
-#[derive(Clone, Copy, Debug)]
-pub struct FrameView<'a> {
-    pub position: [&'a [f64]; 3],
-    pub velocity: [&'a [f64]; 3],
-    pub spin: Option<[&'a [f64]; 3]>,
-    pub radius: &'a [f64],
-    pub mass: &'a [f64],
-    pub inertia: &'a [f64],
-    pub elastic_energy: f64,
-}
+use ndarray::{Array2, Array3};
+
 /// Measures a simulation at every frame.
-pub struct Observer(Observations);
-impl Observer {
-    pub fn new(_: &Scene, _: &[f64]) -> Self {
-        Self(Default::default())
-    }
-    pub fn observe(&mut self, t: f64, _: &FrameView<'_>) {
-        self.0.time.push(t)
-    }
-    pub fn finish(self) -> Observations {
-        self.0
-    }
+///
+/// Sums run over the spheres in the order of their indices, so equal states give equal bits.
+pub struct Observer {
+    /// Acceleration g, 0 without gravity (m/s2).
+    gravity: f64,
+    /// |Omega| of the swirling air, 0 without swirl (rad/s).
+    air_rotation: f64,
+    bins: usize,
+    bin_width: f64,
+    /// Rises per frame relative to the mean that count, in radii of the sphere.
+    rises: Vec<f64>,
+    /// Distances from the axis within which they count (m).
+    distances: Vec<f64>,
+    observations: Observations,
+    /// Rows of `Observations::profile`, one after the other.
+    profile: Vec<f32>,
+    /// Entries of `Observations::rising`, one frame after the other.
+    rising: Vec<u16>,
+    /// Distance of each centre from the axis at this frame (m).
+    distance: Vec<f64>,
+    previous: Option<Previous>,
 }
-impl Snapshot {
-    pub fn take(time: f64, _: &FrameView<'_>) -> Self {
+
+/// What the count of rising spheres needs of the frame before.
+struct Previous {
+    height: Vec<f64>,
+    distance: Vec<f64>,
+    height_mean: f64,
+}
+
+impl Observer {
+    /// An observer of one run of `scene`, whose spheres have these radii (m).
+    ///
+    /// Without a tank radius R the surface profile has no bins and rising spheres are counted
+    /// within no radius: both arrays have a length of 0 there.
+    pub fn new(scene: &Scene, radius: &[f64]) -> Self {
+        let output = &scene.output;
+        let tank_radius = scene.tank.as_ref().and_then(|tank| tank.radius);
+        let mean_radius = radius.iter().sum::<f64>() / radius.len() as f64;
+        let (bins, bin_width) = tank_radius.map_or((0, 0.0), |tank_radius| {
+            let natural = (tank_radius / (2.0 * mean_radius)).round() as usize;
+            let bins = output.profile_bins.unwrap_or(natural).max(1);
+            (bins, tank_radius / bins as f64)
+        });
+        let distances: Vec<f64> = tank_radius.map_or_else(Vec::new, |tank_radius| {
+            let within = |share: &f64| share * tank_radius;
+            output.rise_radii.iter().map(within).collect()
+        });
+        let per_frame = |speed: &f64| speed * scene.time.frame_interval;
         Self {
-            time,
-            ..Default::default()
+            gravity: scene.gravity.as_ref().map_or(0.0, |it| it.acceleration),
+            air_rotation: scene.swirl.as_ref().map_or(0.0, |it| it.omega.abs()),
+            bins,
+            bin_width,
+            rises: output.rise_speeds.iter().map(per_frame).collect(),
+            distances,
+            observations: Observations::default(),
+            profile: Vec::new(),
+            rising: Vec::new(),
+            distance: Vec::new(),
+            previous: None,
         }
     }
+
+    /// Measures one frame at `time` (s). Frames are one frame interval of the scene apart, and
+    /// the first is the start.
+    pub fn observe(&mut self, time: f64, frame: &FrameView<'_>) {
+        self.observations.time.push(time);
+        self.measure_distances(frame);
+        self.measure_energies(frame);
+        self.measure_velocities(frame);
+        self.measure_profile(frame);
+        let height_mean = self.measure_heights(frame);
+        self.measure_rising(frame, height_mean);
+    }
+
+    /// The observables of all frames so far.
+    pub fn finish(self) -> Observations {
+        let frames = self.observations.frames();
+        let rising = (frames, self.distances.len(), self.rises.len());
+        Observations {
+            profile: Array2::from_shape_vec((frames, self.bins), self.profile)
+                .expect("every frame adds one value per bin"),
+            rising: Array3::from_shape_vec(rising, self.rising)
+                .expect("every frame adds one count per distance and speed"),
+            ..self.observations
+        }
+    }
+
+    fn measure_distances(&mut self, frame: &FrameView<'_>) {
+        let [x, y, _] = frame.position;
+        self.distance.clear();
+        self.distance
+            .extend(x.iter().zip(y).map(|(x, y)| (x * x + y * y).sqrt()));
+
+        let (mut sum, mut least) = (0.0, f64::INFINITY);
+        for &distance in &self.distance {
+            sum += distance;
+            least = least.min(distance);
+        }
+        let observations = &mut self.observations;
+        observations.hole_radius.push(least as f32);
+        let air_speed = self.air_rotation * sum / frame.count() as f64;
+        observations.air_speed_mean.push(air_speed as f32);
+    }
+
+    fn measure_energies(&mut self, frame: &FrameView<'_>) {
+        let [vx, vy, vz] = frame.velocity;
+        let (mut kinetic, mut speed, mut weighted_height) = (0.0, 0.0, 0.0);
+        for ((((&mass, z), vx), vy), vz) in frame
+            .mass
+            .iter()
+            .zip(frame.position[2])
+            .zip(vx)
+            .zip(vy)
+            .zip(vz)
+        {
+            let speed_squared = vx * vx + vy * vy + vz * vz;
+            kinetic += mass * speed_squared;
+            speed += speed_squared.sqrt();
+            weighted_height += mass * z;
+        }
+        let gravitational = self.gravity * weighted_height;
+        let speed_mean = speed / frame.count() as f64;
+        let observations = &mut self.observations;
+        observations.kinetic.push((0.5 * kinetic) as f32);
+        observations.rotational.push(rotational(frame) as f32);
+        observations.gravitational.push(gravitational as f32);
+        observations.elastic.push(frame.elastic_energy as f32);
+        observations.speed_mean.push(speed_mean as f32);
+    }
+
+    /// Returns the mean height (m).
+    fn measure_heights(&mut self, frame: &FrameView<'_>) -> f64 {
+        let (mut sum, mut highest) = (0.0, f64::NEG_INFINITY);
+        for &z in frame.position[2] {
+            sum += z;
+            highest = highest.max(z);
+        }
+        let mean = sum / frame.count() as f64;
+        self.observations.height_mean.push(mean as f32);
+        self.observations.height_max.push(highest as f32);
+        mean
+    }
+
+    fn measure_velocities(&mut self, frame: &FrameView<'_>) {
+        let [x, y, _] = frame.position;
+        let [vx, vy, vz] = frame.velocity;
+        let centres = || x.iter().zip(y).zip(vx.iter().zip(vy)).zip(vz);
+
+        let (mut angular_momentum, mut inertia, mut rise) = (0.0, 0.0, 0.0);
+        for (((((x, y), (vx, vy)), vz), mass), distance) in
+            centres().zip(frame.mass).zip(&self.distance)
+        {
+            angular_momentum += mass * (x * vy - y * vx);
+            inertia += mass * distance * distance;
+            rise += vz;
+        }
+        // Spheres that all lie on the axis do not rotate about it.
+        let rotation = if inertia > 0.0 {
+            angular_momentum / inertia
+        } else {
+            0.0
+        };
+        let count = frame.count() as f64;
+        rise /= count;
+
+        // A second pass, because the difference of two sums would lose half of the digits.
+        let mut squares = 0.0;
+        for (((x, y), (vx, vy)), vz) in centres() {
+            let x_part = vx + rotation * y;
+            let y_part = vy - rotation * x;
+            let z_part = vz - rise;
+            squares += x_part * x_part + y_part * y_part + z_part * z_part;
+        }
+        let observations = &mut self.observations;
+        observations.rotation.push(rotation as f32);
+        observations
+            .fluctuation
+            .push((squares / count).sqrt() as f32);
+    }
+
+    fn measure_profile(&mut self, frame: &FrameView<'_>) {
+        if self.bins == 0 {
+            return;
+        }
+        let start = self.profile.len();
+        self.profile.resize(start + self.bins, f32::NAN);
+        let tops = &mut self.profile[start..];
+        for (&distance, &z) in self.distance.iter().zip(frame.position[2]) {
+            let top = &mut tops[bin(distance, self.bin_width, self.bins)];
+            // Of a number and the NaN of an empty bin, `max` takes the number.
+            *top = top.max(z as f32);
+        }
+    }
+
+    fn measure_rising(&mut self, frame: &FrameView<'_>, height_mean: f64) {
+        let columns = self.rises.len();
+        let cells = self.distances.len() * columns;
+        if cells == 0 {
+            return;
+        }
+        let start = self.rising.len();
+        self.rising.resize(start + cells, 0);
+        let z = frame.position[2];
+        let Some(previous) = &mut self.previous else {
+            self.previous = Some(Previous {
+                height: z.to_vec(),
+                distance: self.distance.clone(),
+                height_mean,
+            });
+            return;
+        };
+
+        let counts = &mut self.rising[start..];
+        let mean = height_mean - previous.height_mean;
+        let least = self.rises.iter().copied().fold(f64::INFINITY, f64::min);
+        for (i, &radius) in frame.radius.iter().enumerate() {
+            let rise = (z[i] - previous.height[i] - mean) / radius;
+            // Most spheres do not rise.
+            if rise < least {
+                continue;
+            }
+            for (row, &within) in counts.chunks_exact_mut(columns).zip(&self.distances) {
+                if previous.distance[i] <= within {
+                    for (count, &threshold) in row.iter_mut().zip(&self.rises) {
+                        *count = count.saturating_add(u16::from(rise >= threshold));
+                    }
+                }
+            }
+        }
+        previous.height.copy_from_slice(z);
+        previous.distance.copy_from_slice(&self.distance);
+        previous.height_mean = height_mean;
+    }
+}
+
+/// Rotational kinetic energy of all spheres (J).
+fn rotational(frame: &FrameView<'_>) -> f64 {
+    let Some([wx, wy, wz]) = frame.spin else {
+        return 0.0;
+    };
+    let mut sum = 0.0;
+    for (((inertia, wx), wy), wz) in frame.inertia.iter().zip(wx).zip(wy).zip(wz) {
+        sum += inertia * (wx * wx + wy * wy + wz * wz);
+    }
+    0.5 * sum
+}
+
+/// Index of the bin of this `distance` from the axis. Bin j reaches from j widths (without) to
+/// j + 1 widths (with); the innermost holds the axis, and the outermost also what is beyond it:
+/// a sphere pressed into a soft wall.
+fn bin(distance: f64, width: f64, bins: usize) -> usize {
+    let widths = distance / width;
+    let below = widths as u32;
+    let on_edge = widths == f64::from(below) && below > 0;
+    (below as usize - usize::from(on_edge)).min(bins - 1)
 }
