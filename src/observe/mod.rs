@@ -3,6 +3,7 @@
 mod frame;
 mod observations;
 mod observer;
+mod reduce;
 
 pub use frame::FrameView;
 pub use observations::{Observations, Series, Snapshot};

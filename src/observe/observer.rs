@@ -1,5 +1,6 @@
 //! Measures a simulation at every frame.
 
+use super::reduce::{largest, least, sum};
 use super::{FrameView, Observations};
 use crate::scene::Scene;
 use ndarray::{Array2, Array3};
@@ -73,9 +74,9 @@ impl Observer {
     /// the first is the start.
     pub fn observe(&mut self, time: f64, frame: &FrameView<'_>) {
         self.observations.time.push(time);
-        self.measure_distances(frame);
         self.measure_energies(frame);
         self.measure_velocities(frame);
+        self.measure_distances(frame);
         self.measure_profile(frame);
         let height_mean = self.measure_heights(frame);
         self.measure_rising(frame, height_mean);
@@ -94,97 +95,74 @@ impl Observer {
         }
     }
 
+    fn measure_energies(&mut self, frame: &FrameView<'_>) {
+        let [vx, vy, vz] = frame.velocity;
+        let kinetic = sum([frame.mass, vx, vy, vz], |[mass, x, y, z]| {
+            0.5 * mass * (x * x + y * y + z * z)
+        });
+        let rotational = frame.spin.map_or(0.0, |[wx, wy, wz]| {
+            sum([frame.inertia, wx, wy, wz], |[inertia, x, y, z]| {
+                0.5 * inertia * (x * x + y * y + z * z)
+            })
+        });
+        let gravitational = sum([frame.mass, frame.position[2]], |[mass, z]| {
+            mass * self.gravity * z
+        });
+        let observations = &mut self.observations;
+        observations.kinetic.push(kinetic as f32);
+        observations.rotational.push(rotational as f32);
+        observations.gravitational.push(gravitational as f32);
+        observations.elastic.push(frame.elastic_energy as f32);
+    }
+
+    fn measure_velocities(&mut self, frame: &FrameView<'_>) {
+        let count = frame.count() as f64;
+        let [x, y, _] = frame.position;
+        let [vx, vy, vz] = frame.velocity;
+        let speed = sum(frame.velocity, |[x, y, z]| (x * x + y * y + z * z).sqrt()) / count;
+        let rise = sum([vz], |[vz]| vz) / count;
+        let momentum = sum([frame.mass, x, y, vx, vy], |[mass, x, y, vx, vy]| {
+            mass * (x * vy - y * vx)
+        });
+        let inertia = sum([frame.mass, x, y], |[mass, x, y]| mass * (x * x + y * y));
+        // Spheres that all lie on the axis do not rotate about it.
+        let rotation = if inertia > 0.0 {
+            momentum / inertia
+        } else {
+            0.0
+        };
+        let fluctuation = sum([x, y, vx, vy, vz], |[x, y, vx, vy, vz]| {
+            let x_part = vx + rotation * y;
+            let y_part = vy - rotation * x;
+            let z_part = vz - rise;
+            x_part * x_part + y_part * y_part + z_part * z_part
+        }) / count;
+        let observations = &mut self.observations;
+        observations.speed_mean.push(speed as f32);
+        observations.rotation.push(rotation as f32);
+        observations.fluctuation.push(fluctuation.sqrt() as f32);
+    }
+
     fn measure_distances(&mut self, frame: &FrameView<'_>) {
         let [x, y, _] = frame.position;
         self.distance.clear();
         self.distance
             .extend(x.iter().zip(y).map(|(x, y)| (x * x + y * y).sqrt()));
-
-        let (mut sum, mut least) = (0.0, f64::INFINITY);
-        for &distance in &self.distance {
-            sum += distance;
-            least = least.min(distance);
-        }
+        let mean = sum([&self.distance], |[distance]| distance) / frame.count() as f64;
         let observations = &mut self.observations;
-        observations.hole_radius.push(least as f32);
-        let air_speed = self.air_rotation * sum / frame.count() as f64;
-        observations.air_speed_mean.push(air_speed as f32);
-    }
-
-    fn measure_energies(&mut self, frame: &FrameView<'_>) {
-        let [vx, vy, vz] = frame.velocity;
-        let (mut kinetic, mut speed, mut weighted_height) = (0.0, 0.0, 0.0);
-        for ((((&mass, z), vx), vy), vz) in frame
-            .mass
-            .iter()
-            .zip(frame.position[2])
-            .zip(vx)
-            .zip(vy)
-            .zip(vz)
-        {
-            let speed_squared = vx * vx + vy * vy + vz * vz;
-            kinetic += mass * speed_squared;
-            speed += speed_squared.sqrt();
-            weighted_height += mass * z;
-        }
-        let gravitational = self.gravity * weighted_height;
-        let speed_mean = speed / frame.count() as f64;
-        let observations = &mut self.observations;
-        observations.kinetic.push((0.5 * kinetic) as f32);
-        observations.rotational.push(rotational(frame) as f32);
-        observations.gravitational.push(gravitational as f32);
-        observations.elastic.push(frame.elastic_energy as f32);
-        observations.speed_mean.push(speed_mean as f32);
+        observations.hole_radius.push(least(&self.distance) as f32);
+        observations
+            .air_speed_mean
+            .push((self.air_rotation * mean) as f32);
     }
 
     /// Returns the mean height (m).
     fn measure_heights(&mut self, frame: &FrameView<'_>) -> f64 {
-        let (mut sum, mut highest) = (0.0, f64::NEG_INFINITY);
-        for &z in frame.position[2] {
-            sum += z;
-            highest = highest.max(z);
-        }
-        let mean = sum / frame.count() as f64;
+        let z = frame.position[2];
+        let mean = sum([z], |[z]| z) / frame.count() as f64;
         self.observations.height_mean.push(mean as f32);
-        self.observations.height_max.push(highest as f32);
+        self.observations.height_max.push(largest(z) as f32);
         mean
-    }
-
-    fn measure_velocities(&mut self, frame: &FrameView<'_>) {
-        let [x, y, _] = frame.position;
-        let [vx, vy, vz] = frame.velocity;
-        let centres = || x.iter().zip(y).zip(vx.iter().zip(vy)).zip(vz);
-
-        let (mut angular_momentum, mut inertia, mut rise) = (0.0, 0.0, 0.0);
-        for (((((x, y), (vx, vy)), vz), mass), distance) in
-            centres().zip(frame.mass).zip(&self.distance)
-        {
-            angular_momentum += mass * (x * vy - y * vx);
-            inertia += mass * distance * distance;
-            rise += vz;
-        }
-        // Spheres that all lie on the axis do not rotate about it.
-        let rotation = if inertia > 0.0 {
-            angular_momentum / inertia
-        } else {
-            0.0
-        };
-        let count = frame.count() as f64;
-        rise /= count;
-
-        // A second pass, because the difference of two sums would lose half of the digits.
-        let mut squares = 0.0;
-        for (((x, y), (vx, vy)), vz) in centres() {
-            let x_part = vx + rotation * y;
-            let y_part = vy - rotation * x;
-            let z_part = vz - rise;
-            squares += x_part * x_part + y_part * y_part + z_part * z_part;
-        }
-        let observations = &mut self.observations;
-        observations.rotation.push(rotation as f32);
-        observations
-            .fluctuation
-            .push((squares / count).sqrt() as f32);
     }
 
     fn measure_profile(&mut self, frame: &FrameView<'_>) {
@@ -240,18 +218,6 @@ impl Observer {
         previous.distance.copy_from_slice(&self.distance);
         previous.height_mean = height_mean;
     }
-}
-
-/// Rotational kinetic energy of all spheres (J).
-fn rotational(frame: &FrameView<'_>) -> f64 {
-    let Some([wx, wy, wz]) = frame.spin else {
-        return 0.0;
-    };
-    let mut sum = 0.0;
-    for (((inertia, wx), wy), wz) in frame.inertia.iter().zip(wx).zip(wy).zip(wz) {
-        sum += inertia * (wx * wx + wy * wy + wz * wz);
-    }
-    0.5 * sum
 }
 
 /// Index of the bin of this `distance` from the axis. Bin j reaches from j widths (without) to
