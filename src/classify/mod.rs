@@ -1,65 +1,34 @@
 //! The sieves: from the observables of a run to its label.
 //!
-//! Rice (2012), section 3. Windows are durations; each sieve is one file and reads
-//! records, never simulations.
+//! Rice (2012), section 3. A run first has to settle; each further sieve then looks for its state
+//! in what follows, and [`classify`] lets the first of them in a fixed order decide. Every sieve
+//! is one file, its windows are durations, and it reads records, never simulations.
 
+mod error;
+mod fluid;
+mod label;
+mod order_parameters;
+mod pinned;
+mod run;
+mod settle;
+mod spout;
+#[cfg(test)]
+mod synthetic;
+mod window;
+
+pub use error::ClassifyError;
+pub use fluid::FluidSieve;
+pub use label::Label;
+pub use order_parameters::OrderParameters;
+pub use pinned::PinnedSieve;
+pub use settle::SettleSieve;
+pub use spout::SpoutSieve;
+
+use crate::record::{Outcome, RunRecord};
+use crate::scene::Scene;
+use run::Run;
 use serde::{Deserialize, Serialize};
-
-/// The state of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Label {
-    /// A numerical guard ended the run.
-    Unstable,
-    /// No steady state was reached.
-    Unsettled,
-    /// Steady, and none of the states below.
-    Settled,
-    /// The surface rises from the axis to the wall.
-    Fluid,
-    /// A hole about the axis.
-    Pinned,
-    /// A few spheres rise in the middle.
-    SmallSpout,
-    /// Many spheres rise in the middle.
-    LargeSpout,
-}
-
-impl Label {
-    /// All labels, in the order of their codes.
-    pub const ALL: [Self; 7] = [
-        Self::Unstable,
-        Self::Unsettled,
-        Self::Settled,
-        Self::Fluid,
-        Self::Pinned,
-        Self::SmallSpout,
-        Self::LargeSpout,
-    ];
-
-    /// The thesis's number of the state: 0 unsettled to 5 large spout; -1 unstable.
-    pub fn code(self) -> i8 {
-        self as i8 - 1
-    }
-
-    /// Name, as in tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Unstable => "unstable",
-            Self::Unsettled => "unsettled",
-            Self::Settled => "settled",
-            Self::Fluid => "fluid",
-            Self::Pinned => "pinned",
-            Self::SmallSpout => "small-spout",
-            Self::LargeSpout => "large-spout",
-        }
-    }
-
-    /// The label of that name.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|label| label.name() == name)
-    }
-}
+use spout::Spout;
 
 /// Thresholds of all sieves; every default is that of the thesis's listing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -75,104 +44,20 @@ pub struct Sieves {
     pub spout: SpoutSieve,
 }
 
-/// Thresholds of the settle sieve.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct SettleSieve {
-    /// Window (s).
-    pub window: f64,
-    /// No centre may be above this height (m) in the window.
-    pub height: f64,
-    /// Largest mean over the window of |change per frame of the energy per sphere| / (m g R).
-    pub tolerance: f64,
-}
-
-impl Default for SettleSieve {
-    fn default() -> Self {
-        Self {
-            window: 0.5,
-            height: 0.20,
-            tolerance: 1e-3,
-        }
-    }
-}
-
-/// Thresholds of the fluid sieve.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct FluidSieve {
-    /// Window (s).
-    pub window: f64,
-    /// Least rise from a bin to the next outer one, in radii.
-    pub rise: f64,
-    /// Bins that may fail.
-    pub failures: usize,
-    /// Share of the window's frames that must pass.
-    pub share: f64,
-}
-
-impl Default for FluidSieve {
-    fn default() -> Self {
-        Self {
-            window: 1.5,
-            rise: 0.1,
-            failures: 1,
-            share: 0.9,
-        }
-    }
-}
-
-/// Thresholds of the pinned sieve.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct PinnedSieve {
-    /// Window (s).
-    pub window: f64,
-    /// Least radius of the hole, in radii of the spheres.
-    pub hole: f64,
-    /// Share of the window's frames that must have the hole.
-    pub share: f64,
-}
-
-impl Default for PinnedSieve {
-    fn default() -> Self {
-        Self {
-            window: 2.0,
-            hole: 2.0,
-            share: 0.5,
-        }
-    }
-}
-
-/// Thresholds of the spout sieve.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct SpoutSieve {
-    /// Window (s).
-    pub window: f64,
-    /// Rise speed relative to the mean, in radii per second; one of the scene's
-    /// `output.rise_speeds`.
-    pub rise_speed: f64,
-    /// Distance from the axis over R; one of the scene's `output.rise_radii`.
-    pub radius: f64,
-    /// Least number of rising spheres in every frame.
-    pub least: usize,
-    /// A small spout stays below this share of all spheres in every frame.
-    pub small: f64,
-    /// A spout stays below this share of all spheres in every frame; more is chaos.
-    pub large: f64,
-}
-
-impl Default for SpoutSieve {
-    fn default() -> Self {
-        Self {
-            window: 2.0,
-            rise_speed: 10.0,
-            radius: 0.75,
-            least: 5,
-            small: 0.125,
-            large: 0.25,
-        }
+impl Sieves {
+    /// Whether these sieves can judge runs of this scene, which needs no run to tell.
+    ///
+    /// # Errors
+    /// A threshold is out of range, the scene has no energy scale m g R, or it does not count the
+    /// rising spheres that the spout sieve asks for.
+    pub fn check(&self, scene: &Scene) -> Result<(), ClassifyError> {
+        let interval = scene.time.frame_interval;
+        self.settle.check(interval)?;
+        self.fluid.check(interval)?;
+        self.pinned.check(interval)?;
+        self.spout.check(interval)?;
+        self.spout.column(&scene.output)?;
+        run::energy_scale(scene).map(|_| ())
     }
 }
 
@@ -190,44 +75,179 @@ pub struct Verdict {
     pub order: OrderParameters,
 }
 
-/// How clearly each sieve decided. A margin is positive when the sieve says yes; fields are empty
-/// where a sieve could not act (no steady part, or too short a run).
+/// How clearly each sieve decided, whichever of them gave the label.
+///
+/// A sieve says yes exactly when its margin is zero or more. Fields are empty where a sieve could
+/// not act: on a run that did not settle, or too late in it for a yes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Evidence {
-    /// Smallest windowed energy change, over the tolerance; yes below 1.
+    /// Least mean energy change of any window in which all spheres are low enough, over the
+    /// tolerance; yes up to 1. Empty if there is no such window.
     pub settle_change: Option<f64>,
-    /// Largest share of passing frames of any fluid window.
+    /// Largest share of passing frames of any fluid window; frames outside the steady part count
+    /// as failing.
     pub fluid_share: Option<f64>,
     /// That share less the threshold.
     pub fluid_margin: Option<f64>,
-    /// Largest share of frames with a hole of any pinned window.
+    /// Largest share of frames with a hole of any pinned window; frames outside the steady part
+    /// count as having none.
     pub pinned_share: Option<f64>,
     /// That share less the threshold.
     pub pinned_margin: Option<f64>,
     /// Largest share of frames that qualify as a spout of any spout window.
     pub spout_share: Option<f64>,
-    /// That share less 1, which a spout needs.
+    /// Longest time without a frame that does not qualify as a spout, over the window, less 1.
     pub spout_margin: Option<f64>,
-    /// Largest number of rising spheres in the deciding window, over all spheres.
+    /// Largest number of rising spheres in the window that decided for a spout, over all
+    /// spheres: a small spout below the threshold `small`. Empty without a spout.
     pub spout_peak: Option<f64>,
 }
 
-/// Continuous measures of the state.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct OrderParameters {
-    /// Mean radius of the hole about the axis, over R.
-    pub hole_radius: Option<f64>,
-    /// Curvature of the paraboloid z = z0 + a rho^2 fitted to the mean surface profile, as the
-    /// angular velocity sqrt(2 g a) (rad/s) of the fluid that has it; negative for a heap.
-    pub paraboloid_rotation: Option<f64>,
-    /// Root mean square residual of that fit, in radii of the spheres.
-    pub paraboloid_residual: Option<f64>,
-    /// Rotation rate of the spheres over Omega.
-    pub rotation: Option<f64>,
-    /// Velocity fluctuation over sqrt(2 r g).
-    pub mobility: Option<f64>,
-    /// Twice the mean height above the floor, over R.
-    pub packing_height: Option<f64>,
-    /// Mean number of rising spheres, over all spheres.
-    pub spout_count: Option<f64>,
+/// Labels one run.
+///
+/// The first of these that applies is the label: unstable, large spout, small spout, pinned,
+/// fluid, settled, unsettled. Nothing is measured on an unstable run, whose numbers mean nothing.
+///
+/// # Errors
+/// The sieves cannot judge runs of this scene (see [`Sieves::check`]), or the record contradicts
+/// itself.
+pub fn classify(record: &RunRecord, sieves: &Sieves) -> Result<Verdict, ClassifyError> {
+    sieves.check(&record.scene)?;
+    if let Outcome::Unstable(_) = record.outcome {
+        return Ok(Verdict {
+            label: Label::Unstable,
+            settle_time: None,
+            evidence: Evidence::default(),
+            order: OrderParameters::default(),
+        });
+    }
+    let run = Run::new(record, sieves.spout.column(&record.scene.output)?)?;
+    let settling = sieves.settle.sift(&run);
+    let mut evidence = Evidence {
+        settle_change: settling.least_change,
+        ..Evidence::default()
+    };
+    let Some(start) = settling.start else {
+        let last_quarter = run.frames() * 3 / 4;
+        return Ok(Verdict {
+            label: Label::Unsettled,
+            settle_time: None,
+            evidence,
+            order: OrderParameters::measure(&run, last_quarter),
+        });
+    };
+    let fluid = sieves.fluid.sift(&run, start);
+    let pinned = sieves.pinned.sift(&run, start);
+    let spout = sieves.spout.sift(&run, start);
+    evidence.fluid_share = fluid;
+    evidence.fluid_margin = fluid.map(|share| share - sieves.fluid.share);
+    evidence.pinned_share = pinned;
+    evidence.pinned_margin = pinned.map(|share| share - sieves.pinned.share);
+    evidence.spout_share = spout.share;
+    evidence.spout_margin = spout.longest.map(|windows| windows - 1.0);
+    evidence.spout_peak = spout.peak;
+
+    let yes = |margin: Option<f64>| margin.is_some_and(|margin| margin >= 0.0);
+    let label = match spout.kind {
+        Some(Spout::Large) => Label::LargeSpout,
+        Some(Spout::Small) => Label::SmallSpout,
+        None if yes(evidence.pinned_margin) => Label::Pinned,
+        None if yes(evidence.fluid_margin) => Label::Fluid,
+        None => Label::Settled,
+    };
+    Ok(Verdict {
+        label,
+        settle_time: Some(run.time(start)),
+        evidence,
+        order: OrderParameters::measure(&run, start),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::synthetic::quiet;
+    use super::*;
+
+    const FRAMES: usize = 5000;
+
+    fn label(record: &RunRecord) -> Label {
+        classify(record, &Sieves::default()).unwrap().label
+    }
+
+    #[test]
+    fn sieves_decide_in_their_order() {
+        let run = quiet(FRAMES);
+        assert_eq!(label(&run), Label::Settled);
+        let run = run.with_fluid(0..FRAMES);
+        assert_eq!(label(&run), Label::Fluid);
+        let run = run.with_hole(0.02, 0..FRAMES);
+        assert_eq!(label(&run), Label::Pinned);
+        let run = run.with_rising(10, 0..FRAMES);
+        assert_eq!(label(&run), Label::SmallSpout);
+        let run = run.with_rising(40, 0..FRAMES);
+        assert_eq!(label(&run), Label::LargeSpout);
+        let mut unsettled = run.clone();
+        unsettled.observations.height_max.fill(1.0);
+        assert_eq!(label(&unsettled), Label::Unsettled);
+        assert_eq!(label(&run.unstable()), Label::Unstable);
+    }
+
+    #[test]
+    fn all_sieves_give_evidence_whichever_decides() {
+        let run = quiet(FRAMES)
+            .with_fluid(0..FRAMES)
+            .with_hole(0.02, 0..FRAMES)
+            .with_rising(10, 0..FRAMES);
+        let evidence = classify(&run, &Sieves::default()).unwrap().evidence;
+        assert_eq!(evidence.fluid_margin, Some(1.0 - 0.9));
+        assert_eq!(evidence.pinned_margin, Some(0.5));
+        assert_eq!(evidence.spout_margin, Some(4748.0 / 2000.0 - 1.0));
+    }
+
+    #[test]
+    fn an_unsettled_run_has_no_evidence_of_a_state() {
+        let mut run = quiet(FRAMES).with_fluid(0..FRAMES);
+        run.observations.height_max.fill(1.0);
+        let verdict = classify(&run, &Sieves::default()).unwrap();
+        assert_eq!(verdict.settle_time, None);
+        assert_eq!(verdict.evidence, Evidence::default());
+    }
+
+    #[test]
+    fn nothing_is_measured_on_an_unstable_run() {
+        let verdict = classify(&quiet(FRAMES).unstable(), &Sieves::default()).unwrap();
+        assert_eq!(verdict.evidence, Evidence::default());
+        assert_eq!(verdict.order, OrderParameters::default());
+        assert_eq!(verdict.settle_time, None);
+    }
+
+    #[test]
+    fn windows_are_durations() {
+        // With frames of 5 ms, nine tenths of the fluid window of 1.5 s are 270 frames.
+        let mut run = quiet(1000).with_fluid(500..770);
+        run.scene.time.frame_interval = 5e-3;
+        assert_eq!(label(&run), Label::Fluid);
+        let mut run = quiet(1000).with_fluid(500..769);
+        run.scene.time.frame_interval = 5e-3;
+        assert_eq!(label(&run), Label::Settled);
+    }
+
+    #[test]
+    fn a_record_that_contradicts_itself_is_an_error() {
+        let mut run = quiet(FRAMES);
+        run.observations.rotation.pop();
+        let error = classify(&run, &Sieves::default()).unwrap_err();
+        assert!(
+            error.to_string().contains("`rotation` holds 4999 of 5000"),
+            "{error}"
+        );
+
+        let mut run = quiet(FRAMES);
+        run.scene.output.rise_radii.push(0.9);
+        assert!(classify(&run, &Sieves::default()).is_err());
+
+        let mut run = quiet(FRAMES);
+        run.mass.clear();
+        assert!(classify(&run, &Sieves::default()).is_err());
+    }
 }

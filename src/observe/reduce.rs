@@ -6,6 +6,10 @@
 const LANES: usize = 4;
 
 /// Sum over the spheres of the term that follows from a sphere's entries in the columns.
+#[expect(
+    clippy::needless_range_loop,
+    reason = "the index runs through all columns at once"
+)]
 pub(super) fn sum<const N: usize>(columns: [&[f64]; N], term: impl Fn([f64; N]) -> f64) -> f64 {
     let count = columns[0].len();
     let split = columns.map(|column| column[..count].as_chunks());

@@ -1,0 +1,45 @@
+//! Why a run cannot be classified.
+
+/// Why a run cannot be classified.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ClassifyError {
+    /// A threshold of the sieves is out of range.
+    #[error("`sieves.{key}` is {value}, but must be {expected}")]
+    Threshold {
+        /// The threshold, as `sieve.key`.
+        key: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it may be.
+        expected: String,
+    },
+    /// Energy changes are measured in m g R, which the scene leaves undefined.
+    #[error(
+        "the settle sieve measures energy in m g R, and this scene has no {missing}: \
+         give it `{key}`, or do not classify its runs"
+    )]
+    NoEnergyScale {
+        /// What the scene lacks.
+        missing: &'static str,
+        /// The key that would supply it.
+        key: &'static str,
+    },
+    /// The run did not count the rising spheres that the spout sieve asks for.
+    #[error(
+        "`sieves.spout.{key}` is {value}, but the run counted rising spheres for {counted:?} only: \
+         choose one of these, or add {value} to `output.{list}` and run the scene again"
+    )]
+    NotCounted {
+        /// The threshold of the spout sieve.
+        key: &'static str,
+        /// Its value.
+        value: f64,
+        /// The key of the scene's output table that lists what is counted.
+        list: &'static str,
+        /// What that list holds.
+        counted: Vec<f64>,
+    },
+    /// The parts of a record contradict each other.
+    #[error("the record contradicts itself: {0}; run the scene again")]
+    Inconsistent(String),
+}

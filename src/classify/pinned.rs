@@ -1,0 +1,118 @@
+//! The pinned sieve: a hole about the axis.
+
+use super::run::Run;
+use super::{ClassifyError, window};
+use serde::{Deserialize, Serialize};
+
+/// Thresholds of the pinned sieve (Rice, 2012, listing 7.3, whose central hole is meant, not the
+/// text's two layers at the wall).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PinnedSieve {
+    /// Window (s).
+    pub window: f64,
+    /// A frame has a hole if every centre is farther than this from the axis, in (mean) radii of
+    /// the spheres.
+    pub hole: f64,
+    /// Share of the window's frames that must have the hole.
+    pub share: f64,
+}
+
+impl Default for PinnedSieve {
+    fn default() -> Self {
+        Self {
+            window: 2.0,
+            hole: 2.0,
+            share: 0.5,
+        }
+    }
+}
+
+impl PinnedSieve {
+    pub(super) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
+        window::check("pinned.window", self.window, interval)?;
+        window::check_share("pinned.share", self.share)?;
+        if !self.hole.is_finite() || self.hole < 0.0 {
+            return Err(ClassifyError::Threshold {
+                key: "pinned.hole",
+                value: self.hole,
+                expected: "a number of radii, 0 or more".to_owned(),
+            });
+        }
+        Ok(())
+    }
+
+    /// Largest share of frames with a hole of any window from frame `start` on.
+    pub(super) fn sift(&self, run: &Run<'_>, start: usize) -> Option<f64> {
+        // Single precision, as the distances: a centre at the limit is not beyond it.
+        let limit = (self.hole * run.radius) as f32;
+        let distances = &run.observations.hole_radius[start..];
+        let holes: Vec<bool> = distances.iter().map(|&distance| distance > limit).collect();
+        window::largest_share(
+            &holes,
+            window::frames(self.window, run.interval),
+            self.share,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::classify::synthetic::{RADIUS, START, quiet};
+    use crate::classify::{Label, Sieves, Verdict, classify};
+    use crate::record::RunRecord;
+
+    const FRAMES: usize = 4000;
+    const WIDE: f32 = 0.02;
+
+    fn judge(record: &RunRecord) -> Verdict {
+        classify(record, &Sieves::default()).unwrap()
+    }
+
+    #[test]
+    fn half_of_a_window_pins() {
+        let pinned = judge(&quiet(FRAMES).with_hole(WIDE, 500..1500));
+        assert_eq!(pinned.label, Label::Pinned);
+        assert_eq!(pinned.evidence.pinned_margin, Some(0.0));
+
+        let almost = judge(&quiet(FRAMES).with_hole(WIDE, 500..1499));
+        assert_eq!(almost.label, Label::Settled);
+        assert_eq!(almost.evidence.pinned_share, Some(0.4995));
+    }
+
+    #[test]
+    fn the_window_slides() {
+        let near = quiet(FRAMES)
+            .with_hole(WIDE, 500..1000)
+            .with_hole(WIDE, 2000..2500);
+        assert_eq!(judge(&near).label, Label::Pinned);
+        let far = quiet(FRAMES)
+            .with_hole(WIDE, 500..1000)
+            .with_hole(WIDE, 2001..2501);
+        assert_eq!(judge(&far).label, Label::Settled);
+    }
+
+    #[test]
+    fn frames_before_the_steady_part_do_not_count() {
+        let early = quiet(FRAMES).with_hole(WIDE, 0..START + 999);
+        assert_eq!(judge(&early).label, Label::Settled);
+        let enough = quiet(FRAMES).with_hole(WIDE, 0..START + 1000);
+        assert_eq!(judge(&enough).label, Label::Pinned);
+    }
+
+    #[test]
+    fn a_hole_is_wider_than_two_radii() {
+        let border = (2.0 * RADIUS) as f32;
+        let at = quiet(FRAMES).with_hole(border, 0..FRAMES);
+        assert_eq!(judge(&at).label, Label::Settled);
+        let beyond = quiet(FRAMES).with_hole(border.next_up(), 0..FRAMES);
+        assert_eq!(judge(&beyond).label, Label::Pinned);
+    }
+
+    #[test]
+    fn a_run_too_short_for_a_yes_has_no_evidence() {
+        let frames = START + 1000;
+        assert!(judge(&quiet(frames)).evidence.pinned_share.is_some());
+        assert_eq!(judge(&quiet(frames - 1)).evidence.pinned_share, None);
+    }
+}

@@ -1,0 +1,104 @@
+//! A run as the sieves read it: observables, and the scales they are measured in.
+
+use super::ClassifyError;
+use crate::observe::Observations;
+use crate::record::RunRecord;
+use crate::scene::Scene;
+use ndarray::{ArrayView1, Axis};
+
+/// A run as the sieves read it.
+pub(super) struct Run<'a> {
+    pub(super) observations: &'a Observations,
+    pub(super) scene: &'a Scene,
+    /// Number of rising spheres at every frame, for the spout sieve's distance and speed.
+    pub(super) rising: ArrayView1<'a, u16>,
+    /// Time between frames (s).
+    pub(super) interval: f64,
+    /// Number of spheres.
+    pub(super) count: usize,
+    /// Mean radius of the spheres (m).
+    pub(super) radius: f64,
+    /// Mass of all spheres (kg).
+    pub(super) mass: f64,
+    /// Radius R of the tank (m).
+    pub(super) tank_radius: f64,
+    /// Acceleration g (m/s2).
+    pub(super) gravity: f64,
+}
+
+impl<'a> Run<'a> {
+    /// The run of a record, with the rising spheres of one `column` (distance and speed).
+    pub(super) fn new(
+        record: &'a RunRecord,
+        column: (usize, usize),
+    ) -> Result<Self, ClassifyError> {
+        check_shapes(record)?;
+        let (gravity, tank_radius) = energy_scale(&record.scene)?;
+        let count = record.radius.len();
+        let (distance, speed) = column;
+        let within = record.observations.rising.index_axis(Axis(1), distance);
+        Ok(Self {
+            observations: &record.observations,
+            scene: &record.scene,
+            rising: within.index_axis_move(Axis(1), speed),
+            interval: record.scene.time.frame_interval,
+            count,
+            radius: record.radius.iter().sum::<f64>() / count as f64,
+            mass: record.mass.iter().sum(),
+            tank_radius,
+            gravity,
+        })
+    }
+
+    pub(super) fn frames(&self) -> usize {
+        self.observations.frames()
+    }
+
+    /// Time of a frame (s).
+    pub(super) fn time(&self, frame: usize) -> f64 {
+        self.observations.time[frame]
+    }
+}
+
+/// The acceleration g (m/s2) and the tank radius R (m) of the energy scale m g R.
+pub(super) fn energy_scale(scene: &Scene) -> Result<(f64, f64), ClassifyError> {
+    let gravity = scene.gravity.as_ref().map(|it| it.acceleration);
+    let radius = scene.tank.as_ref().and_then(|tank| tank.radius);
+    let missing = |missing, key| ClassifyError::NoEnergyScale { missing, key };
+    Ok((
+        gravity
+            .filter(|&it| it > 0.0)
+            .ok_or_else(|| missing("gravity", "gravity.acceleration"))?,
+        radius.ok_or_else(|| missing("tank radius", "tank.radius"))?,
+    ))
+}
+
+/// Whether all observables have one entry per frame, and rising spheres one per distance and
+/// speed of the scene.
+fn check_shapes(record: &RunRecord) -> Result<(), ClassifyError> {
+    let inconsistent = |message: String| Err(ClassifyError::Inconsistent(message));
+    let observations = &record.observations;
+    let frames = observations.frames();
+    if record.radius.is_empty() || record.mass.len() != record.radius.len() {
+        let (radii, masses) = (record.radius.len(), record.mass.len());
+        return inconsistent(format!("it holds {radii} radii and {masses} masses"));
+    }
+    let scalars = observations.scalars().into_iter();
+    let lengths = scalars
+        .map(|series| (series.name, series.values.len()))
+        .chain([("profile", observations.profile.nrows())]);
+    for (name, length) in lengths {
+        if length != frames {
+            return inconsistent(format!("`{name}` holds {length} of {frames} frames"));
+        }
+    }
+    let output = &record.scene.output;
+    let expected = (frames, output.rise_radii.len(), output.rise_speeds.len());
+    let found = observations.rising.dim();
+    if found != expected {
+        return inconsistent(format!(
+            "`rising` has the shape {found:?} instead of {expected:?}"
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,226 @@
+//! The settle sieve: from when a run counts as steady.
+
+use super::run::Run;
+use super::{ClassifyError, window};
+use serde::{Deserialize, Serialize};
+
+/// Thresholds of the settle sieve (Rice, 2012, section 3.1).
+///
+/// A run is settled in a window in which no centre is above `height` and the energy of the
+/// spheres (kinetic, rotational and gravitational) changes little: its change from frame to frame,
+/// per millisecond and sphere, is at most `tolerance` m g R on average. The other sieves act on
+/// what follows the middle of the first such window.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SettleSieve {
+    /// Window (s).
+    pub window: f64,
+    /// No centre may be above this height (m) in the window.
+    pub height: f64,
+    /// Largest mean over the window of |change of the energy per sphere and millisecond| over
+    /// m g R. With frames of another interval, the change is scaled to one millisecond.
+    pub tolerance: f64,
+}
+
+impl Default for SettleSieve {
+    fn default() -> Self {
+        Self {
+            window: 0.5,
+            height: 0.20,
+            tolerance: 1e-3,
+        }
+    }
+}
+
+/// What the settle sieve says.
+pub(super) struct Settling {
+    /// The first frame of the steady part.
+    pub(super) start: Option<usize>,
+    /// Least mean change of any window that is low enough, over the tolerance.
+    pub(super) least_change: Option<f64>,
+}
+
+impl SettleSieve {
+    pub(super) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
+        window::check("settle.window", self.window, interval)?;
+        let invalid = |key, value, expected: &str| ClassifyError::Threshold {
+            key,
+            value,
+            expected: expected.to_owned(),
+        };
+        if self.height.is_nan() {
+            return Err(invalid("settle.height", self.height, "a height in metres"));
+        }
+        if !self.tolerance.is_finite() || self.tolerance <= 0.0 {
+            let expected = "a number above 0";
+            return Err(invalid("settle.tolerance", self.tolerance, expected));
+        }
+        Ok(())
+    }
+
+    /// Looks for the first steady window of a run.
+    pub(super) fn sift(&self, run: &Run<'_>) -> Settling {
+        let window = window::frames(self.window, run.interval);
+        // Single precision, as the heights: a centre at the limit is not above it.
+        let limit = self.height as f32;
+        let heights = run.observations.height_max.iter().skip(1);
+        let high: Vec<f64> = heights.map(|&z| f64::from(u8::from(z > limit))).collect();
+        let highs = window::sums(&high, window);
+        let changes = window::sums(&changes(run), window);
+
+        let mut settling = Settling {
+            start: None,
+            least_change: None,
+        };
+        for (first, (change, high)) in changes.into_iter().zip(highs).enumerate() {
+            if high > 0.0 {
+                continue;
+            }
+            let change = change / window as f64 / self.tolerance;
+            settling.least_change = Some(
+                settling
+                    .least_change
+                    .map_or(change, |least: f64| least.min(change)),
+            );
+            if settling.start.is_none() && change <= 1.0 {
+                // Changes are counted from the second frame.
+                settling.start = Some(1 + first + window / 2);
+            }
+        }
+        settling
+    }
+}
+
+/// |Change of energy| over M g R per millisecond (M: mass of all spheres), into each frame but
+/// the first.
+fn changes(run: &Run<'_>) -> Vec<f64> {
+    let observations = run.observations;
+    let energy = |frame: usize| {
+        f64::from(observations.kinetic[frame])
+            + f64::from(observations.rotational[frame])
+            + f64::from(observations.gravitational[frame])
+    };
+    let milliseconds = run.interval / 1e-3;
+    let unit = run.mass * run.gravity * run.tank_radius * milliseconds;
+    (1..run.frames())
+        .map(|frame| (energy(frame) - energy(frame - 1)).abs() / unit)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::classify::synthetic::{ENERGY_UNIT, START, quiet};
+    use crate::classify::{ClassifyError, Label, Sieves, Verdict, classify};
+    use crate::record::RunRecord;
+
+    fn judge(record: &RunRecord) -> Verdict {
+        classify(record, &Sieves::default()).unwrap()
+    }
+
+    /// A quiet run whose energy jumps to and fro in all frames, by this over m g R per sphere.
+    fn restless(jump: f64) -> RunRecord {
+        let mut record = quiet(1000);
+        let energies = &mut record.observations.kinetic;
+        for energy in energies.iter_mut().skip(1).step_by(2) {
+            *energy = (256.0 * ENERGY_UNIT * jump) as f32;
+        }
+        record
+    }
+
+    #[test]
+    fn a_run_settles_in_the_middle_of_its_first_steady_window() {
+        let verdict = judge(&quiet(1000));
+        assert_eq!(verdict.label, Label::Settled);
+        assert_eq!(verdict.settle_time, Some(START as f64 * 1e-3));
+        assert_eq!(verdict.evidence.settle_change, Some(0.0));
+    }
+
+    #[test]
+    fn a_window_needs_all_its_frames() {
+        // A change into each of 500 frames, that is 501 frames.
+        assert_eq!(judge(&quiet(501)).label, Label::Settled);
+        let short = judge(&quiet(500));
+        assert_eq!(short.label, Label::Unsettled);
+        assert_eq!(short.evidence.settle_change, None);
+        assert_eq!(judge(&quiet(0)).label, Label::Unsettled);
+    }
+
+    #[test]
+    fn energy_changes_count_up_to_the_tolerance() {
+        for (jump, label) in [(0.99e-3, Label::Settled), (1.01e-3, Label::Unsettled)] {
+            let verdict = judge(&restless(jump));
+            assert_eq!(verdict.label, label);
+            let change = verdict.evidence.settle_change.unwrap();
+            assert!((change - jump / 1e-3).abs() < 1e-5, "{change}");
+        }
+    }
+
+    #[test]
+    fn all_three_energies_count_and_the_elastic_does_not() {
+        for name in ["kinetic", "rotational", "gravitational", "elastic"] {
+            let mut record = quiet(1000);
+            let energies = std::mem::take(&mut restless(2e-3).observations.kinetic);
+            *record.observations.scalar_mut(name).unwrap() = energies;
+            let settled = judge(&record).label == Label::Settled;
+            assert_eq!(settled, name == "elastic", "{name}");
+        }
+    }
+
+    #[test]
+    fn changes_are_per_millisecond_whatever_the_frames() {
+        let mut record = restless(4e-3);
+        record.scene.time.frame_interval = 5e-3;
+        let change = judge(&record).evidence.settle_change.unwrap();
+        assert!((change - 0.8).abs() < 1e-5, "{change}");
+    }
+
+    #[test]
+    fn one_jump_delays_the_run_until_its_window_tolerates_it() {
+        // On average over 500 frames this is 1.2 times the tolerance: the window must begin
+        // after the frame it leads into.
+        let mut record = quiet(2000);
+        record.observations.gravitational[300..].fill((256.0 * ENERGY_UNIT * 0.6) as f32);
+        assert_eq!(judge(&record).settle_time, Some(551.0 * 1e-3));
+    }
+
+    #[test]
+    fn a_sphere_may_be_at_the_height_but_not_above() {
+        let mut record = quiet(2000);
+        record.observations.height_max.fill(0.2);
+        assert_eq!(judge(&record).settle_time, Some(START as f64 * 1e-3));
+        record.observations.height_max[400] = 0.200_001;
+        assert_eq!(judge(&record).settle_time, Some(651.0 * 1e-3));
+        record.observations.height_max.fill(0.3);
+        let high = judge(&record);
+        assert_eq!(high.label, Label::Unsettled);
+        assert_eq!(high.evidence.settle_change, None);
+    }
+
+    #[test]
+    fn without_gravity_or_tank_there_is_no_energy_scale() {
+        let mut record = quiet(1000);
+        record.scene.gravity = None;
+        let error = classify(&record, &Sieves::default()).unwrap_err();
+        assert!(matches!(error, ClassifyError::NoEnergyScale { .. }));
+        assert!(
+            error.to_string().contains("`gravity.acceleration`"),
+            "{error}"
+        );
+
+        let mut record = quiet(1000);
+        record.scene.tank = None;
+        let error = classify(&record, &Sieves::default()).unwrap_err();
+        assert!(error.to_string().contains("`tank.radius`"), "{error}");
+    }
+
+    #[test]
+    fn thresholds_out_of_range_are_named() {
+        let mut sieves = Sieves::default();
+        sieves.settle.tolerance = 0.0;
+        let error = sieves.check(&quiet(0).scene).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "`sieves.settle.tolerance` is 0, but must be a number above 0"
+        );
+    }
+}
