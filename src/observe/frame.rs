@@ -28,14 +28,16 @@ impl FrameView<'_> {
     pub fn count(&self) -> usize {
         self.radius.len()
     }
+}
 
-    /// A copy of all spheres, taken at `time` (s).
-    pub fn snapshot(&self, time: f64) -> Snapshot {
-        Snapshot {
+impl Snapshot {
+    /// A copy of all spheres of a frame at `time` (s).
+    pub fn take(time: f64, frame: &FrameView<'_>) -> Self {
+        Self {
             time,
-            position: rows(self.position),
-            velocity: rows(self.velocity),
-            spin: self.spin.map_or_else(|| Array2::zeros((0, 3)), rows),
+            position: rows(frame.position),
+            velocity: rows(frame.velocity),
+            spin: frame.spin.map_or_else(|| Array2::zeros((0, 3)), rows),
         }
     }
 }
@@ -63,7 +65,7 @@ mod tests {
             inertia: &[],
             elastic_energy: 0.0,
         };
-        let snapshot = view.snapshot(0.25);
+        let snapshot = Snapshot::take(0.25, &view);
         assert_eq!(snapshot.time, 0.25);
         assert_eq!(snapshot.position, array![[1.0, 3.0, 5.0], [2.0, 4.0, 6.0]]);
         assert_eq!(snapshot.velocity, array![[0.1, 0.3, 0.5], [0.2, 0.4, 0.6]]);
@@ -74,7 +76,7 @@ mod tests {
             ..view
         };
         assert_eq!(
-            spinning.snapshot(0.0).spin,
+            Snapshot::take(0.0, &spinning).spin,
             array![[7.0, 9.0, 11.0], [8.0, 10.0, 12.0]]
         );
     }

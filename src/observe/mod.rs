@@ -7,4 +7,4 @@ mod reduce;
 
 pub use frame::FrameView;
 pub use observations::{Observations, Series, Snapshot};
-pub use observer::{FrameView, Observer};
+pub use observer::Observer;
