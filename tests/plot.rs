@@ -225,9 +225,9 @@ fn nine() -> (Sweep, LabelTable) {
 fn the_nine_by_nine_phase_diagram() {
     let (sweep, table) = nine();
     let svg = draw("nine", "phase", &sweep, &table);
-    // 81 cells, four keys, one key of five shades and the background.
+    // 81 cells, five keys, a key of four shades, and the background.
     let cells = svg.lines().filter(|line| line.starts_with("<rect")).count();
-    assert_eq!(cells, 81 + 4 + 4 + 1);
+    assert_eq!(cells, 81 + 5 + 4 + 1);
     for text in [
         "Theoretical tank, linear drag",
         "r / R",
@@ -375,6 +375,7 @@ fn one_axis_makes_a_strip() {
     let svg = draw("strip", "phase", &sweep, &table);
     assert!(has(&svg, "Ω (rad/s)") && has(&svg, "critical rotation Ωc"));
     draw("strip-settle-time", "settle-time", &sweep, &table);
+    draw("strip-rotation", "rotation", &sweep, &table);
 }
 
 #[test]

@@ -3,12 +3,15 @@
 use super::palette::ColorMap;
 use super::scale::{Direction, Room, Scale};
 use super::style::{self, Drawn, LABEL, SMALL, Sheet, TICK, frame, letters, px};
+use super::text;
 use plotters::element::PathElement;
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{FontTransform, RGBColor};
 
 /// Width of the bar itself.
 const BAR: i32 = px(16);
+/// Distance of the label's lines.
+const LINE: i32 = px(17);
 /// Steps of colour.
 const STEPS: i32 = 128;
 
@@ -18,8 +21,8 @@ pub(super) struct ColorBar {
     low: f64,
     high: f64,
     map: ColorMap,
-    /// Name and unit of the values, with markup.
-    label: String,
+    /// Name and unit of the values, with markup, line by line.
+    label: Vec<String>,
 }
 
 impl ColorBar {
@@ -49,8 +52,14 @@ impl ColorBar {
             low,
             high,
             map,
-            label,
+            label: vec![label],
         }
+    }
+
+    /// The same with a label that a bar of this height can hold.
+    pub(super) fn fitted(self, height: i32) -> Self {
+        let label = text::wrap(&self.label.join(" "), f64::from(LABEL), f64::from(height));
+        Self { label, ..self }
     }
 
     /// Colour of a value.
@@ -70,7 +79,7 @@ impl ColorBar {
     /// Its width at a height.
     pub(super) fn width(&self, height: i32) -> i32 {
         let numbers = self.scale(height).label_width(f64::from(SMALL)).ceil() as i32;
-        BAR + 2 * TICK + numbers + px(10) + LABEL
+        BAR + 2 * TICK + numbers + px(6) + LINE * self.label.len() as i32
     }
 
     /// Draws it with its upper left corner at `origin`.
@@ -91,10 +100,13 @@ impl ColorBar {
             sheet.draw(&tick)?;
             sheet.draw_text(text, &numbers, (right + 2 * TICK, y))?;
         }
-        // The label is read from below, its last line at the right edge.
+        // The label is read from below, its last line on the right.
         let name = letters(LABEL, HPos::Center, VPos::Bottom).transform(FontTransform::Rotate270);
-        let place = (left + self.width(height), top + height / 2);
-        sheet.draw_text(&self.label, &name, place)
+        let (end, middle) = (left + self.width(height), top + height / 2);
+        for (index, line) in self.label.iter().rev().enumerate() {
+            sheet.draw_text(line, &name, (end - LINE * index as i32, middle))?;
+        }
+        Ok(())
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::color_bar::ColorBar;
 use super::grid::{Grid, Panel};
-use super::layout::Layout;
+use super::layout::{Layout, TITLE_LINE};
 use super::legend::{Entry, Key};
 use super::scale::Scale;
 use super::style::{self, Drawn, LABEL, SMALL, Sheet, TICK, TITLE, frame, letters, px};
@@ -53,7 +53,7 @@ impl Diagram<'_> {
             .collect();
         let entries = self.entries(curves.iter().any(|curve| !curve.is_empty()));
         let title = input.sweep.title.as_deref();
-        let layout = Layout::new(title, self.grid, self.bar.as_ref(), entries);
+        let layout = Layout::new(title, self.grid, self.bar.clone(), entries);
         let size = (layout.size.0 as u32, layout.size.1 as u32);
         let mut body = String::new();
         {
@@ -64,8 +64,8 @@ impl Diagram<'_> {
             self.draw_words(&sheet, &layout)?;
             let (legend, corner) = &layout.legend;
             legend.draw(&sheet, *corner)?;
-            if let Some(bar) = &self.bar {
-                bar.draw(&sheet, layout.bar.0, layout.bar.1)?;
+            if let Some((bar, corner, height)) = &layout.bar {
+                bar.draw(&sheet, *corner, *height)?;
             }
         }
         Ok(Svg::new(self.name, input, size, &body))
@@ -205,7 +205,7 @@ impl Diagram<'_> {
         let rotated = |style: TextStyle<'static>| style.transform(FontTransform::Rotate270);
         for (index, line) in layout.title.iter().enumerate() {
             let style = letters(TITLE, HPos::Center, VPos::Top);
-            let y = style::MARGIN + index as i32 * px(20);
+            let y = style::MARGIN + index as i32 * TITLE_LINE;
             sheet.draw_text(line, &style, (layout.size.0 / 2, y))?;
         }
         let x_label = letters(LABEL, HPos::Center, VPos::Top);
@@ -217,7 +217,7 @@ impl Diagram<'_> {
         }
         for (index, panel) in self.grid.panels.iter().enumerate() {
             let (left, top) = layout.corner(index);
-            let first_row = index < layout.columns;
+            let first_row = index < layout.shape.columns;
             if let (Some(axis), Some(value)) = (&self.grid.columns, panel.column)
                 && (first_row || self.grid.rows.is_none())
             {
@@ -225,11 +225,11 @@ impl Diagram<'_> {
                 let place = (left + layout.panel.0 / 2, top - px(3));
                 sheet.draw_text(&axis.at(value), &style, place)?;
             }
-            let last_column = (index + 1).is_multiple_of(layout.columns);
+            let last_column = (index + 1).is_multiple_of(layout.shape.columns);
             if let (Some(axis), Some(value), true) = (&self.grid.rows, panel.row, last_column) {
                 let style =
                     letters(SMALL, HPos::Center, VPos::Bottom).transform(FontTransform::Rotate90);
-                let place = (left + layout.panel.0 + px(4), top + layout.panel.1 / 2);
+                let place = (left + layout.panel.0 + px(8), top + layout.panel.1 / 2);
                 sheet.draw_text(&axis.at(value), &style, place)?;
             }
         }

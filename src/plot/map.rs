@@ -25,13 +25,13 @@ pub(super) struct Map {
 #[rustfmt::skip]
 pub(super) static MAPS: [Map; 16] = [
     map("settle-time", "settle time", "s", |verdict| verdict.settle_time),
-    map("hole-radius", "radius of the hole / $R$", "", |verdict| verdict.order.hole_radius),
-    signed("paraboloid-rotation", "rotation of the fluid of the same surface", "rad/s", |verdict| verdict.order.paraboloid_rotation),
-    map("paraboloid-residual", "residual of the paraboloid / $r$", "", |verdict| verdict.order.paraboloid_residual),
+    map("hole-radius", "hole radius / $R$", "", |verdict| verdict.order.hole_radius),
+    signed("paraboloid-rotation", "paraboloid rotation", "rad/s", |verdict| verdict.order.paraboloid_rotation),
+    map("paraboloid-residual", "paraboloid residual / $r$", "", |verdict| verdict.order.paraboloid_residual),
     map("rotation", "rotation of the spheres / $Ω$", "", |verdict| verdict.order.rotation),
-    map("mobility", "velocity fluctuation / √($2rg$)", "", |verdict| verdict.order.mobility),
-    map("packing-height", "twice the mean height above the floor / $R$", "", |verdict| verdict.order.packing_height),
-    map("spout-count", "share of the spheres that rise", "", |verdict| verdict.order.spout_count),
+    map("mobility", "velocity fluctuation / √(2$rg$)", "", |verdict| verdict.order.mobility),
+    map("packing-height", "packing height / $R$", "", |verdict| verdict.order.packing_height),
+    map("spout-count", "rising spheres / $n$", "", |verdict| verdict.order.spout_count),
     map("settle-change", "least change of energy / tolerance", "", |verdict| verdict.evidence.settle_change),
     map("fluid-share", "share of fluid frames", "", |verdict| verdict.evidence.fluid_share),
     signed("fluid-margin", "margin of the fluid sieve", "", |verdict| verdict.evidence.fluid_margin),
@@ -39,7 +39,7 @@ pub(super) static MAPS: [Map; 16] = [
     signed("pinned-margin", "margin of the pinned sieve", "", |verdict| verdict.evidence.pinned_margin),
     map("spout-share", "share of frames with a spout", "", |verdict| verdict.evidence.spout_share),
     signed("spout-margin", "margin of the spout sieve", "", |verdict| verdict.evidence.spout_margin),
-    map("spout-peak", "largest share of the spheres that rise", "", |verdict| verdict.evidence.spout_peak),
+    map("spout-peak", "most rising spheres / $n$", "", |verdict| verdict.evidence.spout_peak),
 ];
 
 const fn map(

@@ -48,7 +48,7 @@ impl Scale {
             logarithmic,
             ticks: Vec::new(),
         };
-        let few = values.len() <= MOST_VALUES;
+        let few = (1..=MOST_VALUES).contains(&values.len());
         let candidates = few.then(|| values.to_vec()).into_iter();
         let candidates = candidates.chain(round_ticks(low, high, logarithmic));
         for (index, values) in candidates.enumerate() {

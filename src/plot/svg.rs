@@ -34,7 +34,11 @@ impl Svg {
             .iter()
             .map(|(key, value)| format!("{key}: {}", escape(value)))
             .collect();
-        let head = format!("<metadata>\n{}\n</metadata>\n", lines.join("\n"));
+        let title = escape(metadata[0].1.as_str());
+        let head = format!(
+            "<title>{title}</title>\n<metadata>\n{}\n</metadata>\n",
+            lines.join("\n")
+        );
         Self {
             document: canvas::document(size, &head, body),
             metadata,
