@@ -2,6 +2,8 @@
 //!
 //! Every figure drawn here is left in `target/tmp` to look at.
 
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
 use phase::classify::{Evidence, Label, OrderParameters, Sieves, Verdict};
 use phase::plot::{self, PlotError, Svg};
 use phase::record::Program;

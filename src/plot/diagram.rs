@@ -45,7 +45,7 @@ impl Diagram<'_> {
     /// Draws it.
     pub(super) fn draw(&self, input: &Input<'_>) -> Result<Svg, PlotError> {
         let scene = &input.sweep.scene;
-        let curves: Vec<Vec<Vec<(f64, f64)>>> = self
+        let curves: Vec<Vec<critical::Piece>> = self
             .grid
             .panels
             .iter()
@@ -100,7 +100,7 @@ impl Diagram<'_> {
         layout: &Layout,
         index: usize,
         panel: &Panel,
-        curves: &[Vec<(f64, f64)>],
+        curves: &[critical::Piece],
     ) -> Drawn {
         let (left, top) = layout.corner(index);
         let (width, height) = layout.panel;
@@ -182,16 +182,16 @@ impl Diagram<'_> {
                 BLACK.mix(0.7).stroke_width(8),
             ))
         };
-        for edge in 1..columns {
-            for run in runs(rows, |row| differ(group(edge - 1, row), group(edge, row))) {
-                line((x[edge], y[run.0]), (x[edge], y[run.1]))?;
+        for (edge, &at) in x.iter().enumerate().take(columns).skip(1) {
+            let border = |row| differ(group(edge - 1, row), group(edge, row));
+            for (from, to) in runs(rows, border) {
+                line((at, y[from]), (at, y[to]))?;
             }
         }
-        for edge in 1..rows {
-            for run in runs(columns, |column| {
-                differ(group(column, edge - 1), group(column, edge))
-            }) {
-                line((x[run.0], y[edge]), (x[run.1], y[edge]))?;
+        for (edge, &at) in y.iter().enumerate().take(rows).skip(1) {
+            let border = |column| differ(group(column, edge - 1), group(column, edge));
+            for (from, to) in runs(columns, border) {
+                line((x[from], at), (x[to], at))?;
             }
         }
         Ok(())

@@ -1,9 +1,9 @@
 //! Figures: one file each, and the parts they share.
 //!
-//! A figure is drawn with plotters on a [`canvas`] that writes SVG; resvg makes the PNG of it,
+//! A figure is drawn with plotters on a canvas that writes SVG; resvg makes the PNG of it,
 //! with a font that is part of the program. The same input gives the same bytes.
 //!
-//! To add a figure: a file with an implementation of [`Figure`], and a line in [`all`].
+//! To add a figure: a file with an implementation of `Figure`, and a line in `all`.
 
 mod canvas;
 mod color_bar;

@@ -74,7 +74,7 @@ pub(super) fn plain(text: &str) -> String {
 }
 
 fn balanced(text: &str) -> bool {
-    text.matches('$').count() % 2 == 0
+    text.matches('$').count().is_multiple_of(2)
 }
 
 /// Width of a text with markup, in the unit of `size`, the em.
