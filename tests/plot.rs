@@ -522,3 +522,25 @@ fn refusals_name_what_there_is() {
     single.rows[0].values.clear();
     assert!(message(plot::draw("phase", &bare, &single, &program())).contains("no axis"));
 }
+
+#[test]
+fn many_panels_widen_the_figure() {
+    let alpha = linear(0.1, 0.9, 9);
+    let axes = vec![
+        axis(RADIUS, &linear(0.002, 0.006, 5)),
+        axis(OMEGA, &linear(0.0, 40.0, 5)),
+        axis(("updraught.alpha", "alpha"), &alpha),
+        axis(("contact.young_modulus", "young"), &[1e5, 5.657e5]),
+    ];
+    let sweep = sweep("Many panels", axes, &[1]);
+    let table = table(&sweep, |values, _| {
+        Some(made_up(values[0], values[1], values[2] - 0.5))
+    });
+    let svg = draw("many", "phase", &sweep, &table);
+    assert!(has(&svg, "α = 0.9") && has(&svg, "Y = 5.657×10⁵ Pa"));
+    let width = svg
+        .split("width=\"")
+        .nth(1)
+        .and_then(|rest| rest.split('"').next());
+    assert!(width.unwrap().parse::<f64>().unwrap() > 900.0);
+}
