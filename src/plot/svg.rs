@@ -34,7 +34,7 @@ impl Svg {
             .iter()
             .map(|(key, value)| format!("{key}: {}", escape(value)))
             .collect();
-        let title = escape(metadata[0].1.as_str());
+        let title = escape(&text::plain(&metadata[0].1));
         let head = format!(
             "<title>{title}</title>\n<metadata>\n{}\n</metadata>\n",
             lines.join("\n")
