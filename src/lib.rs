@@ -2,6 +2,7 @@
 
 pub mod classify;
 pub mod dem;
+pub mod notation;
 pub mod observe;
 pub mod plot;
 pub mod record;
@@ -9,3 +10,4 @@ pub mod run;
 pub mod scene;
 pub mod store;
 pub mod sweep;
+pub mod theory;

@@ -1,0 +1,162 @@
+//! The notation: symbol, unit and plain name of every numeric key of a scene.
+//!
+//! The only place that knows them; figures and documentation read it.
+
+use crate::scene::{DragLaw, Scene};
+
+/// How a quantity is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Notation {
+    /// Path of the key in a scene file.
+    pub key: &'static str,
+    /// Symbol; `_` makes a subscript of the next character or of a group in braces.
+    pub symbol: &'static str,
+    /// SI unit; empty for a pure number.
+    pub unit: &'static str,
+    /// Plain name, without the unit.
+    pub name: &'static str,
+}
+
+impl Notation {
+    /// The unit in this scene: that of a drag coefficient depends on the drag law.
+    pub fn unit_in(&self, scene: &Scene) -> &'static str {
+        let law = scene.drag.as_ref().map(|drag| drag.law);
+        match (self.key, law) {
+            ("drag.linear", Some(DragLaw::Diameter)) => "kg/(m s)",
+            ("drag.linear", Some(DragLaw::Constant)) => "kg/s",
+            ("drag.quadratic", Some(DragLaw::Constant)) => "kg/m",
+            _ => self.unit,
+        }
+    }
+}
+
+/// The notation of a key, if it is a numeric key of a scene.
+pub fn notation(key: &str) -> Option<&'static Notation> {
+    SCENE_KEYS.iter().find(|notation| notation.key == key)
+}
+
+const fn row(
+    key: &'static str,
+    symbol: &'static str,
+    unit: &'static str,
+    name: &'static str,
+) -> Notation {
+    Notation {
+        key,
+        symbol,
+        unit,
+        name,
+    }
+}
+
+/// Every numeric key of a scene, in the order of [`Scene`].
+#[rustfmt::skip]
+pub const SCENE_KEYS: &[Notation] = &[
+    row("seed", "seed", "", "seed"),
+    row("spheres.count", "n", "", "number of spheres"),
+    row("spheres.radius", "r", "m", "radius of the spheres"),
+    row("spheres.density", "ρ", "kg/m³", "density of the spheres"),
+    row("contact.young_modulus", "Y", "Pa", "Young's modulus"),
+    row("contact.poisson_ratio", "ν", "", "Poisson's ratio"),
+    row("contact.dissipation_time", "A", "s", "dissipation time"),
+    row("contact.restitution", "e", "", "coefficient of restitution"),
+    row("contact.restitution_speed", "v_e", "m/s", "speed at which the restitution holds"),
+    row("contact.dissipation_factor", "c", "", "factor of the dissipative term"),
+    row("friction.coefficient", "μ", "", "coefficient of friction"),
+    row("friction.regularisation", "v_μ", "m/s", "sliding speed of full friction"),
+    row("tank.radius", "R", "m", "radius of the tank"),
+    row("tank.floor", "z_{floor}", "m", "height of the floor"),
+    row("start.z_min", "z_{min}", "m", "lowest start height"),
+    row("start.z_max", "z_{max}", "m", "highest start height"),
+    row("start.speed", "v_{start}", "m/s", "largest start velocity component"),
+    row("start.spin", "ω_{start}", "rad/s", "largest start spin component"),
+    row("gravity.acceleration", "g", "m/s²", "acceleration of gravity"),
+    row("drag.linear", "M_1", "kg/(m² s)", "linear drag coefficient"),
+    row("drag.quadratic", "M_2", "kg/m³", "quadratic drag coefficient"),
+    row("swirl.omega", "Ω", "rad/s", "angular velocity of the air"),
+    row("updraught.speed", "v_z", "m/s", "speed of the rising air"),
+    row("updraught.strength", "s", "", "strength of the updraught"),
+    row("updraught.decay", "β", "1/m", "decay of the updraught with height"),
+    row("updraught.origin", "z_0", "m", "height where the decay begins"),
+    row("updraught.alpha", "α", "", "factor per shielding sphere"),
+    row("spin_damping.coefficient", "c_ω", "kg m²/s", "coefficient of spin damping"),
+    row("time.dt", "Δt", "s", "time step"),
+    row("time.duration", "T", "s", "duration"),
+    row("time.frame_interval", "Δt_{frame}", "s", "time between frames"),
+    row("guards.overlap", "ξ_{max} / r", "", "largest overlap, in radii"),
+    row("guards.displacement", "Δx_{max} / r", "", "largest displacement per step, in radii"),
+    row("guards.horizontal", "x_{max}", "m", "largest |x| and |y|"),
+    row("guards.vertical", "z_{guard}", "m", "largest |z|"),
+    row("output.snapshot_interval", "Δt_{snapshot}", "s", "time between snapshots"),
+    row("output.profile_bins", "n_{bins}", "", "radial bins of the surface profile"),
+];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::{Value, json};
+    use std::collections::BTreeSet;
+
+    /// Scenes that together set every numeric key.
+    fn scenes() -> Vec<Scene> {
+        let scene = |contact: Value, friction: Value| -> Scene {
+            serde_json::from_value(json!({
+                "spheres": { "count": 3, "radius": 0.004, "density": 1e3 },
+                "contact": contact,
+                "friction": friction,
+                "tank": { "radius": 0.06, "floor": -0.2 },
+                "start": { "kind": "random", "z_min": -0.1, "z_max": 0.3 },
+                "gravity": { "acceleration": 9.8 },
+                "drag": { "linear": 1.0, "quadratic": 1.0, "law": "cross-section" },
+                "swirl": { "omega": 3.0 },
+                "updraught": { "speed": 1.0, "decay": 25.0, "origin": 0.0, "alpha": 0.5 },
+                "spin_damping": { "coefficient": 1.0 },
+                "time": { "dt": 1e-4, "duration": 1.0, "frame_interval": 1e-3 },
+                "guards": { "horizontal": 1.0, "vertical": 1.0 },
+                "output": { "profile_bins": 8 },
+            }))
+            .unwrap()
+        };
+        let hertz = json!({ "law": "hertz", "young_modulus": 1e5, "poisson_ratio": 0.3,
+            "dissipation_time": 1e-3, "restitution": 0.9 });
+        vec![scene(
+            hertz,
+            json!({ "law": "coulomb", "coefficient": 0.1, "regularisation": 1e-3 }),
+        )]
+    }
+
+    fn numeric_keys(value: &Value, path: &str, keys: &mut BTreeSet<String>) {
+        match value {
+            Value::Number(_) => {
+                keys.insert(path.to_owned());
+            }
+            Value::Object(table) => {
+                for (name, value) in table {
+                    let dot = if path.is_empty() { "" } else { "." };
+                    numeric_keys(value, &format!("{path}{dot}{name}"), keys);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    #[test]
+    fn covers_every_numeric_key_of_a_scene_and_no_other() {
+        let mut keys = BTreeSet::new();
+        for scene in scenes() {
+            numeric_keys(&serde_json::to_value(scene).unwrap(), "", &mut keys);
+        }
+        let known: BTreeSet<String> = SCENE_KEYS.iter().map(|row| row.key.to_owned()).collect();
+        assert_eq!(known.len(), SCENE_KEYS.len(), "a key occurs twice");
+        assert_eq!(keys, known);
+    }
+
+    #[test]
+    fn unit_of_drag_depends_on_its_law() {
+        let mut scene = scenes().remove(0);
+        let linear = notation("drag.linear").unwrap();
+        assert_eq!(linear.unit_in(&scene), "kg/(m² s)");
+        scene.drag.as_mut().unwrap().law = DragLaw::Constant;
+        assert_eq!(linear.unit_in(&scene), "kg/s");
+    }
+}

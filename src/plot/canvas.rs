@@ -1,0 +1,266 @@
+//! The canvas: a plotters backend that writes SVG.
+//!
+//! One unit of the canvas is a tenth of a CSS pixel, so that curves and letters fall where they
+//! belong although plotters counts in whole units. Straight edges are put on the pixels of the
+//! PNG, which has [`PNG_SCALE`] of them per CSS pixel: no hairlines between cells, no blur.
+
+use super::text::{FONT, SUBSCRIPT_SIZE, runs};
+use plotters_backend::text_anchor::{HPos, VPos};
+use plotters_backend::{
+    BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
+    FontTransform,
+};
+use std::convert::Infallible;
+use std::fmt::Write;
+
+/// Units of the canvas per CSS pixel.
+pub(super) const UNITS: i32 = 10;
+
+/// Pixels of the PNG per CSS pixel.
+pub(super) const PNG_SCALE: f32 = 2.5;
+
+/// Units of the canvas per pixel of the PNG.
+const SNAP: i32 = 4;
+
+type Drawn = Result<(), DrawingErrorKind<Infallible>>;
+
+/// Collects the elements of an SVG.
+pub(super) struct Canvas<'a> {
+    body: &'a mut String,
+    size: (u32, u32),
+}
+
+impl<'a> Canvas<'a> {
+    /// A canvas of `size` units that appends its elements to `body`.
+    pub(super) fn new(body: &'a mut String, size: (u32, u32)) -> Self {
+        Self { body, size }
+    }
+
+    fn element(&mut self, element: &str) -> Drawn {
+        self.body.push_str(element);
+        self.body.push('\n');
+        Ok(())
+    }
+}
+
+impl DrawingBackend for Canvas<'_> {
+    type ErrorType = Infallible;
+
+    fn get_size(&self) -> (u32, u32) {
+        self.size
+    }
+
+    fn ensure_prepared(&mut self) -> Drawn {
+        Ok(())
+    }
+
+    fn present(&mut self) -> Drawn {
+        Ok(())
+    }
+
+    fn draw_pixel(&mut self, point: BackendCoord, color: BackendColor) -> Drawn {
+        self.draw_rect(point, (point.0 + 1, point.1 + 1), &color, true)
+    }
+
+    fn draw_line<S: BackendStyle>(
+        &mut self,
+        from: BackendCoord,
+        to: BackendCoord,
+        style: &S,
+    ) -> Drawn {
+        self.draw_path([from, to], style)
+    }
+
+    fn draw_rect<S: BackendStyle>(
+        &mut self,
+        (left, top): BackendCoord,
+        (right, bottom): BackendCoord,
+        style: &S,
+        fill: bool,
+    ) -> Drawn {
+        if !fill {
+            let corners = [(left, top), (right, top), (right, bottom), (left, bottom)];
+            return self.draw_path(corners.into_iter().chain([(left, top)]), style);
+        }
+        let (left, top, right, bottom) = (snap(left), snap(top), snap(right), snap(bottom));
+        let paint = paint("fill", style.color());
+        self.element(&format!(
+            r#"<rect x="{left}" y="{top}" width="{}" height="{}" {paint}/>"#,
+            right - left,
+            bottom - top
+        ))
+    }
+
+    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
+        &mut self,
+        path: I,
+        style: &S,
+    ) -> Drawn {
+        let mut points: Vec<BackendCoord> = path.into_iter().collect();
+        let straight = points
+            .windows(2)
+            .all(|pair| pair[0].0 == pair[1].0 || pair[0].1 == pair[1].1);
+        if straight {
+            for point in &mut points {
+                *point = (snap(point.0), snap(point.1));
+            }
+        }
+        let kind = if straight {
+            r#" class="straight""#
+        } else {
+            r#" stroke-linejoin="round""#
+        };
+        let data = path_data(&points);
+        let (paint, width) = (paint("stroke", style.color()), style.stroke_width());
+        self.element(&format!(
+            r#"<path d="{data}" fill="none" {paint} stroke-width="{width}"{kind}/>"#
+        ))
+    }
+
+    fn draw_circle<S: BackendStyle>(
+        &mut self,
+        (x, y): BackendCoord,
+        radius: u32,
+        style: &S,
+        fill: bool,
+    ) -> Drawn {
+        let paint = if fill {
+            paint("fill", style.color())
+        } else {
+            let stroke = paint("stroke", style.color());
+            format!(
+                r#"fill="none" {stroke} stroke-width="{}""#,
+                style.stroke_width()
+            )
+        };
+        self.element(&format!(
+            r#"<circle cx="{x}" cy="{y}" r="{radius}" {paint}/>"#
+        ))
+    }
+
+    fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
+        &mut self,
+        vertices: I,
+        style: &S,
+    ) -> Drawn {
+        let points: Vec<BackendCoord> = vertices.into_iter().collect();
+        let (data, paint) = (path_data(&points), paint("fill", style.color()));
+        self.element(&format!(r#"<path d="{data}Z" {paint}/>"#))
+    }
+
+    fn draw_text<T: BackendTextStyle>(
+        &mut self,
+        text: &str,
+        style: &T,
+        (x, y): BackendCoord,
+    ) -> Drawn {
+        let size = style.size();
+        // Top means the top of capitals (.73 em), bottom that of the descenders (.24 em).
+        let baseline = match style.anchor().v_pos {
+            VPos::Top => 0.73,
+            VPos::Center => 0.365,
+            VPos::Bottom => -0.24,
+        };
+        let anchor = match style.anchor().h_pos {
+            HPos::Left => "start",
+            HPos::Center => "middle",
+            HPos::Right => "end",
+        };
+        let rotation = match style.transform() {
+            FontTransform::None => String::new(),
+            FontTransform::Rotate90 => format!(r#" transform="rotate(90 {x} {y})""#),
+            FontTransform::Rotate180 => format!(r#" transform="rotate(180 {x} {y})""#),
+            FontTransform::Rotate270 => format!(r#" transform="rotate(270 {x} {y})""#),
+        };
+        let y = f64::from(y) + baseline * size;
+        let paint = paint("fill", style.color());
+        let spans = spans(text, size);
+        self.element(&format!(
+            r#"<text x="{x}" y="{y:.0}" font-size="{size}" text-anchor="{anchor}" {paint}{rotation}>{spans}</text>"#
+        ))
+    }
+}
+
+/// Nearest pixel edge of the PNG.
+fn snap(unit: i32) -> i32 {
+    (unit + SNAP / 2).div_euclid(SNAP) * SNAP
+}
+
+/// A `fill` or `stroke` attribute.
+fn paint(attribute: &str, color: BackendColor) -> String {
+    let (red, green, blue) = color.rgb;
+    let mut paint = format!("{attribute}=\"#{red:02x}{green:02x}{blue:02x}\"");
+    if color.alpha < 1.0 {
+        paint.push_str(&format!(" {attribute}-opacity=\"{}\"", color.alpha));
+    }
+    paint
+}
+
+fn path_data(points: &[BackendCoord]) -> String {
+    let mut data = String::new();
+    for (index, (x, y)) in points.iter().enumerate() {
+        let command = if index == 0 { 'M' } else { 'L' };
+        write!(data, "{command}{x} {y}").expect("writing to a string cannot fail");
+    }
+    data
+}
+
+/// The content of a text element: its runs, subscripts lowered.
+fn spans(text: &str, size: f64) -> String {
+    let drop = (0.2 * size).round();
+    let mut lowered = false;
+    let mut content = String::new();
+    for run in runs(text) {
+        let mut attributes = String::new();
+        if run.subscript != lowered {
+            let shift = if run.subscript { drop } else { -drop };
+            attributes.push_str(&format!(r#" dy="{shift}""#));
+            lowered = run.subscript;
+        }
+        if run.subscript {
+            attributes.push_str(&format!(r#" font-size="{:.0}""#, SUBSCRIPT_SIZE * size));
+        }
+        if run.oblique {
+            attributes.push_str(r#" font-style="oblique""#);
+        }
+        let text = escape(&run.text);
+        if attributes.is_empty() {
+            content.push_str(&text);
+        } else {
+            content.push_str(&format!("<tspan{attributes}>{text}</tspan>"));
+        }
+    }
+    content
+}
+
+/// A text as XML; characters that XML cannot hold become U+FFFD.
+pub(super) fn escape(text: &str) -> String {
+    let mut escaped = String::new();
+    for character in text.chars() {
+        match character {
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '&' => escaped.push_str("&amp;"),
+            '"' => escaped.push_str("&quot;"),
+            '\t' | '\n' | '\r' => escaped.push(' '),
+            '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
+            other => escaped.push(other),
+        }
+    }
+    escaped
+}
+
+/// The elements as an SVG document of `size` units, `head` before them.
+pub(super) fn document(size: (u32, u32), head: &str, body: &str) -> String {
+    let (width, height) = size;
+    let pixels = |units: u32| f64::from(units) / f64::from(UNITS);
+    format!(
+        r##"<svg xmlns="http://www.w3.org/2000/svg" role="img" width="{}" height="{}" viewBox="0 0 {width} {height}" font-family="'{FONT}', Verdana, sans-serif">
+{head}<style>rect, .straight {{ shape-rendering: crispEdges }}</style>
+<rect width="{width}" height="{height}" fill="#ffffff"/>
+{body}</svg>
+"##,
+        pixels(width),
+        pixels(height)
+    )
+}

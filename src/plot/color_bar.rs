@@ -1,0 +1,148 @@
+//! The colour bar: which colour stands for which value.
+
+use super::palette::ColorMap;
+use super::scale::{Direction, Room, Scale};
+use super::style::{self, Drawn, LABEL, SMALL, Sheet, TICK, frame, letters, px};
+use super::text;
+use plotters::element::PathElement;
+use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::{FontTransform, RGBColor};
+
+/// Width of the bar itself.
+const BAR: i32 = px(16);
+/// Distance of the label's lines.
+const LINE: i32 = px(17);
+/// Steps of colour.
+const STEPS: i32 = 128;
+
+/// A range of values and their colours.
+#[derive(Clone, Debug)]
+pub(super) struct ColorBar {
+    low: f64,
+    high: f64,
+    map: ColorMap,
+    /// Name and unit of the values, with markup, line by line.
+    label: Vec<String>,
+}
+
+impl ColorBar {
+    /// The bar for these values. A `signed` quantity that has both signs gets a map with zero in
+    /// the middle.
+    pub(super) fn new(values: impl Iterator<Item = f64>, signed: bool, label: String) -> Self {
+        let (mut low, mut high) = values
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |range, value| {
+                (range.0.min(value), range.1.max(value))
+            });
+        if low > high {
+            // No value at all: an arbitrary range, for cells that are all empty.
+            (low, high) = (0.0, 1.0);
+        }
+        let map = if signed && low < 0.0 && high > 0.0 {
+            high = high.max(-low);
+            low = -high;
+            ColorMap::Diverging
+        } else {
+            ColorMap::Sequential
+        };
+        if high - low <= 1e-9 * high.abs().max(low.abs()) {
+            let widening = if high == 0.0 { 1.0 } else { 0.5 * high.abs() };
+            (low, high) = (low - widening, high + widening);
+        }
+        Self {
+            low,
+            high,
+            map,
+            label: vec![label],
+        }
+    }
+
+    /// The same with a label that a bar of this height can hold.
+    pub(super) fn fitted(self, height: i32) -> Self {
+        let label = text::wrap(&self.label.join(" "), f64::from(LABEL), f64::from(height));
+        Self { label, ..self }
+    }
+
+    /// Colour of a value.
+    pub(super) fn color(&self, value: f64) -> RGBColor {
+        self.map.color((value - self.low) / (self.high - self.low))
+    }
+
+    fn scale(&self, height: i32) -> Scale {
+        let room = Room {
+            length: f64::from(height),
+            size: 1.4 * f64::from(SMALL),
+            direction: Direction::Vertical,
+        };
+        Scale::new(self.low, self.high, false, &[], room)
+    }
+
+    /// Its width at a height.
+    pub(super) fn width(&self, height: i32) -> i32 {
+        let numbers = self.scale(height).label_width(f64::from(SMALL)).ceil() as i32;
+        BAR + 2 * TICK + numbers + px(6) + LINE * self.label.len() as i32
+    }
+
+    /// Draws it with its upper left corner at `origin`.
+    pub(super) fn draw(&self, sheet: &Sheet<'_>, origin: (i32, i32), height: i32) -> Drawn {
+        let (left, top) = origin;
+        let (right, bottom) = (left + BAR, top + height);
+        for step in 0..STEPS {
+            let edge = |index: i32| bottom - height * index / STEPS;
+            let color = self.map.color((f64::from(step) + 0.5) / f64::from(STEPS));
+            style::fill(sheet, [(left, edge(step + 1)), (right, edge(step))], color)?;
+        }
+        style::outline(sheet, [(left, top), (right, bottom)], frame())?;
+        let scale = self.scale(height);
+        let numbers = letters(SMALL, HPos::Left, VPos::Center);
+        for (value, text) in scale.ticks() {
+            let y = bottom - (scale.fraction(*value) * f64::from(height)).round() as i32;
+            let tick = PathElement::new([(right, y), (right + TICK, y)], frame());
+            sheet.draw(&tick)?;
+            sheet.draw_text(text, &numbers, (right + 2 * TICK, y))?;
+        }
+        // The label is read from below, its last line on the right.
+        let name = letters(LABEL, HPos::Center, VPos::Bottom).transform(FontTransform::Rotate270);
+        let (end, middle) = (left + self.width(height), top + height / 2);
+        for (index, line) in self.label.iter().rev().enumerate() {
+            sheet.draw_text(line, &name, (end - LINE * index as i32, middle))?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bar(values: &[f64], signed: bool) -> ColorBar {
+        ColorBar::new(values.iter().copied(), signed, String::new())
+    }
+
+    #[test]
+    fn spans_the_values() {
+        let bar = bar(&[3.0, -1.0, 2.0], false);
+        assert_eq!(
+            (bar.low, bar.high, bar.map),
+            (-1.0, 3.0, ColorMap::Sequential)
+        );
+        assert_eq!(bar.color(3.0), ColorMap::Sequential.color(1.0));
+    }
+
+    #[test]
+    fn both_signs_put_zero_in_the_middle() {
+        let both = bar(&[3.0, -1.0], true);
+        assert_eq!(
+            (both.low, both.high, both.map),
+            (-3.0, 3.0, ColorMap::Diverging)
+        );
+        assert_eq!(bar(&[3.0, 1.0], true).map, ColorMap::Sequential);
+    }
+
+    #[test]
+    fn equal_values_and_none_have_a_range() {
+        for values in [&[][..], &[0.0], &[2.0, 2.0], &[-5.0]] {
+            let bar = bar(values, true);
+            assert!(bar.low < bar.high, "{values:?}");
+        }
+    }
+}

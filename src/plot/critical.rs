@@ -1,0 +1,290 @@
+//! The curve of the critical rotation, drawn over a figure.
+
+use super::grid::{Grid, GridAxis, Panel};
+use crate::scene::{Radii, Scene};
+use crate::theory::critical_rotation;
+
+const OMEGA: &str = "swirl.omega";
+
+/// Points on the curve.
+const SAMPLES: usize = 300;
+
+/// Name of the curve in legends.
+pub(super) const NAME: &str = "critical rotation $Ω_c$";
+
+/// A piece of a curve: points in shown values.
+pub(super) type Piece = Vec<(f64, f64)>;
+
+/// The pieces of the curve Omega = Omega_c inside a panel, in shown values; none if the figure
+/// has no axis for Omega or the scene lacks a tank, gravity or one radius. What a panel is for
+/// (n, r, R or g) counts instead of the scene's value. On a strip y goes from 0 to 1.
+pub(super) fn curve(scene: &Scene, grid: &Grid, panel: &Panel) -> Vec<Piece> {
+    let upright = grid.y.as_ref().is_some_and(|axis| axis.key == OMEGA);
+    let (omega, other) = match &grid.y {
+        Some(y) if y.key == OMEGA => (y, Some(&grid.x)),
+        y if grid.x.key == OMEGA => (&grid.x, y.as_ref()),
+        _ => return Vec::new(),
+    };
+    let points = (0..=SAMPLES).filter_map(|sample| {
+        let fraction = sample as f64 / SAMPLES as f64;
+        let place = other.map_or(fraction, |axis| along(axis, fraction));
+        let value = |key: &str| match other {
+            Some(axis) if axis.key == key => Some(place / axis.factor),
+            _ => fixed(key, grid, panel).or_else(|| of_scene(key, scene)),
+        };
+        let critical = critical_rotation(
+            value("spheres.count")?,
+            value("spheres.radius")?,
+            value("tank.radius")?,
+            value("gravity.acceleration")?,
+        );
+        critical
+            .is_finite()
+            .then_some((place, critical * omega.factor))
+    });
+    let edges = omega.edges();
+    let (Some(&low), Some(&high)) = (edges.first(), edges.last()) else {
+        return Vec::new();
+    };
+    let mut pieces = clipped(&points.collect::<Vec<_>>(), low, high);
+    if !upright {
+        let points = pieces.iter_mut().flatten();
+        points.for_each(|(place, omega)| std::mem::swap(place, omega));
+    }
+    pieces
+}
+
+/// The shown value at a fraction of an axis.
+fn along(axis: &GridAxis, fraction: f64) -> f64 {
+    let edges = axis.edges();
+    let (low, high) = (edges[0], edges[edges.len() - 1]);
+    if axis.logarithmic() {
+        low * libm::pow(high / low, fraction)
+    } else {
+        low + (high - low) * fraction
+    }
+}
+
+/// Value of a key that the panel stands for.
+fn fixed(key: &str, grid: &Grid, panel: &Panel) -> Option<f64> {
+    [(&grid.columns, panel.column), (&grid.rows, panel.row)]
+        .into_iter()
+        .find_map(|(axis, value)| match axis {
+            Some(axis) if axis.key == key => value,
+            _ => None,
+        })
+}
+
+fn of_scene(key: &str, scene: &Scene) -> Option<f64> {
+    match key {
+        "spheres.count" => Some(scene.spheres.count as f64),
+        "spheres.radius" => radius_of_mean_volume(&scene.spheres.radius),
+        "tank.radius" => scene.tank.as_ref()?.radius,
+        "gravity.acceleration" => Some(scene.gravity.as_ref()?.acceleration),
+        _ => None,
+    }
+}
+
+/// Cube root of the mean of r^3, as eq. 42 sums it.
+fn radius_of_mean_volume(radii: &Radii) -> Option<f64> {
+    let weighted: Vec<(f64, f64)> = match radii {
+        Radii::One(radius) => return Some(*radius),
+        Radii::Shares(shares) => shares
+            .iter()
+            .map(|part| (part.radius, part.share))
+            .collect(),
+        Radii::Each(radii) => radii.iter().map(|&radius| (radius, 1.0)).collect(),
+        Radii::File { .. } => return None,
+    };
+    let (volume, weight) = weighted.iter().fold((0.0, 0.0), |sum, (radius, weight)| {
+        (sum.0 + weight * radius * radius * radius, sum.1 + weight)
+    });
+    Some(libm::cbrt(volume / weight))
+}
+
+/// The pieces of a polyline whose second coordinate lies between `low` and `high`.
+fn clipped(points: &[(f64, f64)], low: f64, high: f64) -> Vec<Piece> {
+    let mut pieces: Vec<Piece> = Vec::new();
+    for pair in points.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        let rise = to.1 - from.1;
+        // The share of the segment that is inside.
+        let (enter, leave) = if rise == 0.0 {
+            if (low..=high).contains(&from.1) {
+                (0.0, 1.0)
+            } else {
+                continue;
+            }
+        } else {
+            let (a, b) = ((low - from.1) / rise, (high - from.1) / rise);
+            (a.min(b).max(0.0), a.max(b).min(1.0))
+        };
+        if enter >= leave {
+            continue;
+        }
+        let at = |share: f64| match share {
+            0.0 => from,
+            1.0 => to,
+            _ => (from.0 + share * (to.0 - from.0), from.1 + share * rise),
+        };
+        match pieces.last_mut() {
+            Some(piece) if piece.last() == Some(&at(enter)) => piece.push(at(leave)),
+            _ => pieces.push(vec![at(enter), at(leave)]),
+        }
+    }
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Input;
+    use super::*;
+    use crate::classify::{Evidence, Label, OrderParameters, Sieves, Verdict};
+    use crate::record::Program;
+    use crate::scene::RadiusShare;
+    use crate::sweep::{Axis, LabelRow, LabelTable, PlotSettings, Sweep};
+    use serde_json::json;
+
+    const RADIUS: &str = "spheres.radius";
+
+    fn scene() -> Scene {
+        serde_json::from_value(json!({
+            "spheres": { "count": 256, "radius": 0.004, "density": 1e3 },
+            "tank": { "radius": 0.06 },
+            "start": { "kind": "random", "z_min": 0.0, "z_max": 0.3 },
+            "gravity": { "acceleration": 9.8 },
+            "swirl": { "omega": 10.0 },
+            "time": { "dt": 1e-4, "duration": 1.0, "frame_interval": 1e-3 },
+        }))
+        .unwrap()
+    }
+
+    /// The curves of all panels of a sweep over these axes, and the shown value over the value of
+    /// the horizontal axis.
+    fn curves(axes: &[(&str, &[f64])]) -> (Vec<Vec<Piece>>, f64) {
+        let axis = |&(key, values): &(&str, &[f64])| Axis {
+            key: key.to_owned(),
+            name: key.to_owned(),
+            values: values.to_vec(),
+        };
+        let sweep = Sweep {
+            title: None,
+            scene: scene(),
+            axes: axes.iter().map(axis).collect(),
+            seeds: vec![1],
+            sieves: Sieves::default(),
+            plot: PlotSettings::default(),
+        };
+        let row = LabelRow {
+            id: String::new(),
+            values: axes.iter().map(|(_, values)| values[0]).collect(),
+            seed: 1,
+            verdict: Verdict {
+                label: Label::Settled,
+                settle_time: None,
+                evidence: Evidence::default(),
+                order: OrderParameters::default(),
+            },
+        };
+        let table = LabelTable {
+            axes: axes.iter().map(|(key, _)| (*key).to_owned()).collect(),
+            rows: vec![row],
+        };
+        let grid = Grid::new(&Input {
+            sweep: &sweep,
+            table: &table,
+            program: &Program::current(),
+        })
+        .unwrap();
+        let of = |panel| curve(&sweep.scene, &grid, panel);
+        (grid.panels.iter().map(of).collect(), grid.x.factor)
+    }
+
+    /// Whether a point lies on one of the pieces.
+    fn on(pieces: &[Piece], point: (f64, f64)) -> bool {
+        pieces
+            .iter()
+            .flat_map(|piece| piece.windows(2))
+            .any(|pair| {
+                let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
+                let share = (point.0 - x0) / (x1 - x0);
+                (0.0..=1.0).contains(&share) && (y0 + share * (y1 - y0) - point.1).abs() < 1e-3
+            })
+    }
+
+    #[test]
+    fn passes_through_the_critical_rotation_of_each_radius() {
+        let radii = [0.002, 0.003, 0.004, 0.005, 0.006];
+        let (curves, factor) = curves(&[(RADIUS, &radii), (OMEGA, &[0.0, 20.0, 40.0])]);
+        assert!((factor - 1.0 / 0.06).abs() < 1e-12);
+        for (radius, omega) in radii
+            .into_iter()
+            .zip([3.33978, 6.13557, 9.44633, 13.20165, 17.35401])
+        {
+            assert!(on(&curves[0], (radius / 0.06, omega)), "r = {radius}");
+        }
+    }
+
+    #[test]
+    fn swapped_axes_swap_the_curve() {
+        let (curves, _) = curves(&[(OMEGA, &[0.0, 20.0, 40.0]), (RADIUS, &[0.002, 0.006])]);
+        let swapped: Vec<Piece> = curves[0]
+            .iter()
+            .map(|piece| piece.iter().map(|&(x, y)| (y, x)).collect())
+            .collect();
+        assert!(on(&swapped, (0.004 / 0.06, 9.44633)));
+    }
+
+    #[test]
+    fn panels_count_with_their_own_values() {
+        let radii = [0.002, 0.006];
+        let (curves, factor) = curves(&[
+            (RADIUS, &radii),
+            (OMEGA, &[0.0, 20.0, 40.0]),
+            ("tank.radius", &[0.06, 0.12]),
+            ("gravity.acceleration", &[9.8, 39.2]),
+        ]);
+        // The tank differs from panel to panel, so radii are not shown over it.
+        assert_eq!(factor, 1.0);
+        for (panel, share) in [1.0, 0.25, 2.0, 0.5].into_iter().enumerate() {
+            assert!(
+                on(&curves[panel], (0.004, 9.44633 * share)),
+                "panel {panel}"
+            );
+        }
+    }
+
+    #[test]
+    fn number_of_spheres_is_an_axis_too_and_density_does_not_matter() {
+        let omega: &[f64] = &[0.0, 20.0, 40.0];
+        let (number, _) = curves(&[("spheres.count", &[128.0, 512.0]), (OMEGA, omega)]);
+        assert!(on(&number[0], (256.0, 9.44633)));
+        let (density, _) = curves(&[("spheres.density", &[1e3, 2e3]), (OMEGA, omega)]);
+        assert!(on(&density[0], (1e3, 9.44633)) && on(&density[0], (1500.0, 9.44633)));
+        let (none, _) = curves(&[(RADIUS, &[0.002, 0.006]), ("spheres.density", &[1e3, 2e3])]);
+        assert!(none[0].is_empty());
+    }
+
+    #[test]
+    fn clipping() {
+        let points = [(0.0, 0.0), (1.0, 2.0), (2.0, 4.0), (3.0, 2.0), (4.0, 2.0)];
+        assert_eq!(
+            clipped(&points, 1.0, 3.0),
+            [
+                vec![(0.5, 1.0), (1.0, 2.0), (1.5, 3.0)],
+                vec![(2.5, 3.0), (3.0, 2.0), (4.0, 2.0)],
+            ]
+        );
+        assert!(clipped(&points, 5.0, 6.0).is_empty());
+    }
+
+    #[test]
+    fn radius_of_unequal_spheres() {
+        let share = |radius, share| RadiusShare { radius, share };
+        let radii = Radii::Shares(vec![share(1.0, 3.0), share(3.0, 1.0)]);
+        let expected = libm::cbrt((3.0 + 27.0) / 4.0);
+        assert!((radius_of_mean_volume(&radii).unwrap() - expected).abs() < 1e-12);
+        let radii = Radii::Each(vec![1.0, 1.0, 1.0, 3.0]);
+        assert!((radius_of_mean_volume(&radii).unwrap() - expected).abs() < 1e-12);
+    }
+}

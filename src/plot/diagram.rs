@@ -1,0 +1,250 @@
+//! A diagram over the axes of a sweep: coloured cells, small multiples, axes, title, legend.
+
+use super::color_bar::ColorBar;
+use super::grid::{Grid, Panel};
+use super::layout::{Layout, TITLE_LINE};
+use super::legend::{Entry, Key};
+use super::scale::Scale;
+use super::style::{self, Drawn, LABEL, SMALL, Sheet, TICK, TITLE, frame, letters, px};
+use super::svg::Svg;
+use super::{Input, PlotError, canvas, critical};
+use crate::sweep::Point;
+use plotters::chart::{ChartBuilder, LabelAreaPosition};
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::drawing::{DrawingArea, IntoDrawingArea};
+use plotters::element::PathElement;
+use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::{BLACK, Color, FontTransform, RGBColor, TextStyle};
+
+/// A panel with its coordinates.
+type Plot<'a> = DrawingArea<canvas::Canvas<'a>, Cartesian2d<Scale, Scale>>;
+
+/// How a cell looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Look {
+    pub(super) color: RGBColor,
+    /// A line is drawn between neighbours of different groups.
+    pub(super) group: usize,
+}
+
+/// A diagram: what differs between the figures that are one.
+pub(super) struct Diagram<'a> {
+    /// Name of the figure.
+    pub(super) name: &'a str,
+    pub(super) grid: &'a Grid,
+    /// How a point looks; `None` where it has no value.
+    pub(super) look: &'a dyn Fn(&Point) -> Option<Look>,
+    /// What a cell without a value is called.
+    pub(super) empty: &'a str,
+    /// Entries of the legend, before those of the curve and of empty cells.
+    pub(super) legend: Vec<Entry>,
+    pub(super) bar: Option<ColorBar>,
+}
+
+impl Diagram<'_> {
+    /// Draws it.
+    pub(super) fn draw(&self, input: &Input<'_>) -> Result<Svg, PlotError> {
+        let scene = &input.sweep.scene;
+        let curves: Vec<Vec<critical::Piece>> = self
+            .grid
+            .panels
+            .iter()
+            .map(|panel| critical::curve(scene, self.grid, panel))
+            .collect();
+        let entries = self.entries(curves.iter().any(|curve| !curve.is_empty()));
+        let title = input.sweep.title.as_deref();
+        let layout = Layout::new(title, self.grid, self.bar.clone(), entries);
+        let size = (layout.size.0 as u32, layout.size.1 as u32);
+        let mut body = String::new();
+        {
+            let sheet = canvas::Canvas::new(&mut body, size).into_drawing_area();
+            for (index, panel) in self.grid.panels.iter().enumerate() {
+                self.draw_panel(&sheet, &layout, index, panel, &curves[index])?;
+            }
+            self.draw_words(&sheet, &layout)?;
+            let (legend, corner) = &layout.legend;
+            legend.draw(&sheet, *corner)?;
+            if let Some((bar, corner, height)) = &layout.bar {
+                bar.draw(&sheet, *corner, *height)?;
+            }
+        }
+        Ok(Svg::new(self.name, input, size, &body))
+    }
+
+    fn looks(&self, panel: &Panel) -> Vec<Option<Look>> {
+        let look = |cell: &Option<Point>| cell.as_ref().and_then(self.look);
+        panel.cells.iter().map(look).collect()
+    }
+
+    fn entries(&self, with_curve: bool) -> Vec<Entry> {
+        let mut entries = self.legend.clone();
+        let empty = |panel: &Panel| self.looks(panel).contains(&None);
+        if self.grid.panels.iter().any(empty) {
+            entries.push(Entry {
+                key: Key::Hatch,
+                text: self.empty.to_owned(),
+            });
+        }
+        if with_curve {
+            entries.push(Entry {
+                key: Key::Curve,
+                text: critical::NAME.to_owned(),
+            });
+        }
+        entries
+    }
+
+    fn draw_panel(
+        &self,
+        sheet: &Sheet<'_>,
+        layout: &Layout,
+        index: usize,
+        panel: &Panel,
+        curves: &[critical::Piece],
+    ) -> Drawn {
+        let (left, top) = layout.corner(index);
+        let (width, height) = layout.panel;
+        let (first, last) = layout.outer(index);
+        let ticks = (
+            if first { layout.ticks.0 } else { 0 },
+            if last { layout.ticks.1 } else { 0 },
+        );
+        let place = (left - ticks.0, top);
+        let area = sheet
+            .clone()
+            .shrink(place, (width + ticks.0, height + ticks.1));
+        let mut chart = ChartBuilder::on(&area)
+            .set_label_area_size(LabelAreaPosition::Left, ticks.0)
+            .set_label_area_size(LabelAreaPosition::Bottom, ticks.1)
+            .build_cartesian_2d(layout.scales.0.clone(), layout.scales.1.clone())?;
+
+        let plot = chart.plotting_area();
+        let looks = self.looks(panel);
+        self.draw_cells(sheet, plot, &looks)?;
+        self.draw_borders(sheet, plot, &looks)?;
+        for piece in curves {
+            let pixels: Vec<(i32, i32)> = piece
+                .iter()
+                .map(|point| plot.map_coordinate(point))
+                .collect();
+            style::curve(sheet, &pixels)?;
+        }
+        style::outline(sheet, [(left, top), (left + width, top + height)], frame())?;
+
+        chart
+            .configure_mesh()
+            .disable_mesh()
+            .axis_style(frame())
+            .label_style(letters(SMALL, HPos::Center, VPos::Center))
+            .set_tick_mark_size(LabelAreaPosition::Left, TICK)
+            .set_tick_mark_size(LabelAreaPosition::Bottom, TICK)
+            .draw()
+    }
+
+    /// Edges of the cells on the canvas, horizontally and vertically.
+    fn edges(&self, plot: &Plot<'_>) -> (Vec<i32>, Vec<i32>) {
+        let (x_edges, y_edges) = (
+            self.grid.x.edges(),
+            self.grid.y.as_ref().map_or(vec![0.0, 1.0], |y| y.edges()),
+        );
+        let corner = (x_edges[0], y_edges[0]);
+        let x = |edge: &f64| plot.map_coordinate(&(*edge, corner.1)).0;
+        let y = |edge: &f64| plot.map_coordinate(&(corner.0, *edge)).1;
+        (
+            x_edges.iter().map(x).collect(),
+            y_edges.iter().map(y).collect(),
+        )
+    }
+
+    fn draw_cells(&self, sheet: &Sheet<'_>, plot: &Plot<'_>, looks: &[Option<Look>]) -> Drawn {
+        let (x, y) = self.edges(plot);
+        let columns = self.grid.cells().0;
+        for (index, look) in looks.iter().enumerate() {
+            let (column, row) = (index % columns, index / columns);
+            let corners = [(x[column], y[row + 1]), (x[column + 1], y[row])];
+            match look {
+                Some(look) => style::fill(sheet, corners, look.color)?,
+                None => style::hatch(sheet, corners)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws the lines between cells of different groups.
+    fn draw_borders(&self, sheet: &Sheet<'_>, plot: &Plot<'_>, looks: &[Option<Look>]) -> Drawn {
+        let (x, y) = self.edges(plot);
+        let (columns, rows) = self.grid.cells();
+        let group = |column: usize, row: usize| looks[column + row * columns].map(|at| at.group);
+        let differ = |one: Option<usize>, other: Option<usize>| matches!((one, other), (Some(one), Some(other)) if one != other);
+        let line = |from: (i32, i32), to: (i32, i32)| {
+            sheet.draw(&PathElement::new(
+                [from, to],
+                BLACK.mix(0.7).stroke_width(8),
+            ))
+        };
+        for (edge, &at) in x.iter().enumerate().take(columns).skip(1) {
+            let border = |row| differ(group(edge - 1, row), group(edge, row));
+            for (from, to) in runs(rows, border) {
+                line((at, y[from]), (at, y[to]))?;
+            }
+        }
+        for (edge, &at) in y.iter().enumerate().take(rows).skip(1) {
+            let border = |column| differ(group(column, edge - 1), group(column, edge));
+            for (from, to) in runs(columns, border) {
+                line((x[from], at), (x[to], at))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Draws title, axis labels and heads of panels.
+    fn draw_words(&self, sheet: &Sheet<'_>, layout: &Layout) -> Drawn {
+        let (left, top) = layout.origin;
+        let (right, bottom) = layout.end();
+        let (middle_x, middle_y) = ((left + right) / 2, (top + bottom) / 2);
+        let rotated = |style: TextStyle<'static>| style.transform(FontTransform::Rotate270);
+        for (index, line) in layout.title.iter().enumerate() {
+            let style = letters(TITLE, HPos::Center, VPos::Top);
+            let y = style::MARGIN + index as i32 * TITLE_LINE;
+            sheet.draw_text(line, &style, (layout.size.0 / 2, y))?;
+        }
+        let x_label = letters(LABEL, HPos::Center, VPos::Top);
+        let below = bottom + layout.ticks.1 + px(6);
+        sheet.draw_text(&self.grid.x.label(), &x_label, (middle_x, below))?;
+        if let Some(y) = &self.grid.y {
+            let style = rotated(letters(LABEL, HPos::Center, VPos::Top));
+            sheet.draw_text(&y.label(), &style, (style::MARGIN, middle_y))?;
+        }
+        for (index, panel) in self.grid.panels.iter().enumerate() {
+            let (left, top) = layout.corner(index);
+            let first_row = index < layout.shape.columns;
+            if let (Some(axis), Some(value)) = (&self.grid.columns, panel.column)
+                && (first_row || self.grid.rows.is_none())
+            {
+                let style = letters(SMALL, HPos::Center, VPos::Bottom);
+                let place = (left + layout.panel.0 / 2, top - px(3));
+                sheet.draw_text(&axis.at(value), &style, place)?;
+            }
+            let last_column = (index + 1).is_multiple_of(layout.shape.columns);
+            if let (Some(axis), Some(value), true) = (&self.grid.rows, panel.row, last_column) {
+                let style =
+                    letters(SMALL, HPos::Center, VPos::Bottom).transform(FontTransform::Rotate90);
+                let place = (left + layout.panel.0 + px(8), top + layout.panel.1 / 2);
+                sheet.draw_text(&axis.at(value), &style, place)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The runs of indices below `count` that satisfy a condition: first, and one past the last.
+fn runs(count: usize, condition: impl Fn(usize) -> bool) -> Vec<(usize, usize)> {
+    let mut runs: Vec<(usize, usize)> = Vec::new();
+    for index in (0..count).filter(|&index| condition(index)) {
+        match runs.last_mut() {
+            Some(run) if run.1 == index => run.1 = index + 1,
+            _ => runs.push((index, index + 1)),
+        }
+    }
+    runs
+}

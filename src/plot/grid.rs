@@ -1,0 +1,326 @@
+//! The grid of a figure: which axes it shows where, and the point in every cell.
+
+use super::{Input, PlotError};
+use crate::notation::notation;
+use crate::sweep::{Axis, LabelTable, Point, Sweep};
+
+/// An axis of a figure.
+#[derive(Clone, Debug)]
+pub(super) struct GridAxis {
+    /// Path of the key.
+    pub(super) key: String,
+    /// Values in the key's unit, ascending.
+    pub(super) values: Vec<f64>,
+    /// Shown value over value.
+    pub(super) factor: f64,
+    /// Symbol with markup, and unit, of the shown values.
+    pub(super) symbol: String,
+    pub(super) unit: String,
+    /// Its index among the sweep's axes.
+    index: usize,
+}
+
+impl GridAxis {
+    fn new(index: usize, sweep: &Sweep, table: &LabelTable) -> Self {
+        let axis = &sweep.axes[index];
+        let mut values: Vec<f64> = axis.values.clone();
+        values.extend(table.rows.iter().map(|row| row.values[index]));
+        values.sort_by(f64::total_cmp);
+        values.dedup();
+        let (symbol, unit) = match notation(&axis.key) {
+            Some(notation) => (
+                format!("${}$", notation.symbol),
+                notation.unit_in(&sweep.scene).to_owned(),
+            ),
+            None => (axis.name.clone(), String::new()),
+        };
+        let mut shown = Self {
+            key: axis.key.clone(),
+            values,
+            factor: 1.0,
+            symbol,
+            unit,
+            index,
+        };
+        // Radii are shown over that of the tank, unless that is swept too.
+        let tank = sweep.scene.tank.as_ref().and_then(|tank| tank.radius);
+        let swept = sweep.axes.iter().any(|axis| axis.key == "tank.radius");
+        if let (Some(tank), "spheres.radius", false) = (tank, axis.key.as_str(), swept) {
+            shown.factor = 1.0 / tank;
+            shown.symbol = "$r$ / $R$".to_owned();
+            shown.unit = String::new();
+        }
+        shown
+    }
+
+    /// Label of the axis.
+    pub(super) fn label(&self) -> String {
+        if self.unit.is_empty() {
+            self.symbol.clone()
+        } else {
+            format!("{} ({})", self.symbol, self.unit)
+        }
+    }
+
+    /// `symbol = value unit`, the head of a panel.
+    pub(super) fn at(&self, value: f64) -> String {
+        let number = super::scale::number(value * self.factor);
+        let text = format!("{} = {number} {}", self.symbol, self.unit);
+        text.trim_end().to_owned()
+    }
+
+    /// Values as shown.
+    pub(super) fn shown(&self) -> Vec<f64> {
+        self.values
+            .iter()
+            .map(|value| value * self.factor)
+            .collect()
+    }
+
+    /// Whether the values are spaced by ratios rather than by differences.
+    pub(super) fn logarithmic(&self) -> bool {
+        let (Some(&low), Some(&high)) = (self.values.first(), self.values.last()) else {
+            return false;
+        };
+        if self.values.len() < 3 || low <= 0.0 || high / low < 5.0 {
+            return false;
+        }
+        let unevenness = |steps: Vec<f64>| {
+            let most = steps.iter().copied().fold(0.0, f64::max);
+            let least = steps.iter().copied().fold(f64::INFINITY, f64::min);
+            most / least
+        };
+        let pairs = self.values.windows(2);
+        let differences = pairs.clone().map(|pair| pair[1] - pair[0]).collect();
+        let ratios = pairs.map(|pair| libm::log(pair[1] / pair[0])).collect();
+        unevenness(ratios) < 0.5 * unevenness(differences)
+    }
+
+    /// Edges of the cells, one more than values, as shown: midway between neighbours (in the
+    /// logarithm where the spacing is logarithmic).
+    pub(super) fn edges(&self) -> Vec<f64> {
+        let logarithmic = self.logarithmic();
+        let values: Vec<f64> = self.shown();
+        let forward = |value: f64| if logarithmic { libm::log(value) } else { value };
+        let back = |value: f64| if logarithmic { libm::exp(value) } else { value };
+        let places: Vec<f64> = values.iter().map(|&value| forward(value)).collect();
+        let (Some(&first), Some(&last)) = (places.first(), places.last()) else {
+            return Vec::new();
+        };
+        let halves: Vec<f64> = places
+            .windows(2)
+            .map(|pair| 0.5 * (pair[1] - pair[0]))
+            .collect();
+        // A single value has no neighbour: any width serves.
+        let alone = if first == 0.0 { 0.5 } else { 0.5 * first.abs() };
+        let mut edges = vec![first - halves.first().unwrap_or(&alone)];
+        edges.extend(places.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])));
+        edges.push(last + halves.last().unwrap_or(&alone));
+        edges.into_iter().map(back).collect()
+    }
+
+    fn position(&self, point: &Point) -> Option<usize> {
+        let value = point.values[self.index];
+        self.values.iter().position(|&other| other == value)
+    }
+}
+
+/// One of the small multiples.
+#[derive(Clone, Debug)]
+pub(super) struct Panel {
+    /// Values of the axes it is for, on `columns` and `rows` of the grid.
+    pub(super) column: Option<f64>,
+    pub(super) row: Option<f64>,
+    /// Its points; cell (x, y) is at `x + y * number of x values`.
+    pub(super) cells: Vec<Option<Point>>,
+}
+
+/// The axes of a figure and the points in its cells.
+#[derive(Clone, Debug)]
+pub(super) struct Grid {
+    pub(super) x: GridAxis,
+    pub(super) y: Option<GridAxis>,
+    /// Axis of the small multiples.
+    pub(super) columns: Option<GridAxis>,
+    /// A second such axis.
+    pub(super) rows: Option<GridAxis>,
+    /// Panels, row by row.
+    pub(super) panels: Vec<Panel>,
+}
+
+impl Grid {
+    /// Chooses the axes as the sweep's plot settings say and sorts the table into cells.
+    pub(super) fn new(input: &Input<'_>) -> Result<Self, PlotError> {
+        let (sweep, table) = (input.sweep, input.table);
+        check(sweep, table)?;
+        let places = places(sweep)?;
+        let axis = |place: usize| places[place].map(|index| GridAxis::new(index, sweep, table));
+        let mut grid = Self {
+            x: axis(0).ok_or(PlotError::NoAxis)?,
+            y: axis(1),
+            columns: axis(2),
+            rows: axis(3),
+            panels: Vec::new(),
+        };
+        grid.fill(table.points());
+        Ok(grid)
+    }
+
+    /// Number of cells of a panel, horizontally and vertically.
+    pub(super) fn cells(&self) -> (usize, usize) {
+        let vertical = self.y.as_ref().map_or(1, |axis| axis.values.len());
+        (self.x.values.len(), vertical)
+    }
+
+    fn fill(&mut self, points: Vec<Point>) {
+        let (horizontal, vertical) = self.cells();
+        let values = |axis: &Option<GridAxis>| match axis {
+            Some(axis) => axis.values.iter().copied().map(Some).collect(),
+            None => vec![None],
+        };
+        let columns: Vec<Option<f64>> = values(&self.columns);
+        for row in values(&self.rows) {
+            self.panels.extend(columns.iter().map(|&column| Panel {
+                column,
+                row,
+                cells: vec![None; horizontal * vertical],
+            }));
+        }
+        for point in points {
+            let place = |axis: &Option<GridAxis>| match axis {
+                Some(axis) => axis.position(&point),
+                None => Some(0),
+            };
+            let places = (
+                self.x.position(&point),
+                place(&self.y),
+                place(&self.columns),
+                place(&self.rows),
+            );
+            if let (Some(x), Some(y), Some(column), Some(row)) = places {
+                self.panels[column + row * columns.len()].cells[x + y * horizontal] = Some(point);
+            }
+        }
+    }
+}
+
+fn check(sweep: &Sweep, table: &LabelTable) -> Result<(), PlotError> {
+    let names: Vec<&str> = sweep.axes.iter().map(|axis| axis.name.as_str()).collect();
+    if names != table.axes {
+        return Err(PlotError::OtherAxes {
+            sweep: names.join(", "),
+            table: table.axes.join(", "),
+        });
+    }
+    if table.rows.is_empty() {
+        return Err(PlotError::EmptyTable);
+    }
+    for row in &table.rows {
+        let finite = row.values.iter().all(|value| value.is_finite());
+        if row.values.len() != names.len() || !finite {
+            return Err(PlotError::BadRow { id: row.id.clone() });
+        }
+    }
+    Ok(())
+}
+
+/// Indices of the axes shown as x, y, columns and rows: those that the settings name, then the
+/// others in order.
+fn places(sweep: &Sweep) -> Result<[Option<usize>; 4], PlotError> {
+    let settings = &sweep.plot;
+    let named = [&settings.x, &settings.y, &settings.panels];
+    let mut places = [None; 4];
+    for (place, name) in named.into_iter().enumerate() {
+        let Some(name) = name else { continue };
+        let index = find(&sweep.axes, name)?;
+        if places.contains(&Some(index)) {
+            return Err(PlotError::AxisTwice { name: name.clone() });
+        }
+        places[place] = Some(index);
+    }
+    let taken = places;
+    let mut others = (0..sweep.axes.len()).filter(|index| !taken.contains(&Some(*index)));
+    for place in &mut places {
+        if place.is_none() {
+            *place = others.next();
+        }
+    }
+    match others.next() {
+        Some(_) => Err(PlotError::TooManyAxes),
+        None => Ok(places),
+    }
+}
+
+fn find(axes: &[Axis], name: &str) -> Result<usize, PlotError> {
+    let known = || {
+        axes.iter()
+            .map(|axis| axis.name.as_str())
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    axes.iter()
+        .position(|axis| axis.name == name || axis.key == name)
+        .ok_or_else(|| PlotError::UnknownAxis {
+            name: name.to_owned(),
+            known: known(),
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn axis(values: &[f64]) -> GridAxis {
+        GridAxis {
+            key: "swirl.omega".to_owned(),
+            values: values.to_vec(),
+            factor: 1.0,
+            symbol: "$Ω$".to_owned(),
+            unit: "rad/s".to_owned(),
+            index: 0,
+        }
+    }
+
+    #[test]
+    fn edges_are_midpoints() {
+        let omega = axis(&[0.0, 2.0, 4.0, 8.0, 16.0, 40.0]);
+        assert!(!omega.logarithmic());
+        assert_eq!(omega.edges(), [-1.0, 1.0, 3.0, 6.0, 12.0, 28.0, 52.0]);
+        assert_eq!(axis(&[4.0]).edges(), [2.0, 6.0]);
+        assert_eq!(axis(&[0.0]).edges(), [-0.5, 0.5]);
+    }
+
+    #[test]
+    fn logarithmic_spacing_is_seen() {
+        let decades = axis(&[1e-3, 1e-2, 1e-1]);
+        assert!(decades.logarithmic());
+        for (edge, expected) in decades.edges().iter().zip([-3.5, -2.5, -1.5, -0.5]) {
+            assert!((libm::log10(*edge) - expected).abs() < 1e-12);
+        }
+        assert!(axis(&[1.0, 2.0, 5.0, 10.0, 20.0, 50.0]).logarithmic());
+        assert!(!axis(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]).logarithmic());
+        assert!(!axis(&[-1.0, 0.0, 100.0]).logarithmic());
+    }
+
+    #[test]
+    fn head_of_a_panel() {
+        assert_eq!(axis(&[4.0]).at(4.0), "$Ω$ = 4 rad/s");
+    }
+
+    proptest! {
+        #[test]
+        fn edges_ascend_and_enclose_their_values(
+            mut values in prop::collection::vec(-1e3..1e3_f64, 1..20)
+        ) {
+            values.sort_by(f64::total_cmp);
+            values.dedup();
+            let axis = axis(&values);
+            let edges = axis.edges();
+            prop_assert_eq!(edges.len(), values.len() + 1);
+            for (index, value) in values.iter().enumerate() {
+                prop_assert!(edges[index] <= *value && *value <= edges[index + 1]);
+            }
+        }
+    }
+}

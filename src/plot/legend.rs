@@ -1,0 +1,101 @@
+//! The legend: entries in lines that break where the room ends.
+
+use super::style::{self, Drawn, SMALL, Sheet, letters, px};
+use super::{palette, text};
+use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::{BLACK, Color, RGBColor};
+
+/// Size of a key, the small picture of an entry.
+const KEY: (i32, i32) = (px(20), px(13));
+/// Distance of lines.
+const LINE: i32 = px(20);
+/// Room between key and text, and between entries.
+const GAPS: (i32, i32) = (px(7), px(16));
+
+/// The small picture of an entry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Key {
+    /// A colour.
+    Color(RGBColor),
+    /// A colour that fades with disagreement.
+    Fading(RGBColor),
+    /// The hatch of cells without a value.
+    Hatch,
+    /// The curve of a theory.
+    Curve,
+}
+
+/// An entry of a legend.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Entry {
+    pub(super) key: Key,
+    pub(super) text: String,
+}
+
+/// Entries with their places.
+pub(super) struct Legend {
+    entries: Vec<(Entry, (i32, i32))>,
+    width: i32,
+    height: i32,
+}
+
+impl Legend {
+    /// Places the entries in lines no wider than `room`.
+    pub(super) fn new(entries: Vec<Entry>, room: i32) -> Self {
+        let mut legend = Self {
+            entries: Vec::new(),
+            width: 0,
+            height: 0,
+        };
+        let (mut x, mut y) = (0, 0);
+        for entry in entries {
+            let letters = text::width(&entry.text, f64::from(SMALL)).ceil() as i32;
+            let width = KEY.0 + GAPS.0 + letters;
+            if x > 0 && x + width > room {
+                (x, y) = (0, y + LINE);
+            }
+            legend.entries.push((entry, (x, y)));
+            legend.width = legend.width.max(x + width);
+            legend.height = y + LINE;
+            x += width + GAPS.1;
+        }
+        legend
+    }
+
+    /// Its width and height.
+    pub(super) fn size(&self) -> (i32, i32) {
+        (self.width, self.height)
+    }
+
+    /// Draws it with its upper left corner at `origin`.
+    pub(super) fn draw(&self, sheet: &Sheet<'_>, origin: (i32, i32)) -> Drawn {
+        for (entry, place) in &self.entries {
+            let (left, top) = (origin.0 + place.0, origin.1 + place.1);
+            let middle = top + LINE / 2;
+            draw_key(sheet, entry.key, (left, middle))?;
+            let letters = letters(SMALL, HPos::Left, VPos::Center);
+            sheet.draw_text(&entry.text, &letters, (left + KEY.0 + GAPS.0, middle))?;
+        }
+        Ok(())
+    }
+}
+
+fn draw_key(sheet: &Sheet<'_>, key: Key, (left, middle): (i32, i32)) -> Drawn {
+    let (right, top, bottom) = (left + KEY.0, middle - KEY.1 / 2, middle + KEY.1 / 2);
+    let corners = [(left, top), (right, bottom)];
+    match key {
+        Key::Color(color) => style::fill(sheet, corners, color)?,
+        Key::Hatch => style::hatch(sheet, corners)?,
+        Key::Fading(color) => {
+            const SHADES: i32 = 4;
+            for shade in 0..SHADES {
+                let edge = |index: i32| left + KEY.0 * index / SHADES;
+                let agreement = 1.0 - f64::from(shade) / f64::from(SHADES);
+                let corners = [(edge(shade), top), (edge(shade + 1), bottom)];
+                style::fill(sheet, corners, palette::faded(color, agreement))?;
+            }
+        }
+        Key::Curve => return style::curve(sheet, &[(left, middle), (right, middle)]),
+    }
+    style::outline(sheet, corners, BLACK.mix(0.6).stroke_width(4))
+}

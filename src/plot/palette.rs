@@ -1,0 +1,241 @@
+//! Colours: of states, and of continuous quantities.
+//!
+//! The colours of the states get darker from state to state, so that they stay apart in grey
+//! print and for every kind of colour blindness; the tests hold them to that.
+
+use crate::classify::Label;
+use plotters::style::RGBColor;
+
+/// Colour of a state.
+pub(super) fn state(label: Label) -> RGBColor {
+    match label {
+        Label::Unsettled => rgb(0xe6_e2_f7),
+        Label::Settled => rgb(0xe2_bd_6c),
+        Label::Fluid => rgb(0x58_a6_e0),
+        Label::Pinned => rgb(0x2a_8a_5c),
+        Label::SmallSpout => rgb(0x98_2c_74),
+        Label::LargeSpout => rgb(0x3a_14_57),
+        Label::Unstable => rgb(0x00_00_00),
+    }
+}
+
+/// Ground of cells without a value; their hatch is [`HATCH`].
+pub(super) const EMPTY: RGBColor = RGBColor(0xf4, 0xf4, 0xf4);
+
+/// Lines over cells without a value.
+pub(super) const HATCH: RGBColor = RGBColor(0xa8, 0xa8, 0xa8);
+
+/// Share of white in a cell on which no seed agrees.
+const LARGEST_FADE: f64 = 0.85;
+
+/// A colour as pale as the seeds disagree; `agreement` is the share of the seeds in the majority.
+pub(super) fn faded(color: RGBColor, agreement: f64) -> RGBColor {
+    mix(
+        color,
+        RGBColor(255, 255, 255),
+        LARGEST_FADE * (1.0 - agreement),
+    )
+}
+
+/// Map from a quantity to colours, perceptually uniform and safe for the colour-blind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ColorMap {
+    /// From low to high: viridis (van der Walt and Smith, 2015; CC0).
+    Sequential,
+    /// From negative over zero to positive: RdBu reversed (Harrower and Brewer, 2003).
+    Diverging,
+}
+
+const VIRIDIS: [u32; 9] = [
+    0x44_01_54, 0x47_2d_7b, 0x3b_52_8b, 0x2c_72_8e, 0x21_91_8c, 0x28_ae_80, 0x5e_c9_62, 0xad_dc_30,
+    0xfd_e7_25,
+];
+
+const BLUE_RED: [u32; 9] = [
+    0x21_66_ac, 0x43_93_c3, 0x92_c5_de, 0xd1_e5_f0, 0xf7_f7_f7, 0xfd_db_c7, 0xf4_a5_82, 0xd6_60_4d,
+    0xb2_18_2b,
+];
+
+impl ColorMap {
+    /// Colour at `fraction` of the map, 0 to 1.
+    pub(super) fn color(self, fraction: f64) -> RGBColor {
+        let anchors = match self {
+            Self::Sequential => &VIRIDIS,
+            Self::Diverging => &BLUE_RED,
+        };
+        let position = fraction.clamp(0.0, 1.0) * (anchors.len() - 1) as f64;
+        let index = (position as usize).min(anchors.len() - 2);
+        mix(
+            rgb(anchors[index]),
+            rgb(anchors[index + 1]),
+            position - index as f64,
+        )
+    }
+}
+
+const fn rgb(hex: u32) -> RGBColor {
+    let [_, red, green, blue] = hex.to_be_bytes();
+    RGBColor(red, green, blue)
+}
+
+/// `share` of `other` in `color`.
+fn mix(color: RGBColor, other: RGBColor, share: f64) -> RGBColor {
+    let channel = |one: u8, two: u8| {
+        (f64::from(one) + share * (f64::from(two) - f64::from(one))).round() as u8
+    };
+    RGBColor(
+        channel(color.0, other.0),
+        channel(color.1, other.1),
+        channel(color.2, other.2),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type Matrix = [[f64; 3]; 3];
+
+    /// Dichromats in linear RGB: Machado, Oliveira and Fernandes (2009), severity 1.
+    const VISIONS: [(&str, Matrix); 4] = [
+        ("full", [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]),
+        (
+            "protanopia",
+            [
+                [0.152286, 1.052583, -0.204868],
+                [0.114503, 0.786281, 0.099216],
+                [-0.003882, -0.048116, 1.051998],
+            ],
+        ),
+        (
+            "deuteranopia",
+            [
+                [0.367322, 0.860646, -0.227968],
+                [0.280085, 0.672501, 0.047413],
+                [-0.011820, 0.042940, 0.968881],
+            ],
+        ),
+        (
+            "tritanopia",
+            [
+                [1.255528, -0.076749, -0.178779],
+                [-0.078411, 0.930809, 0.147602],
+                [0.004733, 0.691367, 0.303900],
+            ],
+        ),
+    ];
+
+    /// Least distance of two states in CIELAB, for every vision; 2 is just noticeable.
+    const LEAST_DISTANCE: f64 = 18.0;
+
+    /// Least step of the grey lightness L* from state to state; the full range is 100.
+    const LEAST_STEP: f64 = 10.0;
+
+    fn apply(matrix: &Matrix, vector: [f64; 3]) -> [f64; 3] {
+        matrix.map(|row| row.iter().zip(vector).map(|(a, b)| a * b).sum())
+    }
+
+    fn linear(color: RGBColor) -> [f64; 3] {
+        [color.0, color.1, color.2].map(|channel| {
+            let value = f64::from(channel) / 255.0;
+            if value <= 0.04045 {
+                value / 12.92
+            } else {
+                libm::pow((value + 0.055) / 1.055, 2.4)
+            }
+        })
+    }
+
+    fn lab(color: RGBColor, vision: &Matrix) -> [f64; 3] {
+        let seen = apply(vision, linear(color)).map(|channel| channel.clamp(0.0, 1.0));
+        let xyz = apply(
+            &[
+                [0.4124, 0.3576, 0.1805],
+                [0.2126, 0.7152, 0.0722],
+                [0.0193, 0.1192, 0.9505],
+            ],
+            seen,
+        );
+        let response = |ratio: f64| {
+            if ratio > 0.008856 {
+                libm::cbrt(ratio)
+            } else {
+                7.787 * ratio + 16.0 / 116.0
+            }
+        };
+        let [x, y, z] = [xyz[0] / 0.95047, xyz[1], xyz[2] / 1.08883].map(response);
+        [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+    }
+
+    fn lightness(color: RGBColor) -> f64 {
+        lab(color, &VISIONS[0].1)[0]
+    }
+
+    #[test]
+    fn states_stay_apart_for_every_vision() {
+        for (name, vision) in &VISIONS {
+            for (index, one) in Label::ALL.into_iter().enumerate() {
+                for other in &Label::ALL[index + 1..] {
+                    let (a, b) = (lab(state(one), vision), lab(state(*other), vision));
+                    let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
+                    assert!(
+                        square.sqrt() >= LEAST_DISTANCE,
+                        "{name}: {one:?} and {other:?} are {:.1} apart",
+                        square.sqrt()
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn states_get_darker_in_order_and_unstable_is_black() {
+        let mut order = Label::ALL;
+        order.rotate_left(1);
+        for pair in order.windows(2) {
+            let step = lightness(state(pair[0])) - lightness(state(pair[1]));
+            assert!(step >= LEAST_STEP, "{pair:?}: {step:.1}");
+        }
+    }
+
+    #[test]
+    fn states_differ_from_empty_cells_and_paper() {
+        let step = lightness(EMPTY) - lightness(state(Label::Unsettled));
+        assert!(step > 4.0, "{step:.1}");
+    }
+
+    #[test]
+    fn fading_is_towards_white_by_disagreement() {
+        let color = state(Label::Pinned);
+        assert_eq!(faded(color, 1.0), color);
+        let shades: Vec<f64> = [1.0, 2.0 / 3.0, 1.0 / 3.0]
+            .map(|agreement| lightness(faded(color, agreement)))
+            .to_vec();
+        assert!(
+            shades.windows(2).all(|pair| pair[1] - pair[0] > 8.0),
+            "{shades:?}"
+        );
+        assert!(lightness(faded(state(Label::LargeSpout), 0.1)) < 99.0);
+    }
+
+    #[test]
+    fn sequential_map_is_monotone_and_even_in_grey() {
+        let shades: Vec<f64> = (0..=32)
+            .map(|index| lightness(ColorMap::Sequential.color(f64::from(index) / 32.0)))
+            .collect();
+        for pair in shades.windows(2) {
+            let step = pair[1] - pair[0];
+            assert!((1.5..4.0).contains(&step), "{step}");
+        }
+    }
+
+    #[test]
+    fn diverging_map_is_lightest_in_the_middle() {
+        let shade = |fraction| lightness(ColorMap::Diverging.color(fraction));
+        assert!(shade(0.5) > 96.0 && shade(0.0) < 45.0 && shade(1.0) < 45.0);
+        assert_eq!(
+            ColorMap::Diverging.color(7.0),
+            ColorMap::Diverging.color(1.0)
+        );
+    }
+}
