@@ -1,4 +1,5 @@
-//! The Verlet list: pairs that may interact before anything has moved by half the skin.
+//! The Verlet list: pairs that may interact before anything has moved by half the skin, a rotation
+//! of all spheres about the axis not counted.
 //!
 //! One list serves the contacts and the updraught's counting shield. Pairs stand in
 //! order of their indices (i < j, then by j). The order in which forces are summed is therefore
@@ -28,6 +29,10 @@ pub struct VerletList {
     neighbour: Vec<u32>,
     /// Positions at the latest build.
     reference: Vec<Vector>,
+    /// Rotation rate about the z axis at the latest build (rad/s).
+    rotation: f64,
+    /// Half the diagonal of the largest sphere's shielding box, plus the skin (m).
+    half_diagonal: f64,
     cells: Cells,
     builds: u64,
 }
@@ -41,15 +46,29 @@ impl VerletList {
             start: vec![0],
             neighbour: Vec::new(),
             reference: Vec::new(),
+            rotation: 0.0,
+            half_diagonal: 0.0,
             cells: Cells::default(),
             builds: 0,
         }
     }
 
-    /// Square of the displacement since the build beyond which the list may miss a pair (m2).
-    #[inline]
-    pub fn tolerance_squared(&self) -> f64 {
-        0.25 * self.skin * self.skin
+    /// The displacements that the list allows `time` (s) after its build.
+    pub fn allowance(&self, time: f64) -> Allowance {
+        let angle = self.rotation * time;
+        // The shield's box does not turn with the pair: that moves a partner relative to the box
+        // by at most the angle times the box's half diagonal.
+        let turned = match self.reach {
+            Reach::Contact => 0.0,
+            Reach::Column => angle.abs() * self.half_diagonal,
+        };
+        let displacement = (0.5 * (self.skin - turned)).max(0.0);
+        let (sine, cosine) = libm::sincos(angle);
+        Allowance {
+            sine,
+            cosine,
+            displacement_squared: displacement * displacement,
+        }
     }
 
     /// Positions at the latest build.
@@ -104,7 +123,46 @@ impl VerletList {
             self.start.push(self.neighbour.len() as u32);
         }
         self.reference.clone_from(&particles.position);
+        self.rotation = mean_rotation(particles);
+        self.half_diagonal = std::f64::consts::SQRT_2 * (2.0 * largest + self.skin);
         self.builds += 1;
+    }
+}
+
+/// How far spheres may have moved since the build of a list, rigid rotation about the z axis not
+/// counted: that leaves the distances of all pairs as they are.
+#[derive(Clone, Copy, Debug)]
+pub struct Allowance {
+    sine: f64,
+    cosine: f64,
+    displacement_squared: f64,
+}
+
+impl Allowance {
+    /// Whether a sphere at `position` is still near enough to its `reference`. Not so if a
+    /// coordinate is not a number.
+    #[inline]
+    pub fn holds(&self, position: Vector, reference: Vector) -> bool {
+        let turned = Vector::new(
+            self.cosine * reference.x - self.sine * reference.y,
+            self.sine * reference.x + self.cosine * reference.y,
+            reference.z,
+        );
+        (position - turned).norm_squared() <= self.displacement_squared
+    }
+}
+
+/// Rotation rate of the centres about the z axis (rad/s).
+fn mean_rotation(particles: &Particles) -> f64 {
+    let (mut momentum, mut inertia) = (0.0, 0.0);
+    for (x, v) in particles.position.iter().zip(&particles.velocity) {
+        momentum += x.x * v.y - x.y * v.x;
+        inertia += x.x * x.x + x.y * x.y;
+    }
+    if inertia > 0.0 {
+        momentum / inertia
+    } else {
+        0.0
     }
 }
 

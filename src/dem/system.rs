@@ -41,6 +41,24 @@ struct TouchingPair {
     entry: u32,
 }
 
+/// What a contact needs to know of a sphere, side by side in memory.
+#[derive(Clone, Copy, Default)]
+struct Body {
+    position: Vector,
+    radius: f64,
+    velocity: Vector,
+    mass: f64,
+    spin: Vector,
+    inertia: f64,
+}
+
+/// What a contact adds to a sphere.
+#[derive(Clone, Copy, Default)]
+struct Load {
+    force: Vector,
+    torque: Vector,
+}
+
 /// A simulation compiled for its contact laws.
 pub(super) struct System<N, T: TangentialLaw> {
     parts: Parts,
@@ -49,6 +67,10 @@ pub(super) struct System<N, T: TangentialLaw> {
     /// Absent where no pair interacts.
     list: Option<VerletList>,
     stale: bool,
+    /// Steps since the list was built.
+    age: u64,
+    bodies: Vec<Body>,
+    loads: Vec<Load>,
     touching: Vec<TouchingPair>,
     shielding: Vec<u32>,
     /// Histories of listed pairs, of the floor and of the cylinder. A law without history has one
@@ -77,6 +99,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Self {
             list: (N::ACTS || parts.shielded).then(|| VerletList::new(reach, skin)),
             stale: true,
+            age: 0,
+            bodies: Vec::new(),
+            loads: Vec::new(),
             touching: Vec::new(),
             shielding: vec![0; if parts.shielded { count } else { 0 }],
             pair_history: Vec::new(),
@@ -95,17 +120,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if self.stale {
             self.rebuild()?;
         }
-        self.parts.particles.force.fill(Vector::ZERO);
-        self.parts.particles.torque.fill(Vector::ZERO);
         if self.list.is_some() {
+            self.gather();
             if self.parts.shielded {
                 self.scan::<true>()
             } else {
                 self.scan::<false>()
             }
+            self.pair_forces();
+            self.scatter();
+        } else {
+            self.parts.particles.force.fill(Vector::ZERO);
         }
         if N::ACTS {
-            self.pair_forces();
             if let Some(floor) = self.parts.floor {
                 let mut history = std::mem::take(&mut self.floor_history);
                 self.wall_forces(floor, &mut history);
@@ -141,6 +168,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         } = &self.parts;
         limits.check_positions(particles, self.step, *dt)?;
         self.stale = false;
+        self.age = 0;
         let Some(list) = &mut self.list else {
             return Ok(());
         };
@@ -157,14 +185,53 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Ok(())
     }
 
+    /// Copies the state of the spheres into the order of memory that contacts read best.
+    fn gather(&mut self) {
+        let Particles {
+            position,
+            velocity,
+            radius,
+            mass,
+            spin,
+            inertia,
+            ..
+        } = &self.parts.particles;
+        self.bodies.clear();
+        self.bodies.extend(
+            position
+                .iter()
+                .zip(velocity)
+                .zip(radius.iter().zip(mass))
+                .map(|((&position, &velocity), (&radius, &mass))| Body {
+                    position,
+                    radius,
+                    velocity,
+                    mass,
+                    ..Body::default()
+                }),
+        );
+        for ((body, &spin), &inertia) in self.bodies.iter_mut().zip(spin).zip(inertia) {
+            body.spin = spin;
+            body.inertia = inertia;
+        }
+        self.loads.clear();
+        self.loads.resize(self.bodies.len(), Load::default());
+    }
+
+    /// Copies forces and torques of the contacts back to the spheres.
+    fn scatter(&mut self) {
+        let Particles { force, torque, .. } = &mut self.parts.particles;
+        for (force, load) in force.iter_mut().zip(&self.loads) {
+            *force = load.force;
+        }
+        for (torque, load) in torque.iter_mut().zip(&self.loads) {
+            *torque = load.torque;
+        }
+    }
+
     /// Goes through the list once: notes the pairs that touch and counts the shielding spheres.
     fn scan<const SHIELD: bool>(&mut self) {
         let Some(list) = &self.list else { return };
-        let Particles {
-            position, radius, ..
-        } = &self.parts.particles;
-        let count = radius.len();
-        let position = &position[..count];
         if SHIELD {
             self.shielding.fill(0);
         }
@@ -172,30 +239,40 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.touching
             .resize(list.pairs() + 1, TouchingPair::default());
         let mut kept = 0;
-        for i in 0..count {
-            let (centre, ri) = (position[i], radius[i]);
-            let entries = list.start()[i] as usize..list.start()[i + 1] as usize;
+        let bodies = &self.bodies[..];
+        for (i, bounds) in list.start().windows(2).enumerate() {
+            let Body {
+                position: centre,
+                radius: ri,
+                ..
+            } = bodies[i];
             let mut below = 0;
-            for (entry, &j) in entries.clone().zip(&list.neighbour()[entries]) {
-                let j = j as usize;
-                let (offset, rj) = (centre - position[j], radius[j]);
+            let first = bounds[0];
+            let neighbours = &list.neighbour()[first as usize..bounds[1] as usize];
+            for (entry, &j) in (first..).zip(neighbours) {
+                let Body {
+                    position,
+                    radius: rj,
+                    ..
+                } = bodies[j as usize];
+                let offset = centre - position;
                 if N::ACTS {
                     self.touching[kept] = TouchingPair {
                         i: i as u32,
-                        j: j as u32,
-                        entry: entry as u32,
+                        j,
+                        entry,
                     };
                     let touches = offset.norm_squared() < (ri + rj) * (ri + rj);
                     kept += usize::from(touches);
                     if Self::REMEMBERS && !touches {
-                        self.pair_history[entry] = T::History::default();
+                        self.pair_history[entry as usize] = T::History::default();
                     }
                 }
                 if SHIELD {
                     let (dx, dy) = (offset.x.abs(), offset.y.abs());
                     let within = |diameter: f64| (dx < diameter) & (dy < diameter);
                     below += u32::from(within(2.0 * ri) & (offset.z > 0.0));
-                    self.shielding[j] += u32::from(within(2.0 * rj) & (offset.z < 0.0));
+                    self.shielding[j as usize] += u32::from(within(2.0 * rj) & (offset.z < 0.0));
                 }
             }
             if SHIELD {
@@ -206,52 +283,49 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     fn pair_forces(&mut self) {
-        let touching = std::mem::take(&mut self.touching);
-        for &TouchingPair { i, j, entry } in &touching {
+        let (bodies, loads) = (&self.bodies[..], &mut self.loads[..]);
+        let overlap_limit = self.parts.limits.overlap;
+        for &TouchingPair { i, j, entry } in &self.touching {
             let (i, j) = (i as usize, j as usize);
-            let particles = &self.parts.particles;
-            let offset = particles.position[i] - particles.position[j];
+            let (one, other) = (&bodies[i], &bodies[j]);
+            let offset = one.position - other.position;
             let distance = offset.norm();
             let normal = offset * (1.0 / distance);
-            let (ri, rj) = (particles.radius[i], particles.radius[j]);
-            let overlap = ri + rj - distance;
-            let effective_radius = ri * rj / (ri + rj);
-            let velocity = particles.velocity[i] - particles.velocity[j];
+            let sum = one.radius + other.radius;
+            let overlap = sum - distance;
+            let effective_radius = one.radius * other.radius / sum;
+            let velocity = one.velocity - other.velocity;
             let normal_force = self
                 .normal
                 .force(overlap, -velocity.dot(normal), effective_radius);
-            if overlap > self.parts.limits.overlap * ri.min(rj) || distance == 0.0 {
+            if overlap > overlap_limit * one.radius.min(other.radius) || distance == 0.0 {
                 self.too_deep.get_or_insert((i, overlap));
             }
             let mut force = normal * normal_force;
             if T::ROTATES {
                 // Both centres turn about the point where the surfaces meet, so that the pair
                 // keeps its angular momentum.
-                let lever = distance / (ri + rj);
+                let lever = distance / sum;
                 let touch = Touch {
                     normal,
                     velocity,
-                    spin: [particles.spin[i], particles.spin[j]],
-                    lever: [ri * lever, rj * lever],
-                    inertia: [particles.inertia[i], particles.inertia[j]],
-                    lesser_mass: particles.mass[i].min(particles.mass[j]),
+                    spin: [one.spin, other.spin],
+                    lever: [one.radius * lever, other.radius * lever],
+                    inertia: [one.inertia, other.inertia],
+                    lesser_mass: one.mass.min(other.mass),
                     overlap,
                     effective_radius,
                     normal_force,
                 };
-                let traction = self
-                    .tangential
-                    .traction(&touch, &mut self.pair_history[entry as usize]);
+                let history = &mut self.pair_history[entry as usize];
+                let traction = self.tangential.traction(&touch, history);
                 force += traction.force;
-                let torque = &mut self.parts.particles.torque;
-                torque[i] += traction.torque[0];
-                torque[j] += traction.torque[1];
+                loads[i].torque += traction.torque[0];
+                loads[j].torque += traction.torque[1];
             }
-            let forces = &mut self.parts.particles.force;
-            forces[i] += force;
-            forces[j] -= force;
+            loads[i].force += force;
+            loads[j].force -= force;
         }
-        self.touching = touching;
     }
 
     fn wall_forces<W: Wall>(&mut self, wall: W, histories: &mut [T::History]) {
@@ -331,13 +405,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let Particles {
             position, velocity, ..
         } = &mut self.parts.particles;
+        self.age += 1;
         let Some(list) = &self.list else {
             for (position, &velocity) in position.iter_mut().zip(velocity.iter()) {
                 *position += velocity * dt;
             }
             return;
         };
-        let tolerance = list.tolerance_squared();
+        let allowance = list.allowance(self.age as f64 * dt);
         let mut moved = false;
         for ((position, &velocity), &reference) in position
             .iter_mut()
@@ -345,7 +420,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             .zip(list.reference())
         {
             *position += velocity * dt;
-            moved |= !((*position - reference).norm_squared() <= tolerance);
+            moved |= !allowance.holds(*position, reference);
         }
         self.stale = moved;
     }
