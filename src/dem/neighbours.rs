@@ -141,7 +141,7 @@ pub struct Allowance {
 impl Allowance {
     /// Whether a sphere at `position` is still near enough to its `reference`. Not so if a
     /// coordinate is not a number.
-    #[inline]
+    #[inline(always)]
     pub fn holds(&self, position: Vector, reference: Vector) -> bool {
         let turned = Vector::new(
             self.cosine * reference.x - self.sine * reference.y,

@@ -86,6 +86,12 @@ impl Simulation {
         self.engine.advance(steps)
     }
 
+    /// Keeps to the instructions that every machine of this architecture has. Slower, and the
+    /// same bits: a test compares the two.
+    pub fn use_baseline_instructions(&mut self) {
+        self.engine.use_baseline_instructions();
+    }
+
     /// The spheres.
     pub fn particles(&self) -> &Particles {
         self.engine.particles()

@@ -10,6 +10,7 @@ use super::vector::Vector;
 use super::walls::{Cylinder, Floor, Wall};
 use crate::record::Instability;
 use crate::scene::Integrator;
+use fearless_simd::Level;
 
 /// What the rest of the program needs of a system, whatever its laws.
 pub(super) trait Engine: Send {
@@ -18,6 +19,7 @@ pub(super) trait Engine: Send {
     fn step(&self) -> u64;
     fn list(&self) -> Option<&VerletList>;
     fn elastic_energy(&mut self) -> f64;
+    fn use_baseline_instructions(&mut self);
 }
 
 /// What a system is made of besides its laws.
@@ -79,6 +81,7 @@ pub(super) struct System<N, T: TangentialLaw> {
     floor_history: Vec<T::History>,
     cylinder_history: Vec<T::History>,
     step: u64,
+    level: Level,
     /// The first sphere found beyond the overlap limit in this step, with its overlap.
     too_deep: Option<(usize, f64)>,
 }
@@ -111,11 +114,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             tangential,
             parts,
             step: 0,
+            level: Level::new(),
             too_deep: None,
         }
     }
 
     /// Evaluates all forces and torques at the present positions and velocities.
+    #[inline(always)]
     fn evaluate(&mut self) -> Result<(), Instability> {
         if self.stale {
             self.rebuild()?;
@@ -186,6 +191,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Copies the state of the spheres into the order of memory that contacts read best.
+    #[inline(always)]
     fn gather(&mut self) {
         let Particles {
             position,
@@ -219,6 +225,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Copies forces and torques of the contacts back to the spheres.
+    #[inline(always)]
     fn scatter(&mut self) {
         let Particles { force, torque, .. } = &mut self.parts.particles;
         for (force, load) in force.iter_mut().zip(&self.loads) {
@@ -230,6 +237,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Goes through the list once: notes the pairs that touch and counts the shielding spheres.
+    #[inline(always)]
     fn scan<const SHIELD: bool>(&mut self) {
         let Some(list) = &self.list else { return };
         if SHIELD {
@@ -282,6 +290,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.touching.truncate(kept);
     }
 
+    #[inline(always)]
     fn pair_forces(&mut self) {
         let (bodies, loads) = (&self.bodies[..], &mut self.loads[..]);
         let overlap_limit = self.parts.limits.overlap;
@@ -328,6 +337,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
+    #[inline(always)]
     fn wall_forces<W: Wall>(&mut self, wall: W, histories: &mut [T::History]) {
         let Parts {
             particles, limits, ..
@@ -367,6 +377,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// v += a dt for a time `dt`, and the same for spins. True if a sphere is too fast.
+    #[inline(always)]
     fn kick(&mut self, dt: f64) -> bool {
         let Particles {
             velocity,
@@ -400,6 +411,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// x += v dt. Notes whether a sphere left the skin of the list.
+    #[inline(always)]
     fn drift(&mut self) {
         let dt = self.parts.dt;
         let Particles {
@@ -438,7 +450,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Ok(())
     }
 
+    #[inline(always)]
+    fn steps(&mut self, steps: u64) -> Result<(), Instability> {
+        for _ in 0..steps {
+            match self.parts.integrator {
+                Integrator::SymplecticEuler => self.symplectic_euler()?,
+                Integrator::VelocityVerlet => self.velocity_verlet()?,
+            }
+        }
+        Ok(())
+    }
+
     /// One step of symplectic Euler: v += a(x, v) dt, then x += v dt.
+    #[inline(always)]
     fn symplectic_euler(&mut self) -> Result<(), Instability> {
         self.step += 1;
         self.evaluate()?;
@@ -450,6 +474,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// One step of velocity Verlet, with forces from the new positions and the half-step
     /// velocities. The forces of the step before serve its first half.
+    #[inline(always)]
     fn velocity_verlet(&mut self) -> Result<(), Instability> {
         if self.step == 0 {
             self.evaluate()?;
@@ -467,10 +492,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
 impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
     fn advance(&mut self, steps: u64) -> Result<(), Instability> {
-        match self.parts.integrator {
-            Integrator::SymplecticEuler => (0..steps).try_for_each(|_| self.symplectic_euler())?,
-            Integrator::VelocityVerlet => (0..steps).try_for_each(|_| self.velocity_verlet())?,
-        }
+        // The hot loops are compiled once per instruction set. Wider vectors change no bit:
+        // every lane computes what the scalar code would.
+        let level = self.level;
+        fearless_simd::dispatch!(level, simd => {
+            let _ = simd;
+            self.steps(steps)
+        })?;
         let Parts {
             particles,
             limits,
@@ -478,6 +506,10 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
             ..
         } = &self.parts;
         limits.check_positions(particles, self.step, *dt)
+    }
+
+    fn use_baseline_instructions(&mut self) {
+        self.level = Level::baseline();
     }
 
     fn particles(&self) -> &Particles {

@@ -18,19 +18,19 @@ impl Vector {
     pub const ZERO: Self = Self::new(0.0, 0.0, 0.0);
 
     /// The vector with these components.
-    #[inline]
+    #[inline(always)]
     pub const fn new(x: f64, y: f64, z: f64) -> Self {
         Self { x, y, z }
     }
 
     /// Scalar product.
-    #[inline]
+    #[inline(always)]
     pub fn dot(self, other: Self) -> f64 {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
     /// Vector product.
-    #[inline]
+    #[inline(always)]
     pub fn cross(self, other: Self) -> Self {
         Self::new(
             self.y * other.z - self.z * other.y,
@@ -40,26 +40,26 @@ impl Vector {
     }
 
     /// Square of the length.
-    #[inline]
+    #[inline(always)]
     pub fn norm_squared(self) -> f64 {
         self.dot(self)
     }
 
     /// Length.
-    #[inline]
+    #[inline(always)]
     pub fn norm(self) -> f64 {
         self.norm_squared().sqrt()
     }
 
     /// The part perpendicular to the unit vector `normal`.
-    #[inline]
+    #[inline(always)]
     pub fn perpendicular_to(self, normal: Self) -> Self {
         self - normal * self.dot(normal)
     }
 }
 
 impl From<[f64; 3]> for Vector {
-    #[inline]
+    #[inline(always)]
     fn from([x, y, z]: [f64; 3]) -> Self {
         Self::new(x, y, z)
     }
@@ -67,7 +67,7 @@ impl From<[f64; 3]> for Vector {
 
 impl Add for Vector {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn add(self, other: Self) -> Self {
         Self::new(self.x + other.x, self.y + other.y, self.z + other.z)
     }
@@ -75,7 +75,7 @@ impl Add for Vector {
 
 impl Sub for Vector {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn sub(self, other: Self) -> Self {
         Self::new(self.x - other.x, self.y - other.y, self.z - other.z)
     }
@@ -83,7 +83,7 @@ impl Sub for Vector {
 
 impl Neg for Vector {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> Self {
         Self::new(-self.x, -self.y, -self.z)
     }
@@ -91,21 +91,21 @@ impl Neg for Vector {
 
 impl Mul<f64> for Vector {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn mul(self, factor: f64) -> Self {
         Self::new(self.x * factor, self.y * factor, self.z * factor)
     }
 }
 
 impl AddAssign for Vector {
-    #[inline]
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
 impl SubAssign for Vector {
-    #[inline]
+    #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }

@@ -25,7 +25,7 @@ impl Hertz {
 }
 
 impl NormalLaw for Hertz {
-    #[inline]
+    #[inline(always)]
     fn force(&self, overlap: f64, overlap_rate: f64, effective_radius: f64) -> f64 {
         // Elastic and dissipative part share sqrt(R_eff xi), so that one root serves both.
         let force = self.modulus
@@ -34,7 +34,7 @@ impl NormalLaw for Hertz {
         if force < 0.0 { 0.0 } else { force }
     }
 
-    #[inline]
+    #[inline(always)]
     fn elastic_energy(&self, overlap: f64, effective_radius: f64) -> f64 {
         0.4 * self.modulus * (effective_radius * overlap).sqrt() * overlap * overlap
     }

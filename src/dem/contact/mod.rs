@@ -24,12 +24,12 @@ pub struct NoContact;
 impl NormalLaw for NoContact {
     const ACTS: bool = false;
 
-    #[inline]
+    #[inline(always)]
     fn force(&self, _: f64, _: f64, _: f64) -> f64 {
         0.0
     }
 
-    #[inline]
+    #[inline(always)]
     fn elastic_energy(&self, _: f64, _: f64) -> f64 {
         0.0
     }

@@ -23,7 +23,7 @@ impl Coulomb {
 impl TangentialLaw for Coulomb {
     type History = ();
 
-    #[inline]
+    #[inline(always)]
     fn traction(&self, touch: &Touch, (): &mut ()) -> Traction {
         let sliding = touch.sliding_velocity();
         let speed = sliding.norm();

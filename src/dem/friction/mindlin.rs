@@ -39,7 +39,7 @@ pub struct Spring {
 impl TangentialLaw for Mindlin {
     type History = Spring;
 
-    #[inline]
+    #[inline(always)]
     fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction {
         let stiffness = self.modulus * (touch.effective_radius * touch.overlap).sqrt();
         // The contact plane turns with the pair: keep the length of the force while turning it.

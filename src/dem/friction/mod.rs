@@ -37,7 +37,7 @@ pub struct Touch {
 
 impl Touch {
     /// Velocity of this surface relative to the other at the contact point (m/s), tangential part.
-    #[inline]
+    #[inline(always)]
     pub fn sliding_velocity(&self) -> Vector {
         let surface = self.spin[0] * self.lever[0] + self.spin[1] * self.lever[1];
         self.velocity.perpendicular_to(self.normal) - surface.cross(self.normal)
@@ -45,7 +45,7 @@ impl Touch {
 
     /// The traction of a tangential force on this partner at the contact point: by reaction
     /// the opposite force acts on the other, and both get a torque of the same sense.
-    #[inline]
+    #[inline(always)]
     pub fn traction(&self, force: Vector) -> Traction {
         let arm = force.cross(self.normal);
         Traction {
@@ -83,7 +83,7 @@ impl TangentialLaw for Frictionless {
     const ROTATES: bool = false;
     type History = ();
 
-    #[inline]
+    #[inline(always)]
     fn traction(&self, _: &Touch, (): &mut ()) -> Traction {
         Traction {
             force: Vector::ZERO,

@@ -26,7 +26,7 @@ impl SpinFriction {
 impl TangentialLaw for SpinFriction {
     type History = ();
 
-    #[inline]
+    #[inline(always)]
     fn traction(&self, touch: &Touch, (): &mut ()) -> Traction {
         let surface = touch.spin[0] * touch.lever[0] + touch.spin[1] * touch.lever[1];
         // A select, not a branch: whether a force is clipped to zero is hard to foresee.

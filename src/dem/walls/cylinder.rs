@@ -11,7 +11,7 @@ pub struct Cylinder {
 }
 
 impl Wall for Cylinder {
-    #[inline]
+    #[inline(always)]
     fn touch(&self, centre: Vector, radius: f64) -> Option<(f64, Vector)> {
         let reach = self.radius - radius;
         let distance_squared = centre.x * centre.x + centre.y * centre.y;

@@ -11,7 +11,7 @@ pub struct Floor {
 }
 
 impl Wall for Floor {
-    #[inline]
+    #[inline(always)]
     fn touch(&self, centre: Vector, radius: f64) -> Option<(f64, Vector)> {
         let overlap = radius - (centre.z - self.height);
         (overlap > 0.0).then_some((overlap, Vector::new(0.0, 0.0, 1.0)))
