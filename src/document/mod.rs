@@ -7,11 +7,10 @@ pub(crate) mod schema;
 mod spelling;
 mod tree;
 
-pub use load_error::LoadError;
+pub use load_error::{Finding, LoadError, Spot};
 pub use problem::Problem;
-pub(crate) use spelling::{one_of, quoted, suggest};
+pub(crate) use spelling::{any_of, number, one_of, quoted, suggest};
 
-use load_error::Finding;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -66,11 +65,16 @@ impl Document {
                 Ok(document)
             }
             Err(error) => {
-                let finding = document.finding(
-                    format!("this is not TOML: {}", error.message()),
-                    error.span(),
-                    None,
-                );
+                let message = format!("this is not TOML: {}", error.message());
+                // The most frequent slip, which the parser takes for a misspelt `true`.
+                let word = error
+                    .span()
+                    .and_then(|span| document.text[span.start..].chars().next());
+                let help = word
+                    .filter(|character| character.is_alphabetic())
+                    .filter(|_| error.message() != "duplicate key")
+                    .map(|_| "a text needs quotes, and a line its `=`".to_owned());
+                let finding = document.finding(message, error.span(), help);
                 Err(LoadError::Invalid(vec![finding]))
             }
         }
@@ -88,8 +92,12 @@ impl Document {
 
     /// An error that points to the places of `problems` in this file.
     pub(crate) fn refuse(&self, problems: &[Problem]) -> LoadError {
-        let findings = problems.iter().map(|problem| {
-            let span = self.span(problem);
+        let mut placed: Vec<_> = problems
+            .iter()
+            .map(|problem| (self.span(problem), problem))
+            .collect();
+        placed.sort_by_key(|(span, _)| span.as_ref().map(|span| span.start));
+        let findings = placed.into_iter().map(|(span, problem)| {
             self.finding(problem.message.clone(), span, problem.help.clone())
         });
         LoadError::Invalid(findings.collect())

@@ -3,7 +3,7 @@
 //! A description is data: one list per table, next to the structs that the file ends in. It
 //! serves to refuse a file with all its problems at once, and to name the numeric keys of a scene.
 
-use super::{Problem, one_of, quoted, suggest};
+use super::{Problem, any_of, number, one_of, quoted, suggest};
 use serde_json::{Map, Value};
 
 /// A key of a table.
@@ -103,15 +103,15 @@ impl Range {
 
     fn words(self) -> String {
         let low = if self.low_allowed {
-            format!("at least {}", self.low)
+            format!("of at least {}", number(self.low))
         } else {
-            format!("above {}", self.low)
+            format!("above {}", number(self.low))
         };
         match (self.low > f64::MIN, self.high < f64::MAX) {
             (false, false) => "a number".to_owned(),
             (true, false) => format!("a number {low}"),
-            (false, true) => format!("a number of at most {}", self.high),
-            (true, true) => format!("a number {low} and at most {}", self.high),
+            (false, true) => format!("a number of at most {}", number(self.high)),
+            (true, true) => format!("a number {low} and at most {}", number(self.high)),
         }
     }
 }
@@ -216,7 +216,7 @@ impl Kind {
                 }
             }
             (Self::Whole(least), Value::Number(number)) => {
-                if !number.as_u64().is_some_and(|number| number >= *least) {
+                if number.as_u64().is_none_or(|number| number < *least) {
                     problems.push(misfit());
                 }
             }
@@ -237,7 +237,7 @@ fn found(value: &Value) -> String {
     match value {
         Value::Null => "not a finite number".to_owned(),
         Value::Bool(flag) => flag.to_string(),
-        Value::Number(number) => number.to_string(),
+        Value::Number(value) => value.as_f64().map_or_else(|| value.to_string(), number),
         Value::String(text) => format!("\"{text}\""),
         Value::Array(entries) if entries.is_empty() => "an empty list".to_owned(),
         Value::Array(_) => "a list".to_owned(),
@@ -272,11 +272,19 @@ fn check_table(
             None => problems.push(unknown_key(keys, variants, name, path, join(name))),
         }
     }
+    let misspelt = |key: &Key| {
+        let mut unknown = table
+            .keys()
+            .filter(|name| !keys.iter().any(|key| key.name == **name));
+        unknown.any(|name| suggest(name, [key.name]).is_some())
+    };
     for key in keys
         .iter()
         .filter(|key| key.needed && !table.contains_key(key.name))
     {
-        problems.push(missing_key(key, path, &join(key.name)));
+        if !misspelt(key) {
+            problems.push(missing_key(key, path, &join(key.name)));
+        }
     }
 }
 
@@ -345,10 +353,10 @@ fn check_tagged(
     problems: &mut Vec<Problem>,
 ) {
     let words: Vec<&str> = variants.iter().map(|(word, _)| *word).collect();
-    let listed = || one_of(words.iter().map(|word| format!("{tag} = \"{word}\"")));
+    let listed = || any_of(words.iter().map(|word| format!("{tag} = \"{word}\"")));
     let Some(value) = table.get(tag) else {
         let message = format!("{} lacks the key `{tag}`", table_name(path));
-        problems.push(Problem::new(path, message).help(format!("add one of {}", listed())));
+        problems.push(Problem::new(path, message).help(format!("add {}", listed())));
         return;
     };
     match variants
@@ -361,7 +369,7 @@ fn check_tagged(
                 .as_str()
                 .and_then(|word| suggest(word, words.iter().copied()));
             let message = format!("`{path}.{tag}` is {}", found(value));
-            let known = format!("use one of {}", listed());
+            let known = format!("use {}", listed());
             let help = match near {
                 Some(near) => format!("did you mean \"{near}\"? {known}"),
                 None => known,
@@ -369,4 +377,63 @@ fn check_tagged(
             problems.push(Problem::new(format!("{path}.{tag}"), message).help(help));
         }
     }
+}
+
+/// For tests: names the tables in `value` whose described keys are not those that `T` has. What `T`
+/// has, it tells when it refuses a key that nothing has.
+#[cfg(test)]
+pub(crate) fn differences<T: serde::de::DeserializeOwned>(
+    kind: &Kind,
+    value: &Value,
+) -> Vec<String> {
+    let mut tables = Vec::new();
+    collect_tables(kind, value, String::new(), &mut tables);
+    assert!(!tables.is_empty());
+    let differs = |(pointer, described): &(String, Vec<&str>)| {
+        let mut probe = value.clone();
+        let table = probe.pointer_mut(pointer).and_then(Value::as_object_mut);
+        table
+            .unwrap()
+            .insert("nothing has this".to_owned(), Value::Null);
+        let message = serde_json::from_value::<T>(probe)
+            .err()
+            .unwrap()
+            .to_string();
+        let mut known: Vec<&str> = message.split('`').skip(3).step_by(2).collect();
+        let mut described = described.clone();
+        known.sort_unstable();
+        described.sort_unstable();
+        (known != described).then(|| format!("{pointer}: {described:?}, but {message}"))
+    };
+    tables.iter().filter_map(differs).collect()
+}
+
+/// The tables in `value`, as JSON pointers, each with its described keys but the tag.
+#[cfg(test)]
+fn collect_tables(
+    kind: &Kind,
+    value: &Value,
+    pointer: String,
+    tables: &mut Vec<(String, Vec<&'static str>)>,
+) {
+    let keys: &[Key] = match kind {
+        Kind::Table(keys) => keys,
+        Kind::Tagged(tag, variants) => {
+            let variant = variants.iter().find(|(word, _)| value[tag] == **word);
+            variant.unwrap().1
+        }
+        Kind::List(entry) => {
+            for (index, value) in value.as_array().unwrap().iter().enumerate() {
+                collect_tables(entry, value, format!("{pointer}/{index}"), tables);
+            }
+            return;
+        }
+        _ => return,
+    };
+    for key in keys {
+        if let Some(value) = value.get(key.name) {
+            collect_tables(&key.kind, value, format!("{pointer}/{}", key.name), tables);
+        }
+    }
+    tables.push((pointer, keys.iter().map(|key| key.name).collect()));
 }

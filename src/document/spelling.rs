@@ -5,6 +5,14 @@ pub(crate) fn quoted(name: impl std::fmt::Display) -> String {
     format!("`{name}`")
 }
 
+/// A number as one would write it: in powers of ten where it is very large or small.
+pub(crate) fn number(value: f64) -> String {
+    match value.abs() {
+        size if size != 0.0 && !(1e-3..1e6).contains(&size) => format!("{value:e}"),
+        _ => value.to_string(),
+    }
+}
+
 /// All names, quoted, with commas between them.
 pub(crate) fn one_of<S: AsRef<str>>(names: impl IntoIterator<Item = S>) -> String {
     let names: Vec<String> = names
@@ -12,6 +20,11 @@ pub(crate) fn one_of<S: AsRef<str>>(names: impl IntoIterator<Item = S>) -> Strin
         .map(|name| quoted(name.as_ref()))
         .collect();
     names.join(", ")
+}
+
+/// All names, quoted, with "or" between them.
+pub(crate) fn any_of<S: AsRef<str>>(names: impl IntoIterator<Item = S>) -> String {
+    one_of(names).replace("`, `", "` or `")
 }
 
 /// The name that is nearest to `word`, if one is near enough to have been meant.
@@ -51,6 +64,12 @@ fn distance(from: &str, to: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let short = [0.0, 0.004, 2.5e-4, 1e8, 256.0, -1e-9].map(number);
+        assert_eq!(short, ["0", "0.004", "2.5e-4", "1e8", "256", "-1e-9"]);
+    }
 
     #[test]
     fn finds_slips_of_the_keyboard_and_nothing_far_off() {

@@ -3,7 +3,7 @@
 use super::Scene;
 use super::schema::SCENE;
 use crate::document::schema::Kind;
-use crate::document::{Problem, one_of, suggest};
+use crate::document::{Problem, any_of, number, one_of, suggest};
 use serde_json::Value;
 
 /// A key that a sweep may vary.
@@ -54,11 +54,10 @@ impl Scene {
         match matches.as_slice() {
             [path] => Ok((*path).clone()),
             [] => Err(self.unknown_key(key, &paths)),
-            several => Err(Problem::new(
-                "",
-                format!("`{key}` could be any of {}", one_of(several)),
-            )
-            .help("write the full path")),
+            several => Err(
+                Problem::new("", format!("`{key}` could be {}", any_of(several)))
+                    .help("write the full path"),
+            ),
         }
     }
 
@@ -105,7 +104,7 @@ impl Scene {
             let number = if key.whole && value >= 0.0 && libm::trunc(value) == value {
                 Value::from(value as u64)
             } else if key.whole {
-                let message = format!("`{path}` must be a whole number, but is {value}");
+                let message = format!("`{path}` must be a whole number, but is {}", number(value));
                 return Err(Problem::new(path, message));
             } else {
                 Value::from(value)

@@ -152,3 +152,51 @@ const OUTPUT: Kind = Kind::Table(&[
     optional("rise_speeds", Kind::List(&NUMBER)),
     optional("rise_radii", Kind::List(&POSITIVE)),
 ]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::schema::differences;
+    use crate::scene::Scene;
+    use serde_json::{Value, json};
+
+    fn everything(friction: Value, start: Value) -> Value {
+        json!({
+            "spheres": { "count": 2, "radius": 0.004, "density": 1e3 },
+            "contact": { "law": "hertz", "young_modulus": 1e6, "poisson_ratio": 0.3 },
+            "friction": friction,
+            "tank": {},
+            "start": start,
+            "gravity": { "acceleration": 9.8 },
+            "drag": { "law": "diameter" },
+            "swirl": { "omega": 1.0 },
+            "updraught": { "speed": 1.0, "decay": 25.0, "origin": 0.0, "alpha": 0.5 },
+            "spin_damping": { "coefficient": 1e-8 },
+            "time": { "dt": 1e-4, "duration": 1.0, "frame_interval": 1e-3 },
+            "guards": {},
+            "output": {},
+        })
+    }
+
+    #[test]
+    fn the_description_has_the_keys_of_the_structs() {
+        let sphere = json!({ "position": [0.0, 0.0, 0.0] });
+        let scenes = [
+            everything(
+                json!({ "law": "spin", "coefficient": 0.1 }),
+                json!({ "kind": "random", "z_min": 0.0, "z_max": 1.0 }),
+            ),
+            everything(
+                json!({ "law": "coulomb", "coefficient": 0.1, "regularisation": 1e-3 }),
+                json!({ "kind": "list", "spheres": [sphere] }),
+            ),
+            everything(
+                json!({ "law": "mindlin", "coefficient": 0.1 }),
+                json!({ "kind": "file", "path": "start.csv" }),
+            ),
+        ];
+        for scene in scenes {
+            assert_eq!(differences::<Scene>(&SCENE, &scene), Vec::<String>::new());
+        }
+    }
+}

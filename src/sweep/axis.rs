@@ -1,7 +1,7 @@
 //! One axis of a sweep.
 
 use super::spacing::{self, MOST_VALUES};
-use crate::document::{Problem, one_of};
+use crate::document::{Problem, number, one_of};
 use crate::scene::{Scene, leaf};
 use serde::{Deserialize, Serialize};
 
@@ -96,7 +96,11 @@ impl AxisEntry {
 
     fn expand_range(&self, from: f64, to: f64, path: &str) -> Result<Vec<f64>, Problem> {
         if from >= to {
-            let message = format!("`from` = {from} must be below `to` = {to}");
+            let message = format!(
+                "`from` = {} must be below `to` = {}",
+                number(from),
+                number(to)
+            );
             return Err(Problem::new(format!("{path}.from"), message).help("exchange the two"));
         }
         match (self.step, self.count) {
@@ -115,8 +119,10 @@ impl AxisEntry {
                     Spacing::Linear => Ok(spacing::linear(from, to, count)),
                     Spacing::Log if from > 0.0 => Ok(spacing::logarithmic(from, to, count)),
                     Spacing::Log => {
-                        let message =
-                            format!("logarithmic spacing needs `from` above 0, but it is {from}");
+                        let message = format!(
+                            "logarithmic spacing needs `from` above 0, but it is {}",
+                            number(from)
+                        );
                         Err(Problem::new(format!("{path}.from"), message)
                             .help("start above 0, or use `spacing = \"linear\"`"))
                     }
@@ -142,7 +148,12 @@ fn expand_steps(from: f64, to: f64, step: f64, path: &str) -> Result<Vec<f64>, P
     match spacing::whole_steps(from, to, step) {
         Some(whole) if whole >= 1.0 => Ok(spacing::steps(from, step, whole as usize)),
         _ => {
-            let message = format!("steps of {step} from {from} do not end at {to}");
+            let message = format!(
+                "steps of {} from {} do not end at {}",
+                number(step),
+                number(from),
+                number(to)
+            );
             let below = libm::floor((to - from) / step) as usize;
             let ends = spacing::steps(from, step, below + 1);
             let ends = if below == 0 {
@@ -150,7 +161,10 @@ fn expand_steps(from: f64, to: f64, step: f64, path: &str) -> Result<Vec<f64>, P
             } else {
                 &ends[below..]
             };
-            let ends: Vec<String> = ends.iter().map(|end| format!("`to = {end}`")).collect();
+            let ends: Vec<String> = ends
+                .iter()
+                .map(|end| format!("`to = {}`", number(*end)))
+                .collect();
             Err(Problem::new(path, message).help(format!("use {}", ends.join(" or "))))
         }
     }
@@ -174,7 +188,7 @@ fn check_values(values: &[f64], path: &str) -> Result<Vec<f64>, Problem> {
     let values: Vec<f64> = values.iter().map(|value| value + 0.0).collect();
     for (index, value) in values.iter().enumerate() {
         if !seen.insert(value.to_bits()) {
-            let message = format!("the value {value} is there twice");
+            let message = format!("the value {} is there twice", number(*value));
             return Err(Problem::new(format!("{path}[{index}]"), message)
                 .help("remove one; replicates of a point belong in [seeds]"));
         }

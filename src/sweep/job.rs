@@ -1,7 +1,7 @@
 //! The jobs of a sweep: every point of its grid with every seed.
 
 use super::Sweep;
-use crate::document::Problem;
+use crate::document::{Problem, number};
 use crate::scene::Scene;
 
 /// One job of a sweep.
@@ -100,7 +100,7 @@ impl Sweep {
     fn describe(&self, values: &[f64]) -> String {
         let pairs = self.axes.iter().zip(values);
         let pairs: Vec<String> = pairs
-            .map(|(axis, value)| format!("{} = {value}", axis.name))
+            .map(|(axis, value)| format!("{} = {}", axis.name, number(*value)))
             .collect();
         pairs.join(", ")
     }

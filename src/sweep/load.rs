@@ -252,11 +252,11 @@ fn check_grid(sweep: &Sweep, document: &Document, problems: &mut Vec<Problem>) {
 
 /// Where a problem of a point shows: at the axis that sets the key, or at the scene.
 fn place(path: &str, sweep: &Sweep, tree: &Value) -> String {
-    match sweep
-        .axes
-        .iter()
-        .position(|axis| path.starts_with(&axis.key))
-    {
+    let sets = |axis: &Axis| {
+        let rest = path.strip_prefix(&axis.key);
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+    };
+    match sweep.axes.iter().position(sets) {
         Some(index) => format!("axis[{index}].key"),
         None if tree["scene"].is_object() => format!("scene.{path}"),
         None => "scene".to_owned(),

@@ -80,3 +80,25 @@ const PLOT: Kind = Kind::Table(&[
     optional("y", Kind::Text),
     optional("panels", Kind::Text),
 ]);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::classify::Sieves;
+    use crate::document::schema::differences;
+    use crate::sweep::PlotSettings;
+    use serde_json::json;
+
+    #[test]
+    fn the_description_has_the_keys_of_the_structs() {
+        let sieves = serde_json::to_value(Sieves::default()).unwrap();
+        assert_eq!(
+            differences::<Sieves>(&SIEVES, &sieves),
+            Vec::<String>::new()
+        );
+        assert_eq!(
+            differences::<PlotSettings>(&PLOT, &json!({})),
+            Vec::<String>::new()
+        );
+    }
+}
