@@ -1,0 +1,153 @@
+//! What a scene must satisfy beyond the kinds of its values.
+
+mod start;
+mod time;
+
+use super::schema::SCENE;
+use super::{Contact, Radii, Scene, Start};
+use crate::document::{Problem, number};
+
+/// Largest number of spheres: the engine numbers them with 32 bits, and holds them in memory.
+const MOST_SPHERES: usize = 100_000_000;
+
+impl Scene {
+    /// Everything that is wrong with this scene; a scene without problems can be run.
+    ///
+    /// Radii and starts that are still the names of files are not looked into.
+    pub fn problems(&self) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        SCENE.check(&self.tree(), "", &mut problems);
+        // The questions below take numbers in their ranges for granted.
+        if problems.is_empty() {
+            self.check_laws(&mut problems);
+            self.check_spheres(&mut problems);
+            self.check_start(&mut problems);
+            self.check_times(&mut problems);
+        }
+        if problems.is_empty() {
+            self.check_time_step(&mut problems);
+        }
+        problems
+    }
+
+    fn check_laws(&self, problems: &mut Vec<Problem>) {
+        if self.drag.is_none() {
+            let users = [
+                ("swirl", self.swirl.is_some()),
+                ("updraught", self.updraught.is_some()),
+            ];
+            for (name, _) in users.iter().filter(|(_, present)| *present) {
+                let message = format!("[{name}] needs a drag law, but there is no [drag]");
+                let help = "add [drag] with `law` and `linear` or `quadratic`";
+                problems.push(Problem::new(*name, message).help(help));
+            }
+        } else if self.swirl.is_none() && self.updraught.is_none() {
+            let message = "[drag] acts through [swirl] or [updraught], but there is neither";
+            let help = "add [swirl], with `omega = 0.0` for still air, or remove [drag]";
+            problems.push(Problem::new("drag", message).help(help));
+        }
+        if self.friction.is_some() && self.contact.is_none() {
+            let message = "[friction] acts at contacts, but there is no [contact]";
+            let help = "add [contact] with `law = \"hertz\"`, or remove [friction]";
+            problems.push(Problem::new("friction", message).help(help));
+        }
+        if self.spin_damping.is_some() && self.friction.is_none() {
+            let message = "[spin_damping] acts on spins, but without [friction] there are none";
+            let help = "add [friction], or remove [spin_damping]";
+            problems.push(Problem::new("spin_damping", message).help(help));
+        }
+        if let Some(Contact::Hertz {
+            dissipation_time,
+            restitution,
+            ..
+        }) = &self.contact
+        {
+            match (dissipation_time, restitution) {
+                (None, None) => problems.push(
+                    Problem::new("contact", "[contact] does not say how much it dissipates")
+                        .help("add `dissipation_time` (0.0 is elastic) or `restitution`"),
+                ),
+                (Some(_), Some(_)) => problems.push(
+                    Problem::new(
+                        "contact.restitution",
+                        "`contact.dissipation_time` and `contact.restitution` exclude each other",
+                    )
+                    .help("keep the one that is known and remove the other"),
+                ),
+                _ => {}
+            }
+        }
+    }
+
+    fn check_spheres(&self, problems: &mut Vec<Problem>) {
+        let count = self.spheres.count;
+        if count > MOST_SPHERES {
+            let message = format!("{} spheres are too many", number(count as f64));
+            let help = format!("{} are the most", number(MOST_SPHERES as f64));
+            problems.push(Problem::new("spheres.count", message).help(help));
+        }
+        match &self.spheres.radius {
+            Radii::Each(radii) if radii.len() != count => problems.push(
+                Problem::new(
+                    "spheres.radius",
+                    format!(
+                        "`spheres.radius` lists {}, but `spheres.count` is {count}",
+                        plural(radii.len(), "radius", "radii")
+                    ),
+                )
+                .help(format!("use `count = {}`, or list {count}", radii.len())),
+            ),
+            Radii::Shares(shares) if shares.is_empty() => problems.push(
+                Problem::new("spheres.radius", "`spheres.radius` is an empty list")
+                    .help("give one radius, or a list such as `[{ radius = 0.004, share = 1 }]`"),
+            ),
+            _ => {}
+        }
+        let Some(tank) = self.tank.as_ref().and_then(|tank| tank.radius) else {
+            return;
+        };
+        let largest = self.radius_range().1;
+        if largest >= tank {
+            let message = format!(
+                "spheres of radius {} m do not fit into a tank of radius {} m",
+                number(largest),
+                number(tank)
+            );
+            problems.push(
+                Problem::new("spheres.radius", message)
+                    .help("both are in metres; make the spheres smaller or `tank.radius` larger"),
+            );
+        }
+    }
+
+    /// The smallest and the largest radius of a sphere (m).
+    pub fn radius_range(&self) -> (f64, f64) {
+        let mut radii = Vec::new();
+        let mut listed = false;
+        if let Start::List { spheres } = &self.start {
+            radii.extend(spheres.iter().filter_map(|sphere| sphere.radius));
+            listed = radii.len() == spheres.len() && !radii.is_empty();
+        }
+        if !listed {
+            radii.extend(self.spheres.radius.values());
+        }
+        let ends = (f64::INFINITY, 0.0);
+        radii.iter().fold(ends, |(low, high): (f64, f64), radius| {
+            (low.min(*radius), high.max(*radius))
+        })
+    }
+
+    /// The smallest radius of a sphere (m).
+    pub fn smallest_radius(&self) -> f64 {
+        self.radius_range().0
+    }
+}
+
+fn plural(count: usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { many })
+}
+
+/// To six significant digits, for messages.
+fn rounded(value: f64) -> String {
+    number(format!("{value:.5e}").parse().unwrap_or(value))
+}

@@ -1,0 +1,114 @@
+//! Whether the times of a scene go together, and the step is stable.
+
+use super::rounded;
+use crate::dem::timestep;
+use crate::document::{Problem, number};
+use crate::scene::Scene;
+
+/// Two times count as commensurate if their ratio is a whole number within this.
+const ROUNDING: f64 = 1e-6;
+
+/// Largest number of frames: their observables are held in memory.
+const MOST_FRAMES: f64 = 1e7;
+
+impl Scene {
+    pub(super) fn check_times(&self, problems: &mut Vec<Problem>) {
+        let time = &self.time;
+        let interval = time.frame_interval;
+        let whole_steps = multiple(interval, time.dt);
+        if !whole_steps {
+            problems.push(not_multiple(
+                "time.frame_interval",
+                interval,
+                "time.dt",
+                time.dt,
+            ));
+        }
+        if !multiple(time.duration, interval) {
+            let name = "time.frame_interval";
+            problems.push(not_multiple("time.duration", time.duration, name, interval));
+        }
+        let frames = time.duration / interval;
+        if frames > MOST_FRAMES {
+            let message = format!("the run would have {} frames", rounded(frames));
+            let help = format!(
+                "{} are the most; use a larger interval",
+                number(MOST_FRAMES)
+            );
+            problems.push(Problem::new("time.frame_interval", message).help(help));
+        }
+        let snapshots = self.output.snapshot_interval;
+        if snapshots > 0.0 && !multiple(snapshots, interval) {
+            let path = "output.snapshot_interval";
+            problems.push(not_multiple(
+                path,
+                snapshots,
+                "time.frame_interval",
+                interval,
+            ));
+        }
+    }
+
+    pub(super) fn check_time_step(&self, problems: &mut Vec<Problem>) {
+        let Some(limit) = timestep::largest_stable(self) else {
+            return;
+        };
+        let dt = self.time.dt;
+        if dt <= limit.seconds {
+            return;
+        }
+        let message = format!(
+            "`time.dt` = {} s is {:.3} times the {} limit of {:.3e} s, above which the motion is \
+             unstable: {}; impacts at up to {:.3} m/s",
+            number(dt),
+            dt / limit.seconds,
+            limit.name,
+            limit.seconds,
+            limit.explanation,
+            timestep::fastest_impact(self),
+        );
+        // A round number of steps per frame, and some accuracy besides stability.
+        let steps = round_up(2.0 * self.time.frame_interval / limit.seconds);
+        let help = format!(
+            "use `dt = {}` or less: {steps} steps per frame, at most half the limit",
+            rounded(self.time.frame_interval / steps)
+        );
+        problems.push(Problem::new("time.dt", message).help(help));
+    }
+}
+
+/// Whether `time` is a whole number of times `unit`, once or more often.
+fn multiple(time: f64, unit: f64) -> bool {
+    let ratio = time / unit;
+    let whole = libm::round(ratio);
+    whole >= 1.0 && (ratio - whole).abs() <= ROUNDING * whole.min(1e3)
+}
+
+fn not_multiple(path: &str, time: f64, unit_path: &str, unit: f64) -> Problem {
+    let message = format!(
+        "`{path}` = {} s must be a whole multiple of `{unit_path}` = {} s, but is {} times that",
+        number(time),
+        number(unit),
+        rounded(time / unit)
+    );
+    let below = libm::floor(time / unit);
+    let above = rounded((below + 1.0) * unit);
+    let multiples = match below {
+        below if below < 1.0 => format!("{above} s"),
+        below => format!("{} s or {above} s", rounded(below * unit)),
+    };
+    Problem::new(path, message).help(format!("use {multiples}"))
+}
+
+/// The next of 1, 2, 5, 10, 20, 50 and so on.
+fn round_up(value: f64) -> f64 {
+    let mut decade = 1.0;
+    while 10.0 * decade < value {
+        decade *= 10.0;
+    }
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * decade);
+    steps
+        .into_iter()
+        .find(|step| *step >= value)
+        .unwrap_or(value)
+}
