@@ -1,12 +1,29 @@
 //! Sweeps: a scene, the axes it is varied over, and the jobs that follow.
 
 mod axis;
+mod difference;
+mod failure;
+mod folder;
+mod forecast;
 mod job;
+mod label;
 mod labels;
+mod plan;
+mod pool;
+mod status;
+pub mod work;
 
 pub use axis::Axis;
+pub use difference::differing_keys;
+pub use failure::{Failure, describe};
+pub use folder::{Folder, FolderError, Lock};
+pub use forecast::{Forecast, ForecastError, forecast};
 pub use job::Job;
+pub use label::{Labelling, changes};
 pub use labels::{LabelRow, LabelTable, Point};
+pub use plan::{Done, ForeignRecord, Plan, Standing};
+pub use pool::{Event, Pool, PoolError, Report};
+pub use status::Status;
 
 use crate::classify::Sieves;
 use crate::scene::Scene;
