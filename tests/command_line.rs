@@ -1,5 +1,7 @@
 //! What each command prints, writes and returns.
 
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
 mod support;
 
 use std::process::Stdio;

@@ -1,5 +1,7 @@
 //! A sweep that was stopped goes on; what is done is not done again, and nothing is lost.
 
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
 mod support;
 
 use std::fs;

@@ -2,9 +2,10 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
-use super::format;
+use super::{classify, format};
+use phase::dem::timestep::{self, Limit};
 use phase::scene::{Friction, Scene};
-use phase::sweep::{Job, Sweep, forecast, work};
+use phase::sweep::{Axis, Job, Sweep, describe, forecast, work};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -30,9 +31,13 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
     let sweep = load(&arguments.file)?;
     let jobs = sweep.jobs();
+    classify::check_sieves(&sweep, &jobs)?;
     console.result(describe_sweep(&sweep, jobs.len()))?;
     console.result(line("effects", effects(&sweep.scene).join(", ")))?;
     console.result(line("time", describe_time(&sweep.scene)))?;
+    for text in describe_time_step(&jobs, &sweep.axes, console.is_verbose()) {
+        console.result(line("time step", text))?;
+    }
     if !arguments.no_trial {
         print_forecast(&jobs, workers, console)?;
     }
@@ -113,6 +118,66 @@ fn describe_time(scene: &Scene) -> String {
         "{} s in {frames} frames of {steps} steps of {} s",
         scene.time.duration, scene.time.dt
     )
+}
+
+/// The time step over the limit it must not exceed, and over those it had better not; over all
+/// limits if they are wanted.
+fn describe_time_step(jobs: &[Job], axes: &[Axis], all: bool) -> Vec<String> {
+    let mut tightest: Vec<Tightest<'_>> = Vec::new();
+    for job in jobs {
+        for limit in timestep::limits(&job.scene) {
+            let next = Tightest {
+                limit,
+                ratio: job.scene.time.dt / limit.seconds,
+                job,
+            };
+            match tightest
+                .iter_mut()
+                .find(|tightest| tightest.limit.name == limit.name)
+            {
+                Some(tightest) if tightest.ratio < next.ratio => *tightest = next,
+                Some(_) => {}
+                None => tightest.push(next),
+            }
+        }
+    }
+    tightest.sort_by(|a, b| {
+        let order = b.limit.decisive.cmp(&a.limit.decisive);
+        order.then(b.ratio.total_cmp(&a.ratio))
+    });
+    let is_told =
+        |(index, tightest): &(usize, &Tightest<'_>)| all || *index == 0 || tightest.ratio > 1.0;
+    let told = tightest.iter().enumerate().filter(is_told);
+    told.map(|(_, tightest)| tightest.describe(axes)).collect()
+}
+
+/// A limit of the time step, and the job that comes closest to it.
+struct Tightest<'a> {
+    limit: Limit,
+    ratio: f64,
+    job: &'a Job,
+}
+
+impl Tightest<'_> {
+    fn describe(&self, axes: &[Axis]) -> String {
+        let Limit {
+            name,
+            seconds,
+            decisive,
+            explanation,
+        } = self.limit;
+        let kind = if decisive {
+            "the limit"
+        } else {
+            "the advised limit"
+        };
+        format!(
+            "{:.3} of {kind} {seconds:.3e} s at {}\n{:14}{name}: {explanation}",
+            self.ratio,
+            describe(axes, &self.job.values, self.job.seed),
+            ""
+        )
+    }
 }
 
 fn print_forecast(jobs: &[Job], workers: usize, console: &Console) -> Result<(), Failure> {

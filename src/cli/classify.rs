@@ -1,6 +1,6 @@
 //! `phase classify`: labels the runs of a results folder again, from their records.
 
-use super::console::Console;
+use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
 use super::format;
 use phase::classify::{Label, Sieves};
@@ -47,7 +47,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             lock = Some(folder.lock().map_err(Failure::refused)?);
             sweep = edited.clone();
         }
-        let labelled = label_folder(&folder, &sweep, &sweep.jobs(), workers, console)?;
+        let jobs = sweep.jobs();
+        check_sieves(&sweep, &jobs)?;
+        let labelled = label_folder(&folder, &sweep, &jobs, workers, console)?;
         if lock.is_some() {
             folder.write_sweep(&sweep).map_err(Failure::failed)?;
         }
@@ -82,6 +84,12 @@ fn refuse_other_runs(folder: &Folder, sweep: &Sweep, edited: &Sweep) -> Result<(
     )))
 }
 
+/// Refuses sieves that cannot judge the runs of a sweep, before any time is spent on these.
+pub(super) fn check_sieves(sweep: &Sweep, jobs: &[Job]) -> Result<(), Failure> {
+    let check = |job: &Job| sweep.sieves.check(&job.scene);
+    jobs.iter().try_for_each(check).map_err(Failure::refused)
+}
+
 /// The labels of a folder.
 pub(super) struct Labelled {
     pub(super) table: LabelTable,
@@ -103,9 +111,9 @@ pub(super) fn label_folder(
         missing,
         problems,
     } = Labelling::new(folder, sweep, jobs, workers).map_err(Failure::failed)?;
-    for problem in &problems {
-        console.error(format_args!("no label: {problem}"));
-    }
+    name_first(&problems, |problem| {
+        console.error(format_args!("no label: {problem}"))
+    });
     if missing > 0 {
         console.note(format_args!(
             "{}: {} of {} not yet run, and without a label",

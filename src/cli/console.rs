@@ -63,3 +63,14 @@ impl Console {
 fn complain(text: impl Display) {
     let _ = writeln!(io::stderr().lock(), "{text}");
 }
+
+/// How many things are named one by one.
+const NAMED: usize = 20;
+
+/// Says the first names, and how many more there are.
+pub(crate) fn name_first(names: &[String], say: impl Fn(&str)) {
+    names.iter().take(NAMED).for_each(|name| say(name));
+    if names.len() > NAMED {
+        say(&format!("and {} more", names.len() - NAMED));
+    }
+}

@@ -2,6 +2,7 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
+use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Set by the first signal.
@@ -15,7 +16,13 @@ pub(crate) fn stop_on_signal(console: &Console) -> Result<&'static AtomicBool, F
         if STOP.swap(true, Ordering::Relaxed) {
             std::process::exit(Exit::Interrupted as i32);
         }
-        speaker.note("stopping; once more ends at once");
+        // On a terminal the cursor stands behind the bar.
+        let line = if std::io::stderr().is_terminal() {
+            "\n"
+        } else {
+            ""
+        };
+        speaker.note(format_args!("{line}stopping; once more ends at once"));
     })
     .map_err(|error| Failure::failed(format!("cannot listen for Ctrl-C: {error}")))?;
     Ok(&STOP)

@@ -39,7 +39,7 @@ struct State {
 impl<'a> Progress<'a> {
     pub(crate) fn new(console: &'a Console, work: Work) -> Self {
         let bar = (!console.is_quiet() && std::io::stderr().is_terminal()).then(|| {
-            let style = ProgressStyle::with_template("{bar:30} {msg}");
+            let style = ProgressStyle::with_template("{bar:20} {msg}");
             let bar = ProgressBar::new(work.steps);
             bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
             bar

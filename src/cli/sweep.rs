@@ -1,6 +1,6 @@
 //! `phase sweep`: runs the jobs of a sweep, labels them, draws the figures.
 
-use super::console::Console;
+use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
 use super::progress::{Progress, Work};
 use super::{classify, format, interrupt, plot};
@@ -64,6 +64,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
     let jobs = sweep.jobs();
+    classify::check_sieves(&sweep, &jobs)?;
     let folder = Folder::new(
         arguments
             .out
@@ -241,9 +242,6 @@ fn run(
     })
 }
 
-/// How many unstable or failed runs are named one by one.
-const NAMED: usize = 20;
-
 impl Run {
     /// Prints what was done and names what went wrong.
     fn print(&self, plan: &Plan, sweep: &Sweep, console: &Console) -> Result<(), Failure> {
@@ -273,10 +271,10 @@ impl Run {
         }
         if *finished > 0 {
             text += &format!(
-                "\n{} in {} of CPU: {} of CPU",
+                "\n{} in {} of CPU time: {} per CPU second",
                 format::sphere_steps(*sphere_steps as f64),
                 format::duration(*cpu_seconds),
-                format::rate(*sphere_steps as f64 / cpu_seconds.max(1e-9)),
+                format::sphere_steps(*sphere_steps as f64 / cpu_seconds.max(1e-9)),
             );
         }
         console.result(text)?;
@@ -294,13 +292,5 @@ impl Run {
             console.error(format_args!("failed: {name}"))
         });
         Ok(())
-    }
-}
-
-/// Says the first names, and how many more there are.
-fn name_first(names: &[String], say: impl Fn(&str)) {
-    names.iter().take(NAMED).for_each(|name| say(name));
-    if names.len() > NAMED {
-        say(&format!("and {} more", names.len() - NAMED));
     }
 }
