@@ -3,9 +3,10 @@
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::{classify, format};
+use phase::classify::Sieves;
 use phase::dem::timestep::{self, Limit};
 use phase::scene::{Friction, Scene};
-use phase::sweep::{Axis, Job, Sweep, describe, forecast, work};
+use phase::sweep::{Axis, Job, PlotSettings, Sweep, describe, forecast, work};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -29,9 +30,16 @@ pub(crate) struct Arguments {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
-    let sweep = load(&arguments.file)?;
+    let is_sweep = is_sweep(&arguments.file);
+    let sweep = if is_sweep {
+        phase::sweep::load(&arguments.file).map_err(Failure::refused)?
+    } else {
+        sweep_of_one(phase::scene::load(&arguments.file).map_err(Failure::refused)?)
+    };
     let jobs = sweep.jobs();
-    classify::check_sieves(&sweep, &jobs)?;
+    if is_sweep {
+        classify::check_sieves(&sweep, &jobs)?;
+    }
     console.result(describe_sweep(&sweep, jobs.len()))?;
     console.result(line("effects", effects(&sweep.scene).join(", ")))?;
     console.result(line("time", describe_time(&sweep.scene)))?;
@@ -44,26 +52,26 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     Ok(Exit::Done)
 }
 
-/// Loads a sweep, or a scene as the sweep of that one scene.
-fn load(file: &Path) -> Result<Sweep, Failure> {
-    // What kind of file it is shows in its keys; the loaders say what else is wrong with it.
+/// Whether a file is a sweep rather than a scene, which shows in its keys. What cannot be read is
+/// left to the loader to complain of.
+fn is_sweep(file: &Path) -> bool {
     let text = std::fs::read_to_string(file).unwrap_or_default();
     let table: toml::Table = toml::from_str(&text).unwrap_or_default();
-    if ["axis", "scene", "sieves", "plot", "seeds"]
+    ["axis", "scene", "sieves", "plot", "seeds"]
         .iter()
         .any(|key| table.contains_key(*key))
-    {
-        return phase::sweep::load(file).map_err(Failure::refused);
-    }
-    let scene = phase::scene::load(file).map_err(Failure::refused)?;
-    Ok(Sweep {
+}
+
+/// The sweep of just one scene.
+fn sweep_of_one(scene: Scene) -> Sweep {
+    Sweep {
         title: None,
         axes: Vec::new(),
         seeds: vec![scene.seed],
         scene,
-        sieves: Default::default(),
-        plot: Default::default(),
-    })
+        sieves: Sieves::default(),
+        plot: PlotSettings::default(),
+    }
 }
 
 fn line(name: &str, text: impl std::fmt::Display) -> String {

@@ -87,7 +87,11 @@ fn refuse_other_runs(folder: &Folder, sweep: &Sweep, edited: &Sweep) -> Result<(
 /// Refuses sieves that cannot judge the runs of a sweep, before any time is spent on these.
 pub(super) fn check_sieves(sweep: &Sweep, jobs: &[Job]) -> Result<(), Failure> {
     let check = |job: &Job| sweep.sieves.check(&job.scene);
-    jobs.iter().try_for_each(check).map_err(Failure::refused)
+    jobs.iter().try_for_each(check).map_err(|error| {
+        Failure::refused(format_args!(
+            "the sieves cannot label these runs: {error} (`phase sweep --no-classify` only runs them)"
+        ))
+    })
 }
 
 /// The labels of a folder.

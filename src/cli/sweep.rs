@@ -64,7 +64,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
     let jobs = sweep.jobs();
-    classify::check_sieves(&sweep, &jobs)?;
+    if !arguments.no_classify {
+        classify::check_sieves(&sweep, &jobs)?;
+    }
     let folder = Folder::new(
         arguments
             .out
