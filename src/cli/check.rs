@@ -36,13 +36,13 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     } else {
         sweep_of_one(phase::scene::load(&arguments.file).map_err(Failure::refused)?)
     };
-    let jobs = sweep.jobs();
+    let jobs = sweep.jobs().map_err(Failure::refused)?;
     if is_sweep {
         classify::check_sieves(&sweep, &jobs)?;
     }
     console.result(describe_sweep(&sweep, jobs.len()))?;
     console.result(line("effects", effects(&sweep.scene).join(", ")))?;
-    console.result(line("time", describe_time(&sweep.scene)))?;
+    console.result(line("duration", describe_time(&sweep.scene)))?;
     for text in describe_time_step(&jobs, &sweep.axes, console.is_verbose()) {
         console.result(line("time step", text))?;
     }
@@ -128,8 +128,8 @@ fn describe_time(scene: &Scene) -> String {
     )
 }
 
-/// The time step over the limit it must not exceed, and over those it had better not; over all
-/// limits if they are wanted.
+/// The time step over the limit it must not exceed, and over those it had better not; with
+/// `all`, over every limit, explained.
 fn describe_time_step(jobs: &[Job], axes: &[Axis], all: bool) -> Vec<String> {
     let mut tightest: Vec<Tightest<'_>> = Vec::new();
     for job in jobs {
@@ -156,7 +156,8 @@ fn describe_time_step(jobs: &[Job], axes: &[Axis], all: bool) -> Vec<String> {
     let is_told =
         |(index, tightest): &(usize, &Tightest<'_>)| all || *index == 0 || tightest.ratio > 1.0;
     let told = tightest.iter().enumerate().filter(is_told);
-    told.map(|(_, tightest)| tightest.describe(axes)).collect()
+    told.map(|(_, tightest)| tightest.describe(axes, all))
+        .collect()
 }
 
 /// A limit of the time step, and the job that comes closest to it.
@@ -167,24 +168,23 @@ struct Tightest<'a> {
 }
 
 impl Tightest<'_> {
-    fn describe(&self, axes: &[Axis]) -> String {
+    fn describe(&self, axes: &[Axis], explain: bool) -> String {
         let Limit {
             name,
             seconds,
             decisive,
             explanation,
         } = self.limit;
-        let kind = if decisive {
-            "the limit"
-        } else {
-            "the advised limit"
-        };
-        format!(
-            "{:.3} of {kind} {seconds:.3e} s at {}\n{:14}{name}: {explanation}",
-            self.ratio,
-            describe(axes, &self.job.values, self.job.seed),
-            ""
-        )
+        let kind = if decisive { "limit" } else { "advised limit" };
+        let at = describe(axes, &self.job.values, self.job.seed);
+        let mut text = format!(
+            "{:.2} of the {kind} {seconds:.2e} s ({name}) at {at}",
+            self.ratio
+        );
+        if explain {
+            text += &format!("\n{:14}{explanation}", "");
+        }
+        text
     }
 }
 

@@ -47,7 +47,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             lock = Some(folder.lock().map_err(Failure::refused)?);
             sweep = edited.clone();
         }
-        let jobs = sweep.jobs();
+        let jobs = sweep.jobs().map_err(Failure::refused)?;
         check_sieves(&sweep, &jobs)?;
         let labelled = label_folder(&folder, &sweep, &jobs, workers, console)?;
         if lock.is_some() {

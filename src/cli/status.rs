@@ -23,8 +23,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
     for folder in Folder::find(&arguments.dir).map_err(Failure::refused)? {
         let sweep = folder.read_sweep().map_err(Failure::failed)?;
-        let plan =
-            Plan::new(&folder, sweep.jobs(), work::default_workers()).map_err(Failure::failed)?;
+        let jobs = sweep.jobs().map_err(Failure::failed)?;
+        let plan = Plan::new(&folder, jobs, work::default_workers()).map_err(Failure::failed)?;
         let status = Status::of(&folder, &plan).map_err(Failure::failed)?;
         console.result(format_args!(
             "{}: {}",

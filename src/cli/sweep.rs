@@ -63,7 +63,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         sweep.seeds.clone_from(&arguments.seed);
     }
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
-    let jobs = sweep.jobs();
+    let jobs = sweep.jobs().map_err(Failure::refused)?;
     if !arguments.no_classify {
         classify::check_sieves(&sweep, &jobs)?;
     }

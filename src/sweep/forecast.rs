@@ -1,6 +1,7 @@
 //! What a sweep will cost, from a short trial of a few of its jobs.
 
 use super::{Job, work};
+use crate::record::RunRecord;
 use crate::run::{self, RunError};
 use crate::scene::Scene;
 use crate::store::{self, StoreError};
@@ -108,51 +109,42 @@ fn representatives(jobs: &[Job]) -> Vec<&Job> {
 }
 
 /// Runs the beginning of a job for about the time of the budget.
-fn try_job(job: &&Job, budget: Duration) -> Result<Trial, ForecastError> {
+fn try_job(job: &Job, budget: Duration) -> Result<Trial, ForecastError> {
     let failed = |source| ForecastError::Run {
         id: job.id.clone(),
         source,
     };
-    let all_frames = run::frames(&job.scene).1.max(1) as f64;
-    // One run that the budget interrupts tells how many frames a second run may have. Only a run
-    // that ends leaves a record, whose size is to be known too.
     let start = Instant::now();
-    let mut share = 0.0;
+    let mut frames_run = 0;
     let timed = run::run(&job.scene, &mut |progress| {
-        share = progress.frame as f64 / progress.frames as f64;
-        if start.elapsed() < budget {
+        frames_run = progress.frame;
+        // The rest of the budget is for runs that end, since only these leave a record.
+        if start.elapsed() < budget / 2 {
             ControlFlow::Continue(())
         } else {
             ControlFlow::Break(())
         }
     });
     let seconds = start.elapsed().as_secs_f64();
-    let (record, done) = match timed {
+    let (steps_per_frame, all_frames) = run::frames(&job.scene);
+    let (steps, disk) = match timed {
         Ok(record) => {
-            let done = work::sphere_steps_run(&record.scene, &record.outcome) as f64;
-            (record, done)
+            let steps = work::sphere_steps_run(&record.scene, &record.outcome);
+            (steps, size_of_record(&record)?)
         }
         Err(RunError::Interrupted) => {
-            let scene = first_frames(&job.scene, (all_frames * share / 10.0).clamp(1.0, 100.0));
-            let record = run::run(&scene, &mut |_| ControlFlow::Continue(())).map_err(failed)?;
-            (record, share * work::sphere_steps(&job.scene) as f64)
+            let steps = work::sphere_steps_until(&job.scene, frames_run * steps_per_frame);
+            // Fewer frames would not be compressed like those of a whole run.
+            let frames = (frames_run / 2).max(200).min(all_frames);
+            (steps, size_of_whole_run(job, frames)?)
         }
         Err(error) => return Err(failed(error)),
     };
-    let frames = record.observations.frames().max(1) as f64;
-    let spheres = job.scene.spheres.count as f64;
-    let stored = |scene: &Scene| stored_states(scene) * spheres * STATE_BYTES;
-    let folder = tempfile::tempdir()?;
-    let path = folder.path().join("trial.h5");
-    store::write_record(&record, &path)?;
-    let per_frame =
-        (std::fs::metadata(&path)?.len() as f64 - stored(&record.scene)).max(0.0) / frames;
-    let disk = per_frame * all_frames + stored(&job.scene);
     Ok(Trial {
-        rate: done.max(1.0) / seconds,
+        rate: steps.max(1) as f64 / seconds,
         disk,
         // The record in memory and as the bytes of its file, neither compressed.
-        memory: 4.0 * disk + spheres * ENGINE_BYTES,
+        memory: 4.0 * disk + job.scene.spheres.count as f64 * ENGINE_BYTES,
     })
 }
 
@@ -179,9 +171,92 @@ fn stored_states(scene: &Scene) -> f64 {
     1.0 + every(scene.output.snapshot_interval) + trajectory
 }
 
-/// The scene, ended after that many frames.
-fn first_frames(scene: &Scene, frames: f64) -> Scene {
-    let mut scene = scene.clone();
-    scene.time.duration = frames.round() * scene.time.frame_interval;
-    scene
+/// Size of the record of a whole run (bytes), from runs of `frames` frames and of half as many:
+/// part of a file does not grow with the number of frames.
+fn size_of_whole_run(job: &Job, frames: u64) -> Result<f64, ForecastError> {
+    let states = |scene: &Scene| stored_states(scene) * scene.spheres.count as f64 * STATE_BYTES;
+    let size_without_states = |frames: u64| {
+        let mut scene = job.scene.clone();
+        scene.time.duration = frames as f64 * scene.time.frame_interval;
+        let record = run::run(&scene, &mut |_| ControlFlow::Continue(()));
+        let record = record.map_err(|source| ForecastError::Run {
+            id: job.id.clone(),
+            source,
+        })?;
+        let observed = record.observations.frames().max(1) as f64;
+        Ok::<_, ForecastError>((size_of_record(&record)? - states(&scene), observed))
+    };
+    let (size, observed) = size_without_states(frames)?;
+    let (half_size, half_observed) = size_without_states((frames / 2).max(1))?;
+    let per_frame = (size - half_size) / (observed - half_observed).max(1.0);
+    let all_frames = run::frames(&job.scene).1 as f64;
+    Ok(size + per_frame.max(0.0) * (all_frames - observed).max(0.0) + states(&job.scene))
+}
+
+/// Size of the file of a record (bytes).
+fn size_of_record(record: &RunRecord) -> Result<f64, ForecastError> {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("trial.h5");
+    store::write_record(record, &path)?;
+    Ok(std::fs::metadata(&path)?.len() as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = r#"
+        spheres = { count = 8, radius = 0.004, density = 1000.0 }
+        start = { kind = "random", z_min = 0.01, z_max = 0.05 }
+        tank = { radius = 0.03, floor = 0.0 }
+        contact = { law = "hertz", young_modulus = 5e5, poisson_ratio = 0.3, dissipation_time = 1e-3 }
+        gravity = { acceleration = 9.8 }
+        time = { dt = 1e-4, duration = 3.0, frame_interval = 1e-3 }
+    "#;
+
+    fn job() -> Job {
+        let scene: Scene = toml::from_str(SCENE).unwrap();
+        Job {
+            id: scene.identity(),
+            values: vec![],
+            seed: scene.seed,
+            scene,
+        }
+    }
+
+    #[test]
+    fn a_short_trial_tells_the_size_of_a_whole_record() {
+        let job = job();
+        let record = run::run(&job.scene, &mut |_| ControlFlow::Continue(())).unwrap();
+        let size = size_of_record(&record).unwrap();
+        let short = forecast(std::slice::from_ref(&job), 1, Duration::ZERO).unwrap();
+        let ratio = short.disk / size;
+        assert!((0.6..1.7).contains(&ratio), "{} for {size}", short.disk);
+    }
+
+    #[test]
+    fn corners_and_middle_stand_for_the_grid() {
+        let at = |x: f64, y: f64, seed: u64| Job {
+            id: format!("{x} {y} {seed}"),
+            values: vec![x, y],
+            seed,
+            ..job()
+        };
+        let mut jobs = Vec::new();
+        for x in 0..3 {
+            for y in 0..3 {
+                for seed in 1..3 {
+                    jobs.push(at(f64::from(x), f64::from(y), seed));
+                }
+            }
+        }
+        let chosen: Vec<_> = representatives(&jobs)
+            .iter()
+            .map(|job| job.values.clone())
+            .collect();
+        assert_eq!(
+            chosen,
+            [[0.0, 0.0], [0.0, 2.0], [2.0, 0.0], [2.0, 2.0], [1.0, 1.0]]
+        );
+    }
 }
