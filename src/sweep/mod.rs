@@ -3,10 +3,16 @@
 mod axis;
 mod job;
 mod labels;
+mod load;
+mod schema;
+mod select;
+mod spacing;
 
 pub use axis::Axis;
-pub use job::Job;
+pub use job::{Job, PointError};
 pub use labels::{LabelRow, LabelTable, Point};
+pub use load::{from_str, load};
+pub use select::{SelectError, parse_point};
 
 use crate::classify::Sieves;
 use crate::scene::Scene;
