@@ -2,6 +2,7 @@
 
 pub mod classify;
 pub mod dem;
+pub mod document;
 pub mod notation;
 pub mod observe;
 pub mod plot;

@@ -7,9 +7,16 @@
 
 mod drag;
 mod identity;
+mod keys;
+mod load;
 mod radius;
+pub(crate) mod schema;
+mod validate;
 
 pub use drag::{Drag, DragForm, DragLaw};
+pub(crate) use keys::leaf;
+pub(crate) use load::of_tree;
+pub use load::{from_str, load};
 pub use radius::{Radii, RadiusShare};
 
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,7 @@
 //! Radii of the spheres: one value, shares of several, or a file.
 
 use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
 use std::path::PathBuf;
 
 /// Radii of the spheres.
@@ -28,4 +29,45 @@ pub struct RadiusShare {
     pub radius: f64,
     /// Relative share of the number of spheres; shares need not add up to one.
     pub share: f64,
+}
+
+impl Radii {
+    /// The radii that occur (m), of a list of spheres one per sphere. None for a file that has not
+    /// been read.
+    pub fn values(&self) -> Vec<f64> {
+        match self {
+            Self::One(radius) => vec![*radius],
+            Self::Shares(shares) => shares.iter().map(|share| share.radius).collect(),
+            Self::Each(radii) => radii.clone(),
+            Self::File { .. } => Vec::new(),
+        }
+    }
+
+    /// Mean radius of the spheres (m); not a number for a file that has not been read.
+    pub fn mean(&self) -> f64 {
+        self.mean_of(|radius| radius)
+    }
+
+    /// Mean volume of the spheres (m3); not a number for a file that has not been read.
+    pub fn mean_volume(&self) -> f64 {
+        self.mean_of(|radius| 4.0 / 3.0 * PI * radius * radius * radius)
+    }
+
+    fn mean_of(&self, quantity: impl Fn(f64) -> f64) -> f64 {
+        match self {
+            Self::One(radius) => quantity(*radius),
+            Self::Shares(shares) => {
+                let total: f64 = shares.iter().map(|share| share.share).sum();
+                let weighted = shares
+                    .iter()
+                    .map(|share| share.share * quantity(share.radius));
+                weighted.sum::<f64>() / total
+            }
+            Self::Each(radii) => {
+                let sum: f64 = radii.iter().map(|radius| quantity(*radius)).sum();
+                sum / radii.len() as f64
+            }
+            Self::File { .. } => f64::NAN,
+        }
+    }
 }

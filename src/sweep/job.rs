@@ -1,5 +1,7 @@
-//! One job of a sweep: a point of the grid with one seed.
+//! The jobs of a sweep: every point of its grid with every seed.
 
+use super::Sweep;
+use crate::document::Problem;
 use crate::scene::Scene;
 
 /// One job of a sweep.
@@ -13,4 +15,93 @@ pub struct Job {
     pub seed: u64,
     /// The resolved scene.
     pub scene: Scene,
+}
+
+/// A point of the grid whose scene cannot be run.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}{}", if point.is_empty() { String::new() } else { format!("at {point}: ") },
+    problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("; "))]
+pub struct PointError {
+    /// The point, such as `radius = 0.003, omega = 6`; empty for a sweep without axes.
+    pub point: String,
+    /// What is wrong there.
+    pub problems: Vec<Problem>,
+}
+
+impl Sweep {
+    /// All jobs. The first axis varies slowest; the seeds of a point follow each other.
+    ///
+    /// # Errors
+    /// The first point whose scene cannot be run. Never for a sweep that [`load`](super::load)
+    /// returned.
+    pub fn jobs(&self) -> Result<Vec<Job>, PointError> {
+        let mut jobs = Vec::with_capacity(self.points() * self.seeds.len());
+        for values in self.grid() {
+            let scene = self.scene_at(&values)?;
+            for &seed in &self.seeds {
+                let scene = Scene {
+                    seed,
+                    ..scene.clone()
+                };
+                jobs.push(Job {
+                    id: scene.identity(),
+                    values: values.clone(),
+                    seed,
+                    scene,
+                });
+            }
+        }
+        Ok(jobs)
+    }
+
+    /// Number of points of the grid.
+    pub fn points(&self) -> usize {
+        let sizes = self.axes.iter().map(|axis| axis.values.len());
+        sizes.fold(1, usize::saturating_mul)
+    }
+
+    /// The points of the grid, in order.
+    pub(super) fn grid(&self) -> impl Iterator<Item = Vec<f64>> {
+        (0..self.points()).map(|mut index| {
+            let mut values: Vec<f64> = self
+                .axes
+                .iter()
+                .rev()
+                .map(|axis| {
+                    let value = axis.values[index % axis.values.len()];
+                    index /= axis.values.len();
+                    value
+                })
+                .collect();
+            values.reverse();
+            values
+        })
+    }
+
+    /// The scene of a point of the grid, checked.
+    pub(super) fn scene_at(&self, values: &[f64]) -> Result<Scene, PointError> {
+        let fail = |problems| PointError {
+            point: self.describe(values),
+            problems,
+        };
+        let keys = self.axes.iter().map(|axis| axis.key.as_str());
+        let scene = self
+            .scene
+            .with_values(keys.zip(values.iter().copied()))
+            .map_err(|problem| fail(vec![problem]))?;
+        let problems = scene.problems();
+        if problems.is_empty() {
+            Ok(scene)
+        } else {
+            Err(fail(problems))
+        }
+    }
+
+    fn describe(&self, values: &[f64]) -> String {
+        let pairs = self.axes.iter().zip(values);
+        let pairs: Vec<String> = pairs
+            .map(|(axis, value)| format!("{} = {value}", axis.name))
+            .collect();
+        pairs.join(", ")
+    }
 }

@@ -1,6 +1,7 @@
 //! Normal contact laws: one file each.
 
 mod hertz;
+pub mod restitution;
 
 pub use hertz::Hertz;
 

@@ -1,0 +1,131 @@
+//! What scene files and sweep files have in common: TOML text whose every key knows its place, a
+//! description of the keys that may be there, and errors that point into the text.
+
+mod load_error;
+mod problem;
+pub(crate) mod schema;
+mod spelling;
+mod tree;
+
+pub use load_error::LoadError;
+pub use problem::Problem;
+pub(crate) use spelling::{one_of, quoted, suggest};
+
+use load_error::Finding;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use toml::de::DeTable;
+
+/// A TOML file as read, with the place of every key.
+#[derive(Debug)]
+pub(crate) struct Document {
+    path: PathBuf,
+    text: String,
+    tree: Value,
+    places: BTreeMap<String, Place>,
+}
+
+/// Where a key stands in the text, in bytes.
+#[derive(Clone, Debug)]
+struct Place {
+    /// The key itself; an entry of a list has none.
+    key: Option<Range<usize>>,
+    /// Its value; of a table the header.
+    value: Range<usize>,
+}
+
+impl Document {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// If it cannot be read, or is no TOML.
+    pub(crate) fn read(path: &Path) -> Result<Self, LoadError> {
+        let text = std::fs::read_to_string(path).map_err(|source| LoadError::Read {
+            path: path.to_owned(),
+            source,
+        })?;
+        Self::parse(text, path)
+    }
+
+    /// Takes `text` for the content of the file `path`.
+    ///
+    /// # Errors
+    /// If it is no TOML.
+    pub(crate) fn parse(text: String, path: &Path) -> Result<Self, LoadError> {
+        let mut document = Self {
+            path: path.to_owned(),
+            text,
+            tree: Value::Null,
+            places: BTreeMap::new(),
+        };
+        match DeTable::parse(&document.text) {
+            Ok(table) => {
+                document.tree = tree::of_table(table.get_ref(), "", &mut document.places);
+                Ok(document)
+            }
+            Err(error) => {
+                let finding = document.finding(
+                    format!("this is not TOML: {}", error.message()),
+                    error.span(),
+                    None,
+                );
+                Err(LoadError::Invalid(vec![finding]))
+            }
+        }
+    }
+
+    /// The content, numbers that are not finite as null.
+    pub(crate) fn tree(&self) -> &Value {
+        &self.tree
+    }
+
+    /// The folder that paths in the file are relative to.
+    pub(crate) fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
+    }
+
+    /// An error that points to the places of `problems` in this file.
+    pub(crate) fn refuse(&self, problems: &[Problem]) -> LoadError {
+        let findings = problems.iter().map(|problem| {
+            let span = self.span(problem);
+            self.finding(problem.message.clone(), span, problem.help.clone())
+        });
+        LoadError::Invalid(findings.collect())
+    }
+
+    /// Nothing if there are no problems, else an error that points to their places.
+    pub(crate) fn accept(&self, problems: &[Problem]) -> Result<(), LoadError> {
+        if problems.is_empty() {
+            Ok(())
+        } else {
+            Err(self.refuse(problems))
+        }
+    }
+
+    /// The place of a problem: that of its key, or of the nearest enclosing table in the file.
+    fn span(&self, problem: &Problem) -> Option<Range<usize>> {
+        let mut path = problem.path.as_str();
+        loop {
+            if let Some(place) = self.places.get(path) {
+                let at_key = problem.at_key && path == problem.path;
+                return place
+                    .key
+                    .clone()
+                    .filter(|_| at_key)
+                    .or_else(|| Some(place.value.clone()));
+            }
+            path = &path[..path.rfind(['.', '['])?];
+        }
+    }
+
+    fn finding(
+        &self,
+        message: String,
+        span: Option<Range<usize>>,
+        help: Option<String>,
+    ) -> Finding {
+        Finding::new(message, &self.path, &self.text, span, help)
+    }
+}

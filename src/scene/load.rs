@@ -1,0 +1,66 @@
+//! From a scene file to a scene.
+
+use super::schema::SCENE;
+use super::{Radii, Scene, Start};
+use crate::document::{Document, LoadError, Problem};
+use crate::store;
+use serde_json::Value;
+use std::path::Path;
+
+/// Reads a scene file. Files of radii and of spheres that it names, relative to itself, are read
+/// too: what comes back names no file and passes [`Scene::problems`].
+///
+/// # Errors
+/// All that is wrong with the file, each with line, column and the fix.
+pub fn load(path: &Path) -> Result<Scene, LoadError> {
+    of_document(&Document::read(path)?)
+}
+
+/// Like [`load`], with `text` for the content of the file `path`.
+///
+/// # Errors
+/// Those of [`load`].
+pub fn from_str(text: &str, path: &Path) -> Result<Scene, LoadError> {
+    of_document(&Document::parse(text.to_owned(), path)?)
+}
+
+fn of_document(document: &Document) -> Result<Scene, LoadError> {
+    let scene = of_tree(document.tree(), document.folder());
+    scene.map_err(|problems| document.refuse(&problems))
+}
+
+/// The scene that a tree of values describes; files it names are relative to `folder`.
+pub(crate) fn of_tree(tree: &Value, folder: &Path) -> Result<Scene, Vec<Problem>> {
+    let mut problems = Vec::new();
+    SCENE.check(tree, "", &mut problems);
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    let mut scene: Scene = serde_json::from_value(tree.clone())
+        .map_err(|error| vec![Problem::new("", format!("not a scene: {error}"))])?;
+    read_files(&mut scene, folder, &mut problems);
+    if problems.is_empty() {
+        problems = scene.problems();
+    }
+    if problems.is_empty() {
+        Ok(scene)
+    } else {
+        Err(problems)
+    }
+}
+
+/// Puts the contents of files in the place of their names.
+fn read_files(scene: &mut Scene, folder: &Path, problems: &mut Vec<Problem>) {
+    if let Radii::File { file } = &scene.spheres.radius {
+        match store::read_radii(&folder.join(file)) {
+            Ok(radii) => scene.spheres.radius = Radii::Each(radii),
+            Err(error) => problems.push(Problem::new("spheres.radius.file", error.to_string())),
+        }
+    }
+    if let Start::File { path } = &scene.start {
+        match store::read_start(&folder.join(path)) {
+            Ok(spheres) => scene.start = Start::List { spheres },
+            Err(error) => problems.push(Problem::new("start.path", error.to_string())),
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! The keys of a scene file: which there are, which must be there, and what each may hold.
+//!
+//! What the keys mean and their units stand at the structs in [`super`].
+
+use crate::document::schema::{Kind, Range, needed, optional};
+
+const NUMBER: Kind = Kind::Number(Range::ANY);
+const POSITIVE: Kind = Kind::Number(Range::POSITIVE);
+const NOT_NEGATIVE: Kind = Kind::Number(Range::NOT_NEGATIVE);
+const COUNT: Kind = Kind::Whole(1);
+
+/// The keys of a scene file.
+pub(crate) const SCENE: Kind = Kind::Table(&[
+    optional("title", Kind::Text),
+    optional("seed", Kind::Whole(0)),
+    needed("spheres", SPHERES),
+    optional("contact", CONTACT),
+    optional("friction", FRICTION),
+    optional("tank", TANK),
+    needed("start", START),
+    optional(
+        "gravity",
+        Kind::Table(&[needed("acceleration", NOT_NEGATIVE)]),
+    ),
+    optional("drag", DRAG),
+    optional("swirl", Kind::Table(&[needed("omega", NUMBER)])),
+    optional("updraught", UPDRAUGHT),
+    optional(
+        "spin_damping",
+        Kind::Table(&[needed("coefficient", NOT_NEGATIVE)]),
+    ),
+    needed("time", TIME),
+    optional("guards", GUARDS),
+    optional("output", OUTPUT),
+]);
+
+const SPHERES: Kind = Kind::Table(&[
+    needed("count", COUNT),
+    needed("radius", RADII),
+    needed("density", POSITIVE),
+]);
+
+const RADII: Kind = Kind::Either(&[
+    POSITIVE,
+    Kind::List(&Kind::Table(&[
+        needed("radius", POSITIVE),
+        needed("share", POSITIVE),
+    ])),
+    Kind::List(&POSITIVE),
+    Kind::Table(&[needed("file", Kind::Text)]),
+]);
+
+const CONTACT: Kind = Kind::Tagged(
+    "law",
+    &[(
+        "hertz",
+        &[
+            needed("young_modulus", POSITIVE),
+            needed("poisson_ratio", Kind::Number(Range::above(-1.0, 0.5))),
+            optional("dissipation_time", NOT_NEGATIVE),
+            optional("restitution", Kind::Number(Range::between(0.01, 1.0))),
+            optional("restitution_speed", POSITIVE),
+            optional("dissipation_factor", POSITIVE),
+        ],
+    )],
+);
+
+const FRICTION: Kind = Kind::Tagged(
+    "law",
+    &[
+        // Above 1, a step turns the spins of a touching pair around and lets them grow.
+        (
+            "spin",
+            &[needed("coefficient", Kind::Number(Range::FRACTION))],
+        ),
+        (
+            "coulomb",
+            &[
+                needed("coefficient", NOT_NEGATIVE),
+                needed("regularisation", POSITIVE),
+            ],
+        ),
+        ("mindlin", &[needed("coefficient", NOT_NEGATIVE)]),
+    ],
+);
+
+const TANK: Kind = Kind::Table(&[optional("radius", POSITIVE), optional("floor", NUMBER)]);
+
+const START: Kind = Kind::Tagged(
+    "kind",
+    &[
+        (
+            "random",
+            &[
+                needed("z_min", NUMBER),
+                needed("z_max", NUMBER),
+                optional("speed", NOT_NEGATIVE),
+                optional("spin", NOT_NEGATIVE),
+            ],
+        ),
+        ("list", &[needed("spheres", Kind::List(&START_SPHERE))]),
+        ("file", &[needed("path", Kind::Text)]),
+    ],
+);
+
+const START_SPHERE: Kind = Kind::Table(&[
+    needed("position", Kind::Vector),
+    optional("velocity", Kind::Vector),
+    optional("spin", Kind::Vector),
+    optional("radius", POSITIVE),
+]);
+
+const DRAG: Kind = Kind::Table(&[
+    optional("linear", NOT_NEGATIVE),
+    optional("quadratic", NOT_NEGATIVE),
+    needed(
+        "law",
+        Kind::Choice(&["cross-section", "diameter", "constant"]),
+    ),
+    optional("form", Kind::Choice(&["vector", "component"])),
+]);
+
+const UPDRAUGHT: Kind = Kind::Table(&[
+    needed("speed", NUMBER),
+    optional("strength", NOT_NEGATIVE),
+    needed("decay", NOT_NEGATIVE),
+    needed("origin", NUMBER),
+    needed("alpha", Kind::Number(Range::FRACTION)),
+]);
+
+const TIME: Kind = Kind::Table(&[
+    needed("dt", POSITIVE),
+    needed("duration", POSITIVE),
+    needed("frame_interval", POSITIVE),
+    optional(
+        "integrator",
+        Kind::Choice(&["symplectic-euler", "velocity-verlet"]),
+    ),
+]);
+
+const GUARDS: Kind = Kind::Table(&[
+    optional("overlap", POSITIVE),
+    optional("displacement", POSITIVE),
+    optional("horizontal", POSITIVE),
+    optional("vertical", POSITIVE),
+]);
+
+const OUTPUT: Kind = Kind::Table(&[
+    optional("snapshot_interval", NOT_NEGATIVE),
+    optional("trajectory", Kind::Flag),
+    optional("profile_bins", COUNT),
+    optional("rise_speeds", Kind::List(&NUMBER)),
+    optional("rise_radii", Kind::List(&POSITIVE)),
+]);

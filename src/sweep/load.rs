@@ -1,0 +1,264 @@
+//! From a sweep file to a sweep.
+
+use super::axis::AxisEntry;
+use super::schema::SWEEP;
+use super::{Axis, PlotSettings, Sweep};
+use crate::classify::Sieves;
+use crate::document::{Document, LoadError, Problem, one_of, suggest};
+use crate::scene::{self, Scene};
+use serde::Deserialize;
+use serde_json::Value;
+use std::path::Path;
+
+/// Largest number of axes.
+const MOST_AXES: usize = 4;
+
+/// Largest number of jobs: their scenes are held in memory.
+const MOST_JOBS: usize = 1_000_000;
+
+/// What a sweep file says besides its scene.
+#[derive(Deserialize)]
+struct SweepFile {
+    title: Option<String>,
+    #[serde(default)]
+    axis: Vec<AxisEntry>,
+    seeds: Option<SeedsEntry>,
+    #[serde(default)]
+    sieves: Sieves,
+    #[serde(default)]
+    plot: PlotSettings,
+}
+
+/// Seeds as a sweep file writes them: a list, or the first and their number.
+#[derive(Deserialize)]
+struct SeedsEntry {
+    first: Option<u64>,
+    count: Option<u64>,
+    list: Option<Vec<u64>>,
+}
+
+/// Reads a sweep file and the scene file that it names, relative to itself. The scenes of all
+/// points of the grid have been checked.
+///
+/// # Errors
+/// All that is wrong with either file, each with line, column and the fix.
+pub fn load(path: &Path) -> Result<Sweep, LoadError> {
+    of_document(&Document::read(path)?)
+}
+
+/// Like [`load`], with `text` for the content of the file `path`.
+///
+/// # Errors
+/// Those of [`load`].
+pub fn from_str(text: &str, path: &Path) -> Result<Sweep, LoadError> {
+    of_document(&Document::parse(text.to_owned(), path)?)
+}
+
+fn of_document(document: &Document) -> Result<Sweep, LoadError> {
+    let mut problems = Vec::new();
+    SWEEP.check(document.tree(), "", &mut problems);
+    document.accept(&problems)?;
+    let file = SweepFile::deserialize(document.tree())
+        .map_err(|error| document.refuse(&[Problem::new("", format!("not a sweep: {error}"))]))?;
+    let scene = base_scene(document)?;
+    let axes = expand_axes(&file.axis, &scene, &mut problems);
+    let seeds = expand_seeds(file.seeds.as_ref(), &mut problems);
+    let sweep = Sweep {
+        title: file.title,
+        scene,
+        axes,
+        seeds,
+        sieves: file.sieves,
+        plot: file.plot,
+    };
+    if file.axis.is_empty() && file.seeds.is_none() {
+        let help = "add [[axis]] with `key` and `values`; a single run needs no sweep";
+        problems.push(Problem::new("", "the sweep varies nothing").help(help));
+    }
+    check_axes(&sweep.axes, &mut problems);
+    check_sieves(&sweep, &mut problems);
+    document.accept(&problems)?;
+    check_plot(&sweep, &mut problems);
+    check_grid(&sweep, document, &mut problems);
+    document.accept(&problems)?;
+    Ok(sweep)
+}
+
+/// The scene that the sweep starts from: in a file of its own, or in the table `scene`.
+fn base_scene(document: &Document) -> Result<Scene, LoadError> {
+    let scene = &document.tree()["scene"];
+    let Some(path) = scene.as_str() else {
+        return scene::of_tree(scene, document.folder()).map_err(|problems| {
+            let within = |problem: Problem| problem.within("scene");
+            document.refuse(&problems.into_iter().map(within).collect::<Vec<_>>())
+        });
+    };
+    match scene::load(&document.folder().join(path)) {
+        Err(error @ LoadError::Read { .. }) => {
+            let help = "the path is relative to the folder of this file";
+            Err(document.refuse(&[Problem::new("scene", error.to_string()).help(help)]))
+        }
+        other => other,
+    }
+}
+
+fn expand_axes(entries: &[AxisEntry], scene: &Scene, problems: &mut Vec<Problem>) -> Vec<Axis> {
+    let mut axes = Vec::new();
+    for (index, entry) in entries.iter().enumerate() {
+        match entry.expand(scene, &format!("axis[{index}]")) {
+            Ok(axis) => axes.push(axis),
+            Err(problem) => problems.push(problem),
+        }
+    }
+    axes
+}
+
+fn expand_seeds(entry: Option<&SeedsEntry>, problems: &mut Vec<Problem>) -> Vec<u64> {
+    match entry {
+        None => vec![1],
+        Some(SeedsEntry {
+            list: Some(list),
+            first: None,
+            count: None,
+        }) => {
+            if list.is_empty() {
+                let problem = Problem::new("seeds.list", "there are no seeds");
+                problems.push(problem.help("list at least one"));
+            }
+            for (index, seed) in list.iter().enumerate() {
+                if list[..index].contains(seed) {
+                    let path = format!("seeds.list[{index}]");
+                    let message = format!("the seed {seed} is there twice");
+                    let help = "equal seeds give equal runs; remove one";
+                    problems.push(Problem::new(path, message).help(help));
+                }
+            }
+            list.clone()
+        }
+        Some(SeedsEntry { list: Some(_), .. }) => {
+            let message = "`list` and `first` or `count` exclude each other";
+            let problem = Problem::new("seeds.list", message).at_key();
+            problems.push(problem.help("keep the list, or the range"));
+            Vec::new()
+        }
+        Some(SeedsEntry { first, count, .. }) => {
+            let (first, count) = (first.unwrap_or(1), count.unwrap_or(1));
+            if count > MOST_JOBS as u64 || first.checked_add(count).is_none() {
+                let message = format!("{count} seeds are too many");
+                let help = format!("{MOST_JOBS} jobs are the most");
+                problems.push(Problem::new("seeds.count", message).help(help));
+                return Vec::new();
+            }
+            (first..first + count).collect()
+        }
+    }
+}
+
+fn check_axes(axes: &[Axis], problems: &mut Vec<Problem>) {
+    if axes.len() > MOST_AXES {
+        let message = format!("{} axes are too many", axes.len());
+        let problem = Problem::new(format!("axis[{MOST_AXES}]"), message);
+        problems.push(problem.help(format!("{MOST_AXES} are the most")));
+    }
+    for (index, axis) in axes.iter().enumerate() {
+        let earlier = &axes[..index];
+        if earlier.iter().any(|other| other.key == axis.key) {
+            let path = format!("axis[{index}].key");
+            let message = format!("another axis varies `{}` already", axis.key);
+            problems.push(Problem::new(path, message).help("join the two lists of values"));
+        } else if earlier.iter().any(|other| other.name == axis.name) {
+            let path = format!("axis[{index}].name");
+            let message = format!("another axis has the name \"{}\" already", axis.name);
+            let help = format!("add a `name`, such as \"{}\"", axis.key);
+            problems.push(Problem::new(path, message).help(help));
+        }
+    }
+}
+
+/// The spout sieve reads counts that the scene must have asked for.
+fn check_sieves(sweep: &Sweep, problems: &mut Vec<Problem>) {
+    let (spout, output) = (&sweep.sieves.spout, &sweep.scene.output);
+    let pairs = [
+        (
+            "rise_speed",
+            spout.rise_speed,
+            "rise_speeds",
+            &output.rise_speeds,
+        ),
+        ("radius", spout.radius, "rise_radii", &output.rise_radii),
+    ];
+    for (key, value, list, counted) in pairs {
+        if !counted.contains(&value) {
+            let message = format!(
+                "`sieves.spout.{key}` = {value} is none of the scene's `output.{list}` = {counted:?}"
+            );
+            let help = format!("use one of these, or add {value} to `{list}` in [output]");
+            problems.push(Problem::new(format!("sieves.spout.{key}"), message).help(help));
+        }
+    }
+}
+
+fn check_plot(sweep: &Sweep, problems: &mut Vec<Problem>) {
+    let PlotSettings { x, y, panels } = &sweep.plot;
+    let names = || sweep.axes.iter().map(|axis| axis.name.as_str());
+    let mut used: Vec<&str> = Vec::new();
+    for (key, name) in [("x", x), ("y", y), ("panels", panels)] {
+        let Some(name) = name else { continue };
+        let path = format!("plot.{key}");
+        if !names().any(|known| known == name) {
+            let known = format!("the axes are {}", one_of(names()));
+            let help = match suggest(name, names()) {
+                Some(near) => format!("did you mean \"{near}\"? {known}"),
+                None => known,
+            };
+            let message = format!("the sweep has no axis \"{name}\"");
+            problems.push(Problem::new(path, message).help(help));
+        } else if used.contains(&name.as_str()) {
+            let message = format!("the axis \"{name}\" cannot be shown twice");
+            problems.push(Problem::new(path, message).help("choose another axis"));
+        }
+        used.push(name);
+    }
+}
+
+fn check_grid(sweep: &Sweep, document: &Document, problems: &mut Vec<Problem>) {
+    let jobs = sweep.points().saturating_mul(sweep.seeds.len());
+    if jobs > MOST_JOBS {
+        let message = format!("the sweep has {jobs} jobs");
+        let help = format!("{MOST_JOBS} are the most; use fewer values or seeds");
+        problems.push(Problem::new("axis", message).help(help));
+        return;
+    }
+    let points = sweep.points();
+    let mut errors = sweep
+        .grid()
+        .filter_map(|values| sweep.scene_at(&values).err());
+    let Some(first) = errors.next() else { return };
+    let more = errors.count();
+    let others = match more {
+        0 => String::new(),
+        more => format!(" (and at {more} more of the {points} points)"),
+    };
+    for problem in first.problems {
+        let message = format!("at {}{others}: {}", first.point, problem.message);
+        let path = place(&problem.path, sweep, document.tree());
+        problems.push(Problem {
+            path,
+            message,
+            ..problem
+        });
+    }
+}
+
+/// Where a problem of a point shows: at the axis that sets the key, or at the scene.
+fn place(path: &str, sweep: &Sweep, tree: &Value) -> String {
+    match sweep
+        .axes
+        .iter()
+        .position(|axis| path.starts_with(&axis.key))
+    {
+        Some(index) => format!("axis[{index}].key"),
+        None if tree["scene"].is_object() => format!("scene.{path}"),
+        None => "scene".to_owned(),
+    }
+}
