@@ -149,7 +149,9 @@ fn a_failed_job_does_not_stop_the_rest_and_is_listed() {
     }
     .text();
     let text = text.replace("\"swirl.omega\"", "\"spheres.radius\"");
-    let text = text.replace("z_min = 0.01", "z_min = 0.02").replace("z_max = 0.05", "z_max = 0.17");
+    let text = text
+        .replace("z_min = 0.01", "z_min = 0.02")
+        .replace("z_max = 0.05", "z_max = 0.17");
     place.write(
         "tiny.toml",
         &text.replace("[0.0, 4.0, 8.0]", "[0.004, 0.0155]"),
