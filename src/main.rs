@@ -1,3 +1,7 @@
 //! The `phase` program: parse and dispatch, nothing else.
 
-fn main() {}
+mod cli;
+
+fn main() -> std::process::ExitCode {
+    cli::main()
+}

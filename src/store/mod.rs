@@ -3,6 +3,7 @@
 //! Whatever is written here appears whole or not at all (see [`write_atomic`]).
 
 mod atomic;
+mod failures;
 mod labels;
 mod radii;
 mod record;
@@ -10,6 +11,7 @@ mod start;
 mod text;
 
 pub use atomic::{remove_leftovers, write_atomic};
+pub use failures::{read_failures, write_failures};
 pub use labels::{read_labels, write_labels, write_points};
 pub use radii::read_radii;
 pub use record::{RecordHeader, content_digest, read_record, read_record_header, write_record};

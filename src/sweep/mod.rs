@@ -1,18 +1,35 @@
 //! Sweeps: a scene, the axes it is varied over, and the jobs that follow.
 
 mod axis;
+mod difference;
+mod failure;
+mod folder;
+mod forecast;
 mod job;
+mod label;
 mod labels;
 mod load;
+mod plan;
+mod pool;
 mod schema;
 mod select;
 mod spacing;
+mod status;
+pub mod work;
 
 pub use axis::Axis;
+pub use difference::differing_keys;
+pub use failure::{Failure, describe};
+pub use folder::{Folder, FolderError, Lock};
+pub use forecast::{Forecast, ForecastError, forecast};
 pub use job::{Job, PointError};
+pub use label::{Labelling, changes};
 pub use labels::{LabelRow, LabelTable, Point};
 pub use load::{from_str, load};
+pub use plan::{Done, ForeignRecord, Plan, Standing};
+pub use pool::{Event, Pool, PoolError, Report};
 pub use select::{SelectError, parse_point};
+pub use status::Status;
 
 use crate::classify::Sieves;
 use crate::scene::Scene;

@@ -1,0 +1,93 @@
+//! Numbers as people read them.
+
+/// A time: `0.42 s`, `12 s`, `3 min 05 s`, `2 h 07 min`, `3 d 04 h`.
+pub(crate) fn duration(seconds: f64) -> String {
+    if seconds < 9.995 {
+        return format!("{seconds:.2} s");
+    }
+    let whole = seconds.round() as u64;
+    let (minutes, hours, days) = (whole / 60, whole / 3600, whole / 86400);
+    match whole {
+        0..60 => format!("{whole} s"),
+        60..3600 => format!("{minutes} min {:02} s", whole % 60),
+        3600..86400 => format!("{hours} h {:02} min", minutes % 60),
+        _ => format!("{days} d {:02} h", hours % 24),
+    }
+}
+
+/// A size: `1.05 MB`.
+pub(crate) fn bytes(value: f64) -> String {
+    with_prefix(value, "B")
+}
+
+/// An amount of work: `1.05 G sphere-steps`.
+pub(crate) fn sphere_steps(value: f64) -> String {
+    with_prefix(value, " sphere-steps")
+}
+
+/// A rate of work: `1.05 M sphere-steps/s`.
+pub(crate) fn rate(value: f64) -> String {
+    with_prefix(value, " sphere-steps/s")
+}
+
+/// A number to three digits, with a decimal prefix before the unit.
+fn with_prefix(value: f64, unit: &str) -> String {
+    let prefixes = [(1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k")];
+    let Some((scale, prefix)) = prefixes.into_iter().find(|(scale, _)| value >= *scale) else {
+        return format!("{value:.0} {}", unit.trim_start());
+    };
+    let scaled = value / scale;
+    let decimals = match scaled {
+        scaled if scaled < 9.995 => 2,
+        scaled if scaled < 99.95 => 1,
+        _ => 0,
+    };
+    format!("{scaled:.decimals$} {prefix}{unit}")
+}
+
+/// A share in percent.
+pub(crate) fn percent(part: usize, whole: usize) -> String {
+    format!("{:.0} %", 100.0 * part as f64 / whole.max(1) as f64)
+}
+
+/// A number of things: `1 job`, `2 jobs`.
+pub(crate) fn count(number: usize, thing: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{number} {thing}{plural}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations_keep_two_units() {
+        for (seconds, text) in [
+            (0.0, "0.00 s"),
+            (9.999, "10 s"),
+            (42.4, "42 s"),
+            (59.7, "1 min 00 s"),
+            (185.0, "3 min 05 s"),
+            (7620.0, "2 h 07 min"),
+            (273_600.0, "3 d 04 h"),
+        ] {
+            assert_eq!(duration(seconds), text);
+        }
+    }
+
+    #[test]
+    fn numbers_keep_three_digits() {
+        for (value, text) in [
+            (0.0, "0 B"),
+            (850.0, "850 B"),
+            (1049.0, "1.05 kB"),
+            (12_345.0, "12.3 kB"),
+            (999_000_000.0, "999 MB"),
+            (2.4e9, "2.40 GB"),
+        ] {
+            assert_eq!(bytes(value), text);
+        }
+        assert_eq!(sphere_steps(960_000.0), "960 k sphere-steps");
+        assert_eq!(rate(7.0), "7 sphere-steps/s");
+    }
+}

@@ -1,0 +1,86 @@
+//! The command line: one file per subcommand.
+
+mod check;
+mod classify;
+mod console;
+mod exit;
+mod format;
+mod interrupt;
+mod plot;
+mod progress;
+mod run;
+mod status;
+mod sweep;
+
+use clap::{Args, Parser, Subcommand};
+use console::Console;
+use std::process::ExitCode;
+
+const VERSION: &str = concat!(
+    env!("CARGO_PKG_VERSION"),
+    " (commit ",
+    env!("PHASE_COMMIT"),
+    ")"
+);
+
+const AFTER_HELP: &str = "\
+Exit codes:
+  0    done
+  1    something failed: a job, the disk, a file that cannot be read or written
+  2    refused before anything was done: wrong arguments, a wrong scene or sweep file,
+       records of other parameters in the way, a folder in use
+  130  interrupted by Ctrl-C or a request to end; the same command goes on from there
+
+Example: a phase diagram from one file
+  phase sweep sweeps/quick.toml";
+
+/// From a TOML file to a phase diagram: simulations of spheres in a vortex.
+#[derive(Parser)]
+#[command(name = "phase", version = VERSION, after_help = AFTER_HELP)]
+struct CommandLine {
+    #[command(flatten)]
+    verbosity: Verbosity,
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Args)]
+struct Verbosity {
+    /// Print nothing but errors.
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Print more: every job as it ends, every record that is run again.
+    #[arg(short, long, global = true)]
+    verbose: bool,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Sweep(sweep::Arguments),
+    Classify(classify::Arguments),
+    Plot(plot::Arguments),
+    Run(run::Arguments),
+    Check(check::Arguments),
+    Status(status::Arguments),
+}
+
+/// Parses the command line and does what it says.
+pub(crate) fn main() -> ExitCode {
+    let CommandLine { verbosity, command } = CommandLine::parse();
+    let console = Console::new(verbosity.quiet, verbosity.verbose);
+    let result = match command {
+        Command::Sweep(arguments) => sweep::main(&arguments, &console),
+        Command::Classify(arguments) => classify::main(&arguments, &console),
+        Command::Plot(arguments) => plot::main(&arguments, &console),
+        Command::Run(arguments) => run::main(&arguments, &console),
+        Command::Check(arguments) => check::main(&arguments, &console),
+        Command::Status(arguments) => status::main(&arguments, &console),
+    };
+    match result {
+        Ok(exit) => exit.into(),
+        Err(failure) => {
+            console.error(&failure.message);
+            failure.exit.into()
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! How far the work is: a bar on a terminal, else a line now and then.
+
+use super::console::Console;
+use super::format;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fmt::Display;
+use std::io::IsTerminal;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
+
+/// Shows how far the work is.
+pub(crate) struct Progress<'a> {
+    console: &'a Console,
+    bar: Option<ProgressBar>,
+    state: Mutex<State>,
+    started: Instant,
+}
+
+/// Work is counted in sphere-steps.
+pub(crate) struct Work {
+    /// Jobs in all.
+    pub(crate) jobs: usize,
+    /// Jobs done before.
+    pub(crate) jobs_done: usize,
+    /// Sphere-steps in all.
+    pub(crate) steps: u64,
+    /// Sphere-steps done before.
+    pub(crate) steps_done: u64,
+}
+
+struct State {
+    work: Work,
+    /// Sphere-steps that were run now.
+    run: u64,
+    /// When the last line was printed, in seconds since the start.
+    last_line: f64,
+}
+
+impl<'a> Progress<'a> {
+    pub(crate) fn new(console: &'a Console, work: Work) -> Self {
+        let bar = (!console.is_quiet() && std::io::stderr().is_terminal()).then(|| {
+            let style = ProgressStyle::with_template("{bar:20} {msg}");
+            let bar = ProgressBar::new(work.steps);
+            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+            bar
+        });
+        let state = Mutex::new(State {
+            work,
+            run: 0,
+            last_line: 0.0,
+        });
+        Self {
+            console,
+            bar,
+            state,
+            started: Instant::now(),
+        }
+    }
+
+    /// Sphere-steps were run.
+    pub(crate) fn advance(&self, steps: u64) {
+        let mut state = self.state();
+        state.run += steps;
+        state.work.steps_done += steps;
+        self.show(state);
+    }
+
+    /// A job is over; this many of its sphere-steps need not be run any more.
+    pub(crate) fn job_done(&self, skipped: u64) {
+        let mut state = self.state();
+        state.work.jobs_done += 1;
+        state.work.steps_done += skipped;
+        self.show(state);
+    }
+
+    /// Says something above the bar that only few want to know.
+    pub(crate) fn detail(&self, text: impl Display) {
+        match &self.bar {
+            Some(bar) => bar.suspend(|| self.console.detail(text)),
+            None => self.console.detail(text),
+        }
+    }
+
+    /// Removes the bar and returns the time since the start (s).
+    pub(crate) fn finish(&self) -> f64 {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+        self.started.elapsed().as_secs_f64()
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn show(&self, mut state: MutexGuard<'_, State>) {
+        let elapsed = self.started.elapsed().as_secs_f64();
+        if let Some(bar) = &self.bar {
+            bar.set_position(state.work.steps_done.min(state.work.steps));
+            bar.set_message(state.text(elapsed));
+        } else if elapsed - state.last_line >= 5.0_f64.max(elapsed / 20.0) {
+            // Rarer with time, or a log of a long sweep would hold little else.
+            state.last_line = elapsed;
+            self.console.note(state.text(elapsed));
+        }
+    }
+}
+
+impl State {
+    fn text(&self, elapsed: f64) -> String {
+        let Work {
+            jobs,
+            jobs_done,
+            steps,
+            steps_done,
+        } = self.work;
+        let rate = self.run as f64 / elapsed.max(1e-3);
+        let left = steps.saturating_sub(steps_done) as f64 / rate;
+        let left = if left.is_finite() {
+            format!(", {} left", format::duration(left))
+        } else {
+            String::new()
+        };
+        let percent = 100.0 * steps_done as f64 / steps.max(1) as f64;
+        format!(
+            "{jobs_done}/{jobs} jobs, {:.0} %, {}{left}",
+            percent.min(100.0),
+            format::rate(rate)
+        )
+    }
+}

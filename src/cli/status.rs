@@ -1,0 +1,89 @@
+//! `phase status`: how far the sweep of a results folder is.
+
+use super::console::Console;
+use super::exit::{Exit, Failure};
+use super::format;
+use phase::sweep::{Axis, Folder, Plan, Status, describe, work};
+use std::path::PathBuf;
+
+/// Say how far a sweep is: jobs done, failed and left, and the time left.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example: all sweeps in ./results
+  phase status results")]
+pub(crate) struct Arguments {
+    /// A results folder of `phase sweep`, or a folder that holds several.
+    dir: PathBuf,
+    /// Simulations at the same time, to tell the time left [default: all cores].
+    #[arg(short, long, value_name = "N", value_parser = super::sweep::at_least_one)]
+    jobs: Option<usize>,
+}
+
+pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
+    let workers = arguments.jobs.unwrap_or_else(work::default_workers);
+    for folder in Folder::find(&arguments.dir).map_err(Failure::refused)? {
+        let sweep = folder.read_sweep().map_err(Failure::failed)?;
+        let jobs = sweep.jobs().map_err(Failure::failed)?;
+        let plan = Plan::new(&folder, jobs, work::default_workers()).map_err(Failure::failed)?;
+        let status = Status::of(&folder, &plan).map_err(Failure::failed)?;
+        console.result(format_args!(
+            "{}: {}",
+            folder.root().display(),
+            text(&status, &sweep.axes, workers)
+        ))?;
+    }
+    Ok(Exit::Done)
+}
+
+fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
+    let Status {
+        jobs,
+        done,
+        unstable,
+        failures,
+        bad,
+        left,
+        cpu_seconds_left,
+        running,
+    } = status;
+    let mut text = format!(
+        "{}, {done} done, {} failed, {left} left",
+        format::count(*jobs, "job"),
+        failures.len()
+    );
+    if *unstable > 0 {
+        text += &format!("\n  unstable   {unstable} of those done");
+    }
+    if *bad > 0 {
+        text += &format!(
+            "\n  to redo    {}, damaged or of other settings",
+            format::count(*bad, "record")
+        );
+    }
+    if *left > 0 {
+        // More workers than jobs are of no use.
+        let workers = workers.min(*left);
+        let time = match cpu_seconds_left {
+            Some(seconds) => format!(
+                "about {} with {}",
+                format::duration(seconds / workers as f64),
+                format::count(workers, "worker")
+            ),
+            None => "not known before a job is done; `phase check` forecasts it".to_owned(),
+        };
+        text += &format!("\n  time left  {time}");
+    }
+    text += if *running {
+        "\n  running    yes"
+    } else {
+        "\n  running    no"
+    };
+    for failure in failures {
+        let name = describe(axes, &failure.values, failure.seed);
+        text += &format!(
+            "\n  failed     {name} (job {}): {}",
+            failure.id, failure.reason
+        );
+    }
+    text
+}

@@ -1,0 +1,298 @@
+//! `phase sweep`: runs the jobs of a sweep, labels them, draws the figures.
+
+use super::console::{Console, name_first};
+use super::exit::{Exit, Failure};
+use super::progress::{Progress, Work};
+use super::{classify, format, interrupt, plot};
+use phase::record::Outcome;
+use phase::sweep::{
+    Event, Folder, FolderError, Job, Plan, Pool, PoolError, Report, Standing, Sweep, describe,
+    differing_keys, work,
+};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Run the simulations of a sweep, label them, draw the phase diagram.
+///
+/// Jobs whose record is already in the results folder are not run again: a sweep that was stopped
+/// goes on where it was.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example: the 9 x 9 grid on four cores, results in ./results/quick
+  phase sweep sweeps/quick.toml -j 4
+
+The results folder holds sweep.json (the sweep as run), records/ (one HDF5 file per run),
+labels.csv (one row per run), points.csv (one row per point of the grid), the figures as SVG
+and PNG, and, if any job failed, failed.csv.")]
+pub(crate) struct Arguments {
+    /// The sweep file (TOML).
+    file: PathBuf,
+    /// The results folder [default: results/NAME, the sweep file's name without .toml].
+    #[arg(short, long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Simulations at the same time [default: all cores].
+    #[arg(short, long, value_name = "N", value_parser = at_least_one)]
+    jobs: Option<usize>,
+    /// Run every job again, whatever the results folder holds.
+    #[arg(short, long)]
+    force: bool,
+    /// Seeds in place of the file's; may be given several times.
+    #[arg(short, long, value_name = "SEED", value_delimiter = ',')]
+    seed: Vec<u64>,
+    /// Only run the simulations: no labels, no figures.
+    #[arg(long)]
+    no_classify: bool,
+    /// Draw no figures.
+    #[arg(long)]
+    no_plot: bool,
+}
+
+/// Parses a number of workers.
+pub(super) fn at_least_one(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(number) if number > 0 => Ok(number),
+        _ => Err("must be a whole number from 1".to_owned()),
+    }
+}
+
+pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
+    let mut sweep = phase::sweep::load(&arguments.file).map_err(Failure::refused)?;
+    if !arguments.seed.is_empty() {
+        sweep.seeds.clone_from(&arguments.seed);
+    }
+    let workers = arguments.jobs.unwrap_or_else(work::default_workers);
+    let jobs = sweep.jobs().map_err(Failure::refused)?;
+    if !arguments.no_classify {
+        classify::check_sieves(&sweep, &jobs)?;
+    }
+    let folder = Folder::new(
+        arguments
+            .out
+            .clone()
+            .unwrap_or_else(|| default_folder(&arguments.file)),
+    );
+    let stop = interrupt::stop_on_signal(console)?;
+
+    folder.create().map_err(Failure::failed)?;
+    let _lock = folder.lock().map_err(|error| match error {
+        FolderError::Locked(_) => Failure::refused(error),
+        _ => Failure::failed(error),
+    })?;
+    tell_of_other_sweep(&folder, &sweep, console);
+    let plan = if arguments.force {
+        Plan::afresh(jobs.clone())
+    } else {
+        Plan::new(&folder, jobs.clone(), workers).map_err(Failure::failed)?
+    };
+    tell_of_plan(&plan, console);
+    let run = run(&plan, &sweep, &folder, workers, stop, console)?;
+    run.print(&plan, &sweep, console)?;
+
+    if stop.load(Ordering::Relaxed) {
+        console.note(format_args!(
+            "interrupted; {} left. Go on with the same command",
+            format::count(run.report.left, "job")
+        ));
+        return Ok(Exit::Interrupted);
+    }
+    if let Some(error) = &run.report.halted {
+        return Err(Failure::failed(error));
+    }
+    let mut failed = !run.report.failures.is_empty();
+    if !arguments.no_classify {
+        let labelled = classify::label_folder(&folder, &sweep, &jobs, workers, console)?;
+        failed |= labelled.problems > 0;
+        if !arguments.no_plot {
+            plot::draw_default_figures(&folder, &sweep, &labelled.table, console)?;
+        }
+    }
+    Ok(if failed { Exit::Failed } else { Exit::Done })
+}
+
+/// `results/<stem of the sweep file>`.
+fn default_folder(file: &Path) -> PathBuf {
+    Path::new("results").join(file.file_stem().unwrap_or("sweep".as_ref()))
+}
+
+/// Says in what an earlier sweep of the same folder differed.
+fn tell_of_other_sweep(folder: &Folder, sweep: &Sweep, console: &Console) {
+    let Ok(earlier) = folder.read_sweep() else {
+        return;
+    };
+    let keys = differing_keys(&earlier, sweep);
+    if !keys.is_empty() {
+        console.note(format_args!(
+            "the sweep has changed since it was last run into {} ({}); records it still needs are \
+             kept, others stay in the folder unused",
+            folder.root().display(),
+            keys.join(", ")
+        ));
+    }
+}
+
+/// Says what is done already, and what is run again and why.
+fn tell_of_plan(plan: &Plan, console: &Console) {
+    let done = plan.done().count();
+    if done > 0 {
+        console.note(format_args!(
+            "{done} of {} are done already",
+            format::count(plan.jobs.len(), "job")
+        ));
+    }
+    for (job, standing) in &plan.jobs {
+        match standing {
+            Standing::Damaged(reason) => console.note(format_args!(
+                "run again: the record of job {} cannot be used: {reason}",
+                job.id
+            )),
+            Standing::OtherOutput => console.detail(format_args!(
+                "run again: the record of job {} was made with other output settings",
+                job.id
+            )),
+            Standing::Missing | Standing::Done(_) | Standing::Foreign(_) => {}
+        }
+    }
+}
+
+/// What was run now.
+struct Run {
+    report: Report,
+    seconds: f64,
+    workers: usize,
+    /// Runs that a guard ended, by name.
+    unstable: Vec<String>,
+}
+
+fn run(
+    plan: &Plan,
+    sweep: &Sweep,
+    folder: &Folder,
+    workers: usize,
+    stop: &AtomicBool,
+    console: &Console,
+) -> Result<Run, Failure> {
+    let steps = |job: &Job| work::sphere_steps(&job.scene);
+    let progress = Progress::new(
+        console,
+        Work {
+            jobs: plan.jobs.len(),
+            jobs_done: plan.done().count(),
+            steps: plan.jobs.iter().map(|(job, _)| steps(job)).sum(),
+            steps_done: plan.done().map(|(job, _)| steps(job)).sum(),
+        },
+    );
+    let name = |job: &Job| describe(&sweep.axes, &job.values, job.seed);
+    let unstable = Mutex::new(HashMap::new());
+    let note_unstable = |job: &Job, outcome: &Outcome| {
+        if let (Outcome::Unstable(instability), Ok(mut unstable)) = (outcome, unstable.lock()) {
+            let text = format!("{} (job {}): {instability}", name(job), job.id);
+            unstable.insert(job.id.clone(), text);
+        }
+    };
+    for (job, done) in plan.done() {
+        note_unstable(job, &done.outcome);
+    }
+    let watch = |event: Event<'_>| match event {
+        Event::Started(_) => {}
+        Event::Advanced(_, steps) => progress.advance(steps),
+        Event::Finished(job, record) => {
+            note_unstable(job, &record.outcome);
+            let run = work::sphere_steps_run(&job.scene, &record.outcome);
+            progress.detail(format_args!(
+                "done: {} (job {}), {} of CPU",
+                name(job),
+                job.id,
+                format::duration(record.cpu_seconds)
+            ));
+            progress.job_done(steps(job).saturating_sub(run));
+        }
+        Event::Failed(job, failure) => {
+            progress.detail(format_args!(
+                "failed: {} (job {}): {}",
+                name(job),
+                job.id,
+                failure.reason
+            ));
+            progress.job_done(steps(job));
+        }
+    };
+    let pool = Pool {
+        folder,
+        sweep,
+        workers,
+        stop,
+        watch: &watch,
+    };
+    let report = pool.run(plan).map_err(|error| match error {
+        PoolError::Foreign(_) => Failure::refused(error),
+        _ => Failure::failed(error),
+    });
+    let seconds = progress.finish();
+    let mut unstable = unstable.into_inner().unwrap_or_default();
+    let unstable = plan
+        .jobs
+        .iter()
+        .filter_map(|(job, _)| unstable.remove(&job.id))
+        .collect();
+    Ok(Run {
+        report: report?,
+        seconds,
+        workers,
+        unstable,
+    })
+}
+
+impl Run {
+    /// Prints what was done and names what went wrong.
+    fn print(&self, plan: &Plan, sweep: &Sweep, console: &Console) -> Result<(), Failure> {
+        let Report {
+            finished,
+            failures,
+            left,
+            sphere_steps,
+            cpu_seconds,
+            ..
+        } = &self.report;
+        let mut text = format!(
+            "{}: {finished} run now in {} with {}",
+            format::count(plan.jobs.len(), "job"),
+            format::duration(self.seconds),
+            format::count(self.workers, "worker"),
+        );
+        for (number, what) in [
+            (plan.done().count(), "done before"),
+            (self.unstable.len(), "unstable"),
+            (failures.len(), "failed"),
+            (*left, "left"),
+        ] {
+            if number > 0 {
+                text += &format!(", {number} {what}");
+            }
+        }
+        if *finished > 0 {
+            text += &format!(
+                "\n{} in {} of CPU time: {} per CPU second",
+                format::sphere_steps(*sphere_steps as f64),
+                format::duration(*cpu_seconds),
+                format::sphere_steps(*sphere_steps as f64 / cpu_seconds.max(1e-9)),
+            );
+        }
+        console.result(text)?;
+        let failed: Vec<String> = failures
+            .iter()
+            .map(|failure| {
+                let name = describe(&sweep.axes, &failure.values, failure.seed);
+                format!("{name} (job {}): {}", failure.id, failure.reason)
+            })
+            .collect();
+        name_first(&self.unstable, |name| {
+            console.note(format_args!("unstable: {name}"))
+        });
+        name_first(&failed, |name| {
+            console.error(format_args!("failed: {name}"))
+        });
+        Ok(())
+    }
+}

@@ -1,0 +1,103 @@
+//! `failed.csv`: the jobs of a sweep that failed, one row per job.
+//!
+//! Columns: `id`, the axes by their names, `seed`, `reason`.
+
+use super::{StoreError, write_atomic};
+use crate::sweep::{Axis, Failure};
+use std::path::Path;
+
+/// Writes the table of failed jobs of a sweep with these axes.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_failures(axes: &[Axis], failures: &[Failure], path: &Path) -> Result<(), StoreError> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    let names = axes.iter().map(|axis| axis.name.as_str());
+    let fail = |error: csv::Error| StoreError::content(path, error);
+    table
+        .write_record(["id"].into_iter().chain(names).chain(["seed", "reason"]))
+        .map_err(fail)?;
+    for failure in failures {
+        table
+            .serialize((&failure.id, &failure.values, failure.seed, &failure.reason))
+            .map_err(fail)?;
+    }
+    let bytes = table
+        .into_inner()
+        .map_err(|error| StoreError::content(path, error))?;
+    write_atomic(path, &bytes)
+}
+
+/// Reads the table of failed jobs. Where there is no file, no job failed.
+///
+/// # Errors
+/// If the file cannot be read or is not such a table.
+pub fn read_failures(path: &Path) -> Result<Vec<Failure>, StoreError> {
+    if !path.exists() {
+        return Ok(Vec::new());
+    }
+    let mut table =
+        csv::Reader::from_path(path).map_err(|error| StoreError::reading(path, error.into()))?;
+    let mut failures = Vec::new();
+    for row in table.records() {
+        let row = row.map_err(|error| StoreError::reading(path, error.into()))?;
+        let line = row.position().map_or(1, csv::Position::line);
+        failures.push(parse(&row).ok_or_else(|| {
+            StoreError::text(
+                path,
+                line,
+                "this is not a row of failed jobs; delete the file",
+            )
+        })?);
+    }
+    Ok(failures)
+}
+
+fn parse(row: &csv::StringRecord) -> Option<Failure> {
+    let mut cells: Vec<&str> = row.iter().collect();
+    let reason = cells.pop()?.to_owned();
+    let seed = cells.pop()?.parse().ok()?;
+    let (id, values) = cells.split_first()?;
+    let values = values
+        .iter()
+        .map(|value| value.parse().ok())
+        .collect::<Option<_>>()?;
+    Some(Failure {
+        id: (*id).to_owned(),
+        values,
+        seed,
+        reason,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_back_what_was_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("failed.csv");
+        assert_eq!(read_failures(&path).unwrap(), []);
+        let axis = |name: &str| Axis {
+            key: name.to_owned(),
+            name: name.to_owned(),
+            values: vec![],
+        };
+        let failure = Failure {
+            id: "0123456789abcdef".to_owned(),
+            values: vec![0.1 + 0.2, 40.0],
+            seed: u64::MAX,
+            reason: "no room, \"really\"\nnone".to_owned(),
+        };
+        let failures = [failure.clone(), failure];
+        write_failures(&[axis("radius"), axis("omega")], &failures, &path).unwrap();
+        assert_eq!(read_failures(&path).unwrap(), failures);
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.starts_with("id,radius,omega,seed,reason\n"), "{text}");
+
+        std::fs::write(&path, text.replace("40.0", "forty")).unwrap();
+        let message = read_failures(&path).unwrap_err().to_string();
+        assert!(message.contains("failed.csv:2: "), "{message}");
+    }
+}

@@ -1,0 +1,227 @@
+//! The results folder of a sweep: what lies where in it.
+
+use super::Sweep;
+use crate::store;
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// The results folder of a sweep.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Folder {
+    root: PathBuf,
+}
+
+/// What can be wrong with a results folder.
+#[derive(Debug, thiserror::Error)]
+pub enum FolderError {
+    /// The path is not a folder.
+    #[error("{}: there is no such folder", .0.display())]
+    Missing(PathBuf),
+    /// Neither the folder nor those in it are results of a sweep.
+    #[error(
+        "{}: neither this folder nor one in it holds a sweep.json; give the results folder that \
+         `phase sweep` made",
+        .0.display()
+    )]
+    NoSweep(PathBuf),
+    /// `sweep.json` does not hold a sweep.
+    #[error("{}: not a sweep of this version of phase ({reason}); run `phase sweep` again", path.display())]
+    BadSweep {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// Another process writes to the folder.
+    #[error(
+        "{}: another `phase` is at work in this folder; wait until it ends, or choose another \
+         folder with --out",
+        .0.display()
+    )]
+    Locked(PathBuf),
+    /// The file system says no.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A file of the folder cannot be read or written.
+    #[error(transparent)]
+    Store(#[from] store::StoreError),
+}
+
+/// The right to write to a results folder; given back when dropped, or when the process ends in
+/// whatever way.
+#[derive(Debug)]
+pub struct Lock {
+    _file: File,
+}
+
+impl Folder {
+    /// The results folder at `root`, which need not exist yet.
+    pub fn new(root: impl Into<PathBuf>) -> Self {
+        Self { root: root.into() }
+    }
+
+    /// The results folder at `path`, or all of them that lie directly in it, by name.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn find(path: &Path) -> Result<Vec<Self>, FolderError> {
+        if !path.is_dir() {
+            return Err(FolderError::Missing(path.to_owned()));
+        }
+        let folder = Self::new(path);
+        if folder.sweep().is_file() {
+            return Ok(vec![folder]);
+        }
+        let io_error = |source| FolderError::Io {
+            path: path.to_owned(),
+            source,
+        };
+        let mut found = Vec::new();
+        for entry in fs::read_dir(path).map_err(io_error)? {
+            let folder = Self::new(entry.map_err(io_error)?.path());
+            if folder.sweep().is_file() {
+                found.push(folder);
+            }
+        }
+        if found.is_empty() {
+            return Err(FolderError::NoSweep(path.to_owned()));
+        }
+        found.sort_by(|a, b| a.root.cmp(&b.root));
+        Ok(found)
+    }
+
+    /// The folder itself.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// The resolved sweep.
+    pub fn sweep(&self) -> PathBuf {
+        self.root.join("sweep.json")
+    }
+
+    /// The folder of all records.
+    pub fn records(&self) -> PathBuf {
+        self.root.join("records")
+    }
+
+    /// The record of the run with that identity.
+    pub fn record(&self, id: &str) -> PathBuf {
+        self.records().join(format!("{id}.h5"))
+    }
+
+    /// The table of labels, one row per job.
+    pub fn labels(&self) -> PathBuf {
+        self.root.join("labels.csv")
+    }
+
+    /// The table of points, one row per point of the grid.
+    pub fn points(&self) -> PathBuf {
+        self.root.join("points.csv")
+    }
+
+    /// The table of failed jobs; absent if none failed.
+    pub fn failures(&self) -> PathBuf {
+        self.root.join("failed.csv")
+    }
+
+    /// A figure, such as `phase` with extension `svg`.
+    pub fn figure(&self, name: &str, extension: &str) -> PathBuf {
+        self.root.join(format!("{name}.{extension}"))
+    }
+
+    /// Makes the folder and the one for records, if they are not there.
+    ///
+    /// # Errors
+    /// If the system does not allow it.
+    pub fn create(&self) -> Result<(), FolderError> {
+        let path = self.records();
+        fs::create_dir_all(&path).map_err(|source| FolderError::Io { path, source })
+    }
+
+    /// Removes the temporary files that a killed process left behind. Only for who holds the
+    /// lock.
+    ///
+    /// # Errors
+    /// If the folder cannot be read or a file not be removed.
+    pub fn remove_leftovers(&self) -> Result<(), FolderError> {
+        store::remove_leftovers(&self.root)?;
+        store::remove_leftovers(&self.records())?;
+        Ok(())
+    }
+
+    /// Removes the table of failed jobs, if there is one.
+    ///
+    /// # Errors
+    /// If the system does not allow it.
+    pub fn forget_failures(&self) -> Result<(), FolderError> {
+        let path = self.failures();
+        match fs::remove_file(&path) {
+            Err(source) if source.kind() != io::ErrorKind::NotFound => {
+                Err(FolderError::Io { path, source })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Takes the right to write to the folder, which must exist.
+    ///
+    /// # Errors
+    /// [`FolderError::Locked`] if another process has it.
+    pub fn lock(&self) -> Result<Lock, FolderError> {
+        let path = self.root.join(".lock");
+        let io_error = |source| FolderError::Io {
+            path: path.clone(),
+            source,
+        };
+        let file = File::create(&path).map_err(io_error)?;
+        // `is_locked` of another process holds the lock for an instant, so one look is not enough.
+        for _ in 0..10 {
+            match file.try_lock() {
+                Ok(()) => return Ok(Lock { _file: file }),
+                Err(TryLockError::WouldBlock) => std::thread::sleep(Duration::from_millis(20)),
+                Err(TryLockError::Error(source)) => return Err(io_error(source)),
+            }
+        }
+        Err(FolderError::Locked(self.root.clone()))
+    }
+
+    /// Whether another process has the right to write to the folder.
+    pub fn is_locked(&self) -> bool {
+        let lock = File::open(self.root.join(".lock")).map(|file| file.try_lock_shared());
+        matches!(lock, Ok(Err(TryLockError::WouldBlock)))
+    }
+
+    /// Reads the resolved sweep.
+    ///
+    /// # Errors
+    /// If `sweep.json` is absent or does not hold a sweep.
+    pub fn read_sweep(&self) -> Result<Sweep, FolderError> {
+        let path = self.sweep();
+        match fs::read(&path) {
+            Ok(text) => serde_json::from_slice(&text).map_err(|error| FolderError::BadSweep {
+                path,
+                reason: error.to_string(),
+            }),
+            Err(source) => Err(FolderError::Io { path, source }),
+        }
+    }
+
+    /// Writes the resolved sweep.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write_sweep(&self, sweep: &Sweep) -> Result<(), FolderError> {
+        let mut text =
+            serde_json::to_string_pretty(sweep).expect("a sweep holds no map with odd keys");
+        text.push('\n');
+        Ok(store::write_atomic(&self.sweep(), text.as_bytes())?)
+    }
+}

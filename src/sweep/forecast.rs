@@ -1,0 +1,267 @@
+//! What a sweep will cost, from a short trial of a few of its jobs.
+
+use super::{Job, work};
+use crate::record::RunRecord;
+use crate::run::{self, RunError};
+use crate::scene::Scene;
+use crate::store::{self, StoreError};
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+/// What a sweep will cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Forecast {
+    /// Number of jobs that were tried.
+    pub tried: usize,
+    /// Sphere-steps of all jobs.
+    pub sphere_steps: u64,
+    /// Sphere-steps per second of one worker while all work.
+    pub rate: f64,
+    /// Time (s).
+    pub seconds: f64,
+    /// Memory while it runs (bytes), roughly.
+    pub memory: f64,
+    /// Size of all records (bytes).
+    pub disk: f64,
+}
+
+/// Why there is no forecast.
+#[derive(Debug, thiserror::Error)]
+pub enum ForecastError {
+    /// A job of the trial failed.
+    #[error("the trial of job {id} failed: {source}")]
+    Run {
+        /// Identity of the run.
+        id: String,
+        /// Why.
+        source: RunError,
+    },
+    /// A record of the trial could not be written.
+    #[error("the trial cannot write a record: {0}")]
+    Store(#[from] StoreError),
+    /// There is no place for temporary files.
+    #[error("the trial cannot write temporary files: {0}")]
+    Io(#[from] std::io::Error),
+    /// The system gives no threads.
+    #[error("cannot start the workers: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+/// Cost of one job, as tried.
+struct Trial {
+    /// Sphere-steps per second.
+    rate: f64,
+    /// Size of the whole record (bytes).
+    disk: f64,
+    /// Memory of the run (bytes).
+    memory: f64,
+}
+
+/// Runs the first part of some jobs, the corners and the middle of the grid, for about `budget`
+/// altogether on that many workers, and extrapolates.
+///
+/// # Errors
+/// If a job of the trial fails.
+pub fn forecast(jobs: &[Job], workers: usize, budget: Duration) -> Result<Forecast, ForecastError> {
+    let chosen = representatives(jobs);
+    let rounds = chosen.len().div_ceil(workers.max(1)).max(1);
+    let budget = budget / rounds as u32;
+    let trials = work::map(workers, &chosen, |job| try_job(job, budget))?;
+    let trials: Vec<Trial> = trials.into_iter().collect::<Result<_, _>>()?;
+    let mean = |value: fn(&Trial) -> f64| {
+        trials.iter().map(value).sum::<f64>() / trials.len().max(1) as f64
+    };
+    let sphere_steps = jobs.iter().map(|job| work::sphere_steps(&job.scene)).sum();
+    // Times add up, so the mean rate is the harmonic one.
+    let rate = 1.0 / mean(|trial| 1.0 / trial.rate);
+    let at_once = workers.min(jobs.len()).max(1) as f64;
+    Ok(Forecast {
+        tried: chosen.len(),
+        sphere_steps,
+        rate,
+        seconds: sphere_steps as f64 / rate / at_once,
+        memory: PROGRAM_MEMORY + at_once * mean(|trial| trial.memory),
+        disk: jobs.len() as f64 * mean(|trial| trial.disk),
+    })
+}
+
+/// Memory of the program without any run (bytes).
+const PROGRAM_MEMORY: f64 = 10e6;
+
+/// The jobs at the corners and in the middle of the grid, of the first seed.
+fn representatives(jobs: &[Job]) -> Vec<&Job> {
+    let (Some(first), Some(last)) = (jobs.first(), jobs.last()) else {
+        return Vec::new();
+    };
+    let mut chosen: Vec<&Job> = Vec::new();
+    let is_end =
+        |(axis, value): (usize, &f64)| *value == first.values[axis] || *value == last.values[axis];
+    for job in jobs.iter().filter(|job| job.seed == first.seed) {
+        if job.values.iter().enumerate().all(is_end) {
+            chosen.push(job);
+        }
+    }
+    let middle = &jobs[jobs.len() / 2];
+    if !chosen.iter().any(|job| job.id == middle.id) {
+        chosen.push(middle);
+    }
+    chosen
+}
+
+/// Runs the beginning of a job for about the time of the budget.
+fn try_job(job: &Job, budget: Duration) -> Result<Trial, ForecastError> {
+    let failed = |source| ForecastError::Run {
+        id: job.id.clone(),
+        source,
+    };
+    let start = Instant::now();
+    let mut frames_run = 0;
+    let timed = run::run(&job.scene, &mut |progress| {
+        frames_run = progress.frame;
+        // The rest of the budget is for runs that end, since only these leave a record.
+        if start.elapsed() < budget / 2 {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
+    });
+    let seconds = start.elapsed().as_secs_f64();
+    let (steps_per_frame, all_frames) = run::frames(&job.scene);
+    let (steps, disk) = match timed {
+        Ok(record) => {
+            let steps = work::sphere_steps_run(&record.scene, &record.outcome);
+            (steps, size_of_record(&record)?)
+        }
+        Err(RunError::Interrupted) => {
+            let steps = work::sphere_steps_until(&job.scene, frames_run * steps_per_frame);
+            let frames = (frames_run / 2).max(20).min(all_frames);
+            (steps, size_of_whole_run(job, frames)?)
+        }
+        Err(error) => return Err(failed(error)),
+    };
+    Ok(Trial {
+        rate: steps.max(1) as f64 / seconds,
+        disk,
+        // The record in memory and as the bytes of its file, neither compressed.
+        memory: 4.0 * disk + job.scene.spheres.count as f64 * ENGINE_BYTES,
+    })
+}
+
+/// Bytes of one sphere's state in a snapshot: position, velocity, spin.
+const STATE_BYTES: f64 = 72.0;
+
+/// Bytes the engine needs per sphere: its state, forces and neighbours.
+const ENGINE_BYTES: f64 = 2000.0;
+
+/// How often the state of all spheres is stored in a whole run.
+fn stored_states(scene: &Scene) -> f64 {
+    let every = |interval: f64| {
+        if interval > 0.0 {
+            (scene.time.duration / interval).floor()
+        } else {
+            0.0
+        }
+    };
+    let trajectory = if scene.output.trajectory {
+        every(scene.time.frame_interval)
+    } else {
+        0.0
+    };
+    1.0 + every(scene.output.snapshot_interval) + trajectory
+}
+
+/// Size of the record of a whole run (bytes), from runs of `frames` frames and of half as many:
+/// part of a file does not grow with the number of frames. Very short runs are not compressed, so
+/// that they forecast too much.
+fn size_of_whole_run(job: &Job, frames: u64) -> Result<f64, ForecastError> {
+    let states = |scene: &Scene| stored_states(scene) * scene.spheres.count as f64 * STATE_BYTES;
+    let size_without_states = |frames: u64| {
+        let mut scene = job.scene.clone();
+        scene.time.duration = frames as f64 * scene.time.frame_interval;
+        let record = run::run(&scene, &mut |_| ControlFlow::Continue(()));
+        let record = record.map_err(|source| ForecastError::Run {
+            id: job.id.clone(),
+            source,
+        })?;
+        let observed = record.observations.frames().max(1) as f64;
+        Ok::<_, ForecastError>((size_of_record(&record)? - states(&scene), observed))
+    };
+    let (size, observed) = size_without_states(frames)?;
+    let (half_size, half_observed) = size_without_states((frames / 2).max(1))?;
+    let per_frame = (size - half_size) / (observed - half_observed).max(1.0);
+    let all_frames = run::frames(&job.scene).1 as f64;
+    Ok(size + per_frame.max(0.0) * (all_frames - observed).max(0.0) + states(&job.scene))
+}
+
+/// Size of the file of a record (bytes).
+fn size_of_record(record: &RunRecord) -> Result<f64, ForecastError> {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("trial.h5");
+    store::write_record(record, &path)?;
+    Ok(std::fs::metadata(&path)?.len() as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = r#"
+        spheres = { count = 8, radius = 0.004, density = 1000.0 }
+        start = { kind = "random", z_min = 0.01, z_max = 0.05 }
+        tank = { radius = 0.03, floor = 0.0 }
+        contact = { law = "hertz", young_modulus = 5e5, poisson_ratio = 0.3, dissipation_time = 1e-3 }
+        gravity = { acceleration = 9.8 }
+        time = { dt = 1e-4, duration = 3.0, frame_interval = 1e-3 }
+    "#;
+
+    fn job() -> Job {
+        let scene: Scene = toml::from_str(SCENE).unwrap();
+        Job {
+            id: scene.identity(),
+            values: vec![],
+            seed: scene.seed,
+            scene,
+        }
+    }
+
+    #[test]
+    fn two_short_runs_tell_the_size_of_a_whole_record() {
+        let job = job();
+        let record = run::run(&job.scene, &mut |_| ControlFlow::Continue(())).unwrap();
+        let size = size_of_record(&record).unwrap();
+        for (frames, tolerance) in [(2400, 1.3), (200, 2.5)] {
+            let forecast = size_of_whole_run(&job, frames).unwrap();
+            let ratio = forecast / size;
+            assert!(
+                (1.0 / tolerance..tolerance).contains(&ratio),
+                "{forecast} for {size}"
+            );
+        }
+    }
+
+    #[test]
+    fn corners_and_middle_stand_for_the_grid() {
+        let at = |x: f64, y: f64, seed: u64| Job {
+            id: format!("{x} {y} {seed}"),
+            values: vec![x, y],
+            seed,
+            ..job()
+        };
+        let mut jobs = Vec::new();
+        for x in 0..3 {
+            for y in 0..3 {
+                for seed in 1..3 {
+                    jobs.push(at(f64::from(x), f64::from(y), seed));
+                }
+            }
+        }
+        let chosen: Vec<_> = representatives(&jobs)
+            .iter()
+            .map(|job| job.values.clone())
+            .collect();
+        assert_eq!(
+            chosen,
+            [[0.0, 0.0], [0.0, 2.0], [2.0, 0.0], [2.0, 2.0], [1.0, 1.0]]
+        );
+    }
+}

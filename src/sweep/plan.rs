@@ -1,0 +1,150 @@
+//! What a results folder already holds of a sweep, and what is left to do.
+
+use super::{Folder, Job, differing_keys, work};
+use crate::record::Outcome;
+use crate::scene::{Output, Scene};
+use crate::store::{self, StoreError};
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+
+/// The jobs of a sweep, each with what the results folder holds of it.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// The jobs, in the sweep's order, none twice, each with its standing.
+    pub jobs: Vec<(Job, Standing)>,
+}
+
+/// What a results folder holds of a job.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Standing {
+    /// No record.
+    Missing,
+    /// A good record of this very scene.
+    Done(Done),
+    /// A good record of the same motion, but other things were stored.
+    OtherOutput,
+    /// A record that cannot be read; says why.
+    Damaged(String),
+    /// A record under this job's name that holds another scene.
+    Foreign(ForeignRecord),
+}
+
+/// A record under a job's name that holds another scene.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "{}: this record has other parameters than the job of that name; they differ in {}. Move it \
+     away, choose another folder with --out, or run everything again with --force",
+    path.display(),
+    keys.join(", ")
+)]
+pub struct ForeignRecord {
+    /// The record.
+    pub path: PathBuf,
+    /// Keys in which the scenes differ.
+    pub keys: Vec<String>,
+}
+
+/// A run whose record is there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Done {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Processor time it took (s).
+    pub cpu_seconds: f64,
+}
+
+impl Plan {
+    /// Looks at the record of every job, with that many workers.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub fn new(
+        folder: &Folder,
+        mut jobs: Vec<Job>,
+        workers: usize,
+    ) -> Result<Self, rayon::ThreadPoolBuildError> {
+        let mut seen = HashSet::new();
+        jobs.retain(|job| seen.insert(job.id.clone()));
+        let standings = work::map(workers, &jobs, |job| standing(job, &folder.record(&job.id)))?;
+        Ok(Self {
+            jobs: jobs.into_iter().zip(standings).collect(),
+        })
+    }
+
+    /// The plan of running everything again, whatever the folder holds.
+    pub fn afresh(jobs: Vec<Job>) -> Self {
+        let mut seen = HashSet::new();
+        let jobs = jobs.into_iter().filter(|job| seen.insert(job.id.clone()));
+        Self {
+            jobs: jobs.map(|job| (job, Standing::Missing)).collect(),
+        }
+    }
+
+    /// Refuses to write where records of other scenes are in the way.
+    ///
+    /// # Errors
+    /// The first such record.
+    pub fn check(&self) -> Result<(), ForeignRecord> {
+        for (_, standing) in &self.jobs {
+            if let Standing::Foreign(record) = standing {
+                return Err(record.clone());
+            }
+        }
+        Ok(())
+    }
+
+    /// The jobs that are done.
+    pub fn done(&self) -> impl Iterator<Item = (&Job, &Done)> {
+        self.jobs
+            .iter()
+            .filter_map(|(job, standing)| match standing {
+                Standing::Done(done) => Some((job, done)),
+                _ => None,
+            })
+    }
+
+    /// The jobs that are to be run.
+    pub fn pending(&self) -> impl Iterator<Item = &Job> {
+        let pending = |standing: &Standing| !matches!(standing, Standing::Done(_));
+        self.jobs
+            .iter()
+            .filter(move |(_, standing)| pending(standing))
+            .map(|(job, _)| job)
+    }
+}
+
+fn standing(job: &Job, path: &Path) -> Standing {
+    if !path.exists() {
+        return Standing::Missing;
+    }
+    let record = match store::read_record_header(path) {
+        Ok(record) => record,
+        Err(StoreError::Damaged { reason, .. } | StoreError::NotARecord { reason, .. }) => {
+            return Standing::Damaged(reason);
+        }
+        Err(error) => return Standing::Damaged(error.to_string()),
+    };
+    let keys = differing_keys(&motion(&record.scene), &motion(&job.scene));
+    if !keys.is_empty() {
+        Standing::Foreign(ForeignRecord {
+            path: path.to_owned(),
+            keys,
+        })
+    } else if record.scene.output != job.scene.output {
+        Standing::OtherOutput
+    } else {
+        Standing::Done(Done {
+            outcome: record.outcome,
+            cpu_seconds: record.cpu_seconds,
+        })
+    }
+}
+
+/// The scene without what never changes the motion.
+fn motion(scene: &Scene) -> Scene {
+    Scene {
+        title: None,
+        output: Output::default(),
+        ..scene.clone()
+    }
+}

@@ -1,0 +1,73 @@
+//! How far the sweep of a results folder is.
+
+use super::{Failure, Folder, FolderError, Plan, Standing, work};
+use crate::record::Outcome;
+use crate::store;
+use std::collections::HashSet;
+
+/// How far the sweep of a results folder is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Status {
+    /// Number of jobs.
+    pub jobs: usize,
+    /// Jobs with a good record.
+    pub done: usize,
+    /// Of these, runs that a guard ended.
+    pub unstable: usize,
+    /// Jobs that failed when they were last run.
+    pub failures: Vec<Failure>,
+    /// Jobs whose record is damaged, or holds another scene or other output: these count as left.
+    pub bad: usize,
+    /// Jobs left to run.
+    pub left: usize,
+    /// Processor time that the jobs left may take (s), if any job is done to judge by.
+    pub cpu_seconds_left: Option<f64>,
+    /// Whether a process is at work in the folder.
+    pub running: bool,
+}
+
+impl Status {
+    /// The status of the jobs of a sweep, as planned for `folder`.
+    ///
+    /// # Errors
+    /// If the table of failed jobs cannot be read.
+    pub fn of(folder: &Folder, plan: &Plan) -> Result<Self, FolderError> {
+        let left_ids: HashSet<_> = plan.pending().map(|job| &job.id).collect();
+        let mut failures = store::read_failures(&folder.failures())?;
+        failures.retain(|failure| left_ids.contains(&failure.id));
+        let is_bad =
+            |standing: &Standing| !matches!(standing, Standing::Done(_) | Standing::Missing);
+        let is_unstable = |outcome: &Outcome| matches!(outcome, Outcome::Unstable(_));
+        Ok(Self {
+            jobs: plan.jobs.len(),
+            done: plan.done().count(),
+            unstable: plan
+                .done()
+                .filter(|(_, done)| is_unstable(&done.outcome))
+                .count(),
+            bad: plan
+                .jobs
+                .iter()
+                .filter(|(_, standing)| is_bad(standing))
+                .count(),
+            left: left_ids.len() - failures.len(),
+            cpu_seconds_left: cpu_seconds_left(plan),
+            failures,
+            running: folder.is_locked(),
+        })
+    }
+}
+
+/// Work left over the mean speed of the runs that are done.
+fn cpu_seconds_left(plan: &Plan) -> Option<f64> {
+    let left: u64 = plan
+        .pending()
+        .map(|job| work::sphere_steps(&job.scene))
+        .sum();
+    let (mut steps, mut seconds) = (0, 0.0);
+    for (job, done) in plan.done() {
+        steps += work::sphere_steps_run(&job.scene, &done.outcome);
+        seconds += done.cpu_seconds;
+    }
+    (steps > 0).then(|| left as f64 * seconds / steps as f64)
+}
