@@ -1,6 +1,8 @@
 //! Scene and sweep files: the shipped ones and the good ones load, and each bad one gives exactly
 //! the message that stands beside it. `BLESS=1` writes these messages anew; read the difference.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 use phase::document::LoadError;
 use phase::scene::{self, Radii, Scene, Start};
 use phase::sweep::{self, Sweep};
