@@ -1,6 +1,7 @@
 //! `phase` turns a TOML file into a phase diagram.
 
 pub mod classify;
+mod cpu_time;
 pub mod dem;
 pub mod document;
 pub mod notation;

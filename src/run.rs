@@ -1,5 +1,6 @@
 //! One run: from a scene to its record.
 
+use crate::cpu_time;
 use crate::dem::{BuildError, Simulation};
 use crate::observe::{Observer, Snapshot};
 use crate::record::{Outcome, Program, RunRecord};
@@ -42,7 +43,7 @@ pub fn run(
     scene: &Scene,
     control: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<RunRecord, RunError> {
-    let started = std::time::Instant::now();
+    let started = cpu_time::of_this_thread();
     let (steps, frames) = frames(scene);
     let mut simulation = Simulation::new(scene)?;
     let mut observer = Observer::new(scene, &simulation.particles().radius);
@@ -88,6 +89,6 @@ pub fn run(
         observations: observer.finish(),
         snapshots,
         trajectory,
-        cpu_seconds: started.elapsed().as_secs_f64(),
+        cpu_seconds: cpu_time::of_this_thread() - started,
     })
 }
