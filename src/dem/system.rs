@@ -302,7 +302,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             let normal = offset * (1.0 / distance);
             let sum = one.radius + other.radius;
             let overlap = sum - distance;
-            let effective_radius = one.radius * other.radius / sum;
+            let inverse_sum = 1.0 / sum;
+            let effective_radius = one.radius * other.radius * inverse_sum;
             let velocity = one.velocity - other.velocity;
             let normal_force = self
                 .normal
@@ -314,7 +315,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             if T::ROTATES {
                 // Both centres turn about the point where the surfaces meet, so that the pair
                 // keeps its angular momentum.
-                let lever = distance / sum;
+                let lever = distance * inverse_sum;
                 let touch = Touch {
                     normal,
                     velocity,
