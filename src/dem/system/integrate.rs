@@ -1,0 +1,123 @@
+//! Integration schemes: one function each, from kicks and drifts.
+
+use super::{Parts, System};
+use crate::dem::contact::NormalLaw;
+use crate::dem::friction::TangentialLaw;
+use crate::dem::particles::Particles;
+use crate::record::Instability;
+use crate::scene::Integrator;
+
+impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
+    /// v += a dt for a time `dt`, and the same for spins. True if a sphere is too fast.
+    #[inline(always)]
+    fn kick(&mut self, dt: f64) -> bool {
+        let Particles {
+            velocity,
+            force,
+            spin,
+            torque,
+            inverse_mass,
+            inverse_inertia,
+            ..
+        } = &mut self.parts.particles;
+        let mut too_fast = false;
+        let limits = &self.parts.limits.speed_squared;
+        for (((velocity, &force), inverse), &limit) in velocity
+            .iter_mut()
+            .zip(force.iter())
+            .zip(inverse_mass.iter())
+            .zip(limits)
+        {
+            *velocity += force * (inverse * dt);
+            // Written so that a speed which is not a number counts.
+            too_fast |= !(velocity.norm_squared() <= limit);
+        }
+        for ((spin, &torque), inverse) in spin
+            .iter_mut()
+            .zip(torque.iter())
+            .zip(inverse_inertia.iter())
+        {
+            *spin += torque * (inverse * dt);
+        }
+        too_fast
+    }
+
+    /// x += v dt. Notes whether a sphere left the skin of the list.
+    #[inline(always)]
+    fn drift(&mut self) {
+        let dt = self.parts.dt;
+        let Particles {
+            position, velocity, ..
+        } = &mut self.parts.particles;
+        self.age += 1;
+        let Some(list) = &self.list else {
+            for (position, &velocity) in position.iter_mut().zip(velocity.iter()) {
+                *position += velocity * dt;
+            }
+            return;
+        };
+        let allowance = list.allowance(self.age as f64 * dt);
+        let mut moved = false;
+        for ((position, &velocity), &reference) in position
+            .iter_mut()
+            .zip(velocity.iter())
+            .zip(list.reference())
+        {
+            *position += velocity * dt;
+            moved |= !allowance.holds(*position, reference);
+        }
+        self.stale = moved;
+    }
+
+    fn check_speeds(&self, too_fast: bool) -> Result<(), Instability> {
+        if too_fast {
+            let Parts {
+                particles,
+                limits,
+                dt,
+                ..
+            } = &self.parts;
+            limits.check_speeds(particles, self.step, *dt)?;
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    pub(super) fn steps(&mut self, steps: u64) -> Result<(), Instability> {
+        for _ in 0..steps {
+            match self.parts.integrator {
+                Integrator::SymplecticEuler => self.symplectic_euler()?,
+                Integrator::VelocityVerlet => self.velocity_verlet()?,
+            }
+        }
+        Ok(())
+    }
+
+    /// One step of symplectic Euler: v += a(x, v) dt, then x += v dt.
+    #[inline(always)]
+    fn symplectic_euler(&mut self) -> Result<(), Instability> {
+        self.step += 1;
+        self.evaluate()?;
+        let too_fast = self.kick(self.parts.dt);
+        self.check_speeds(too_fast)?;
+        self.drift();
+        Ok(())
+    }
+
+    /// One step of velocity Verlet, with forces from the new positions and the half-step
+    /// velocities. The forces of the step before serve its first half.
+    #[inline(always)]
+    fn velocity_verlet(&mut self) -> Result<(), Instability> {
+        if self.step == 0 {
+            self.evaluate()?;
+        }
+        self.step += 1;
+        let half = 0.5 * self.parts.dt;
+        let too_fast = self.kick(half);
+        self.check_speeds(too_fast)?;
+        self.drift();
+        self.evaluate()?;
+        let too_fast = self.kick(half);
+        self.check_speeds(too_fast)
+    }
+}

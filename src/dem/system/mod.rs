@@ -1,0 +1,267 @@
+//! A simulation compiled for its contact laws.
+
+mod contacts;
+mod integrate;
+
+use self::contacts::{Body, Load, TouchingPair};
+use super::contact::NormalLaw;
+use super::effects::Effect;
+use super::friction::TangentialLaw;
+use super::guard::Limits;
+use super::neighbours::{Reach, VerletList};
+use super::particles::Particles;
+use super::vector::Vector;
+use super::walls::{Cylinder, Floor, Wall};
+use crate::record::Instability;
+use crate::scene::Integrator;
+use fearless_simd::Level;
+
+/// What the rest of the program needs of a system, whatever its laws.
+pub(in crate::dem) trait Engine: Send {
+    fn advance(&mut self, steps: u64) -> Result<(), Instability>;
+    fn particles(&self) -> &Particles;
+    fn step(&self) -> u64;
+    fn list(&self) -> Option<&VerletList>;
+    fn elastic_energy(&mut self) -> f64;
+    fn use_baseline_instructions(&mut self);
+}
+
+/// What a system is made of besides its laws.
+pub(in crate::dem) struct Parts {
+    pub(in crate::dem) particles: Particles,
+    pub(in crate::dem) floor: Option<Floor>,
+    pub(in crate::dem) cylinder: Option<Cylinder>,
+    pub(in crate::dem) effects: Vec<Box<dyn Effect>>,
+    /// Whether an effect needs the number of spheres below each sphere.
+    pub(in crate::dem) shielded: bool,
+    pub(in crate::dem) limits: Limits,
+    pub(in crate::dem) dt: f64,
+    pub(in crate::dem) integrator: Integrator,
+}
+
+/// A simulation compiled for its contact laws.
+pub(in crate::dem) struct System<N, T: TangentialLaw> {
+    parts: Parts,
+    normal: N,
+    tangential: T,
+    /// Absent where no pair interacts.
+    list: Option<VerletList>,
+    stale: bool,
+    /// Steps since the list was built.
+    age: u64,
+    bodies: Vec<Body>,
+    loads: Vec<Load>,
+    touching: Vec<TouchingPair>,
+    shielding: Vec<u32>,
+    /// Histories of listed pairs, of the floor and of the cylinder. A law without history has one
+    /// of no size, and these take no memory.
+    pair_history: Vec<T::History>,
+    floor_history: Vec<T::History>,
+    cylinder_history: Vec<T::History>,
+    step: u64,
+    level: Level,
+    /// The first sphere found beyond the overlap limit in this step, with its overlap.
+    too_deep: Option<(usize, f64)>,
+}
+
+impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
+    const REMEMBERS: bool = size_of::<T::History>() > 0;
+
+    pub(in crate::dem) fn new(normal: N, tangential: T, parts: Parts) -> Self {
+        let count = parts.particles.len();
+        let reach = if parts.shielded {
+            Reach::Column
+        } else {
+            Reach::Contact
+        };
+        let skin = 0.5 * parts.particles.largest_radius();
+        let histories =
+            |present: bool| vec![T::History::default(); if present { count } else { 0 }];
+        Self {
+            list: (N::ACTS || parts.shielded).then(|| VerletList::new(reach, skin)),
+            stale: true,
+            age: 0,
+            bodies: Vec::new(),
+            loads: Vec::new(),
+            touching: Vec::new(),
+            shielding: vec![0; if parts.shielded { count } else { 0 }],
+            pair_history: Vec::new(),
+            floor_history: histories(parts.floor.is_some()),
+            cylinder_history: histories(parts.cylinder.is_some()),
+            normal,
+            tangential,
+            parts,
+            step: 0,
+            level: Level::new(),
+            too_deep: None,
+        }
+    }
+
+    /// Evaluates all forces and torques at the present positions and velocities.
+    #[inline(always)]
+    fn evaluate(&mut self) -> Result<(), Instability> {
+        if self.stale {
+            self.rebuild()?;
+        }
+        if self.list.is_some() {
+            self.gather();
+            if self.parts.shielded {
+                self.scan::<true>()
+            } else {
+                self.scan::<false>()
+            }
+            self.pair_forces();
+            self.scatter();
+        } else {
+            self.parts.particles.force.fill(Vector::ZERO);
+        }
+        if N::ACTS {
+            if let Some(floor) = self.parts.floor {
+                let mut history = std::mem::take(&mut self.floor_history);
+                self.wall_forces(floor, &mut history);
+                self.floor_history = history;
+            }
+            if let Some(cylinder) = self.parts.cylinder {
+                let mut history = std::mem::take(&mut self.cylinder_history);
+                self.wall_forces(cylinder, &mut history);
+                self.cylinder_history = history;
+            }
+        }
+        for effect in &mut self.parts.effects {
+            effect.apply(&mut self.parts.particles, &self.shielding);
+        }
+        match self.too_deep.take() {
+            Some((sphere, overlap)) => {
+                Err(self
+                    .parts
+                    .limits
+                    .overlap_broken(self.step, self.parts.dt, sphere, overlap))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Builds the list anew, after making sure that every sphere is somewhere.
+    fn rebuild(&mut self) -> Result<(), Instability> {
+        let Parts {
+            particles,
+            limits,
+            dt,
+            ..
+        } = &self.parts;
+        limits.check_positions(particles, self.step, *dt)?;
+        self.stale = false;
+        self.age = 0;
+        let Some(list) = &mut self.list else {
+            return Ok(());
+        };
+        if !Self::REMEMBERS {
+            list.build(particles);
+            self.pair_history
+                .resize(list.pairs(), T::History::default());
+            return Ok(());
+        }
+        let (start, neighbour) = (list.start().to_vec(), list.neighbour().to_vec());
+        list.build(particles);
+        let old = std::mem::take(&mut self.pair_history);
+        self.pair_history = carry_over(&start, &neighbour, &old, list.start(), list.neighbour());
+        Ok(())
+    }
+}
+
+impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
+    fn advance(&mut self, steps: u64) -> Result<(), Instability> {
+        // The hot loops are compiled once per instruction set. Wider vectors change no bit:
+        // every lane computes what the scalar code would.
+        let level = self.level;
+        fearless_simd::dispatch!(level, simd => {
+            let _ = simd;
+            self.steps(steps)
+        })?;
+        let Parts {
+            particles,
+            limits,
+            dt,
+            ..
+        } = &self.parts;
+        limits.check_positions(particles, self.step, *dt)
+    }
+
+    fn use_baseline_instructions(&mut self) {
+        self.level = Level::baseline();
+    }
+
+    fn particles(&self) -> &Particles {
+        &self.parts.particles
+    }
+
+    fn step(&self) -> u64 {
+        self.step
+    }
+
+    fn list(&self) -> Option<&VerletList> {
+        self.list.as_ref()
+    }
+
+    /// Reads positions alone, and builds the list at most earlier than a step would: bits of
+    /// the motion do not depend on when the list is built.
+    fn elastic_energy(&mut self) -> f64 {
+        if !N::ACTS || (self.stale && self.rebuild().is_err()) {
+            return 0.0;
+        }
+        let Some(list) = &self.list else { return 0.0 };
+        let Particles {
+            position, radius, ..
+        } = &self.parts.particles;
+        let mut energy = 0.0;
+        for i in 0..radius.len() {
+            let (centre, ri) = (position[i], radius[i]);
+            let entries = list.start()[i] as usize..list.start()[i + 1] as usize;
+            for &j in &list.neighbour()[entries] {
+                let rj = radius[j as usize];
+                let distance_squared = (centre - position[j as usize]).norm_squared();
+                if distance_squared < (ri + rj) * (ri + rj) {
+                    let overlap = ri + rj - distance_squared.sqrt();
+                    energy += self.normal.elastic_energy(overlap, ri * rj / (ri + rj));
+                }
+            }
+            let walls = [
+                self.parts.floor.and_then(|floor| floor.touch(centre, ri)),
+                self.parts
+                    .cylinder
+                    .and_then(|cylinder| cylinder.touch(centre, ri)),
+            ];
+            for (overlap, _) in walls.into_iter().flatten() {
+                energy += self.normal.elastic_energy(overlap, ri);
+            }
+        }
+        energy
+    }
+}
+
+/// Histories in the order of a new list; both lists are sorted, so one pass over each suffices.
+fn carry_over<H: Copy + Default>(
+    old_start: &[u32],
+    old_neighbour: &[u32],
+    old: &[H],
+    start: &[u32],
+    neighbour: &[u32],
+) -> Vec<H> {
+    let mut histories = vec![H::default(); neighbour.len()];
+    if old.is_empty() {
+        return histories;
+    }
+    for i in 0..start.len() - 1 {
+        let mut from = old_start[i] as usize;
+        let end = old_start[i + 1] as usize;
+        for entry in start[i] as usize..start[i + 1] as usize {
+            while from < end && old_neighbour[from] < neighbour[entry] {
+                from += 1;
+            }
+            if from < end && old_neighbour[from] == neighbour[entry] {
+                histories[entry] = old[from];
+            }
+        }
+    }
+    histories
+}
