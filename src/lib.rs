@@ -12,3 +12,4 @@ pub mod scene;
 pub mod store;
 pub mod sweep;
 pub mod theory;
+pub mod verify;
