@@ -33,6 +33,8 @@ pub(super) struct Parts {
     pub(super) limits: Limits,
     pub(super) dt: f64,
     pub(super) integrator: Integrator,
+    /// Skin of the neighbour list (m).
+    pub(super) skin: f64,
 }
 
 /// A pair that touches, and its entry in the list.
@@ -96,11 +98,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         } else {
             Reach::Contact
         };
-        let skin = 0.5 * parts.particles.largest_radius();
         let histories =
             |present: bool| vec![T::History::default(); if present { count } else { 0 }];
         Self {
-            list: (N::ACTS || parts.shielded).then(|| VerletList::new(reach, skin)),
+            list: (N::ACTS || parts.shielded).then(|| VerletList::new(reach, parts.skin)),
             stale: true,
             age: 0,
             bodies: Vec::new(),
@@ -136,6 +137,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.scatter();
         } else {
             self.parts.particles.force.fill(Vector::ZERO);
+            self.parts.particles.torque.fill(Vector::ZERO);
         }
         if N::ACTS {
             if let Some(floor) = self.parts.floor {
@@ -476,10 +478,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// velocities. The forces of the step before serve its first half.
     #[inline(always)]
     fn velocity_verlet(&mut self) -> Result<(), Instability> {
-        if self.step == 0 {
+        self.step += 1;
+        if self.step == 1 {
             self.evaluate()?;
         }
-        self.step += 1;
         let half = 0.5 * self.parts.dt;
         let too_fast = self.kick(half);
         self.check_speeds(too_fast)?;
