@@ -13,3 +13,4 @@ pub mod scene;
 pub mod store;
 pub mod sweep;
 pub mod theory;
+pub mod verify;

@@ -192,12 +192,14 @@ impl Cells {
             } else {
                 extent.z
             };
-            self.shape = [extent.x, extent.y, height].map(|extent| (extent / width) as usize + 1);
+            self.shape = [extent.x, extent.y, height]
+                .map(|extent| ((extent / width) as usize).saturating_add(1));
             let [nx, ny, nz] = self.shape;
             if nx.saturating_mul(ny).saturating_mul(nz) <= most {
                 break;
             }
-            width *= 1.25;
+            // The smallest of numbers would not grow.
+            width = (1.25 * width).max(f64::MIN_POSITIVE);
         }
         let inverse = 1.0 / width;
         let [nx, ny, nz] = self.shape;

@@ -24,6 +24,10 @@ pub enum BuildError {
     MindlinWithoutHertz,
 }
 
+/// Skin of the neighbour list, in radii of the largest sphere: where lists are long-lived and not
+/// yet long.
+const SKIN: f64 = 0.5;
+
 /// A running simulation.
 pub struct Simulation {
     engine: Box<dyn Engine>,
@@ -37,6 +41,16 @@ impl Simulation {
     /// # Errors
     /// If the spheres cannot be placed, or laws do not fit together.
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
+        Self::with_skin(scene, SKIN)
+    }
+
+    /// The same with another skin of the neighbour list, in radii of the largest sphere: 0 builds
+    /// it at every step, a large one lists all pairs. Nothing but the speed depends on it: a
+    /// test compares the bits.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_skin(scene: &Scene, skin: f64) -> Result<Self, BuildError> {
         let particles = start::place(scene)?;
         let tank = scene.tank.as_ref();
         let parts = Parts {
@@ -51,6 +65,7 @@ impl Simulation {
             limits: Limits::new(scene, &particles),
             dt: scene.time.dt,
             integrator: scene.time.integrator,
+            skin: skin * particles.largest_radius(),
             particles,
         };
         let engine = match scene.contact {

@@ -168,7 +168,16 @@ fn scatter(
         let free = |p: Vector| {
             let [a, b, c] = cell(p);
             let near = (-1..=1).flat_map(|da| {
-                (-1..=1).flat_map(move |db| (-1..=1).map(move |dc| [a + da, b + db, c + dc]))
+                (-1..=1).flat_map(move |db| {
+                    (-1..=1).map(move |dc| {
+                        // A start height of 1e300 m is in the last cell.
+                        [
+                            a.saturating_add(da),
+                            b.saturating_add(db),
+                            c.saturating_add(dc),
+                        ]
+                    })
+                })
             });
             near.filter_map(|key| occupied.get(&key))
                 .flatten()

@@ -3,11 +3,15 @@
 use super::{TangentialLaw, Touch, Traction};
 use crate::dem::vector::Vector;
 
-/// Mindlin's tangential stiffness k_t = 8 G* sqrt(R_eff xi) on a contact that sticks, loaded by
-/// increments of the sliding displacement and capped at mu F_n; G* = G / (2 (2 - nu)) for equal
-/// materials. When the normal force falls, the spring's force shrinks with its stiffness
-/// (Thornton, Cummins and Cleary, Powder Technology 233, 30 (2013)), so that unloading creates no
-/// energy.
+/// Mindlin's tangential stiffness k_t = 8 G* sqrt(R_eff xi) on a contact that sticks, loaded and
+/// unloaded by increments of the sliding displacement, df = -k_t du, and capped at mu F_n;
+/// G* = G / (2 (2 - nu)) for equal materials (Mindlin, J. Appl. Mech. 16, 259 (1949); Chung and Ooi,
+/// Granular Matter 13, 643 (2011)).
+///
+/// The force of a spring that holds still stays when the normal force falls, although its
+/// stiffness does not (Thornton, Cummins and Cleary, Powder Technology 233, 30 (2013), shrink it):
+/// an elastic impact can so gain energy, less than 1e-5 of it for nu > 0.2 and mu < 3, up to
+/// 4e-4 for nu = 0 and mu = 0.5.
 #[derive(Clone, Copy, Debug)]
 pub struct Mindlin {
     coefficient: f64,
@@ -32,8 +36,8 @@ impl Mindlin {
 /// The loaded spring of a contact.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Spring {
+    /// Its force (N).
     force: Vector,
-    stiffness: f64,
 }
 
 impl TangentialLaw for Mindlin {
@@ -50,16 +54,13 @@ impl TangentialLaw for Mindlin {
         } else {
             Vector::ZERO
         };
-        if stiffness < spring.stiffness {
-            force = force * (stiffness / spring.stiffness);
-        }
         force -= touch.sliding_velocity() * (stiffness * self.dt);
         let limit = self.coefficient * touch.normal_force;
         let norm = force.norm();
         if norm > limit {
             force = force * (limit / norm);
         }
-        *spring = Spring { force, stiffness };
+        spring.force = force;
         touch.traction(force)
     }
 }

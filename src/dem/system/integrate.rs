@@ -108,10 +108,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// velocities. The forces of the step before serve its first half.
     #[inline(always)]
     fn velocity_verlet(&mut self) -> Result<(), Instability> {
-        if self.step == 0 {
+        self.step += 1;
+        if self.step == 1 {
             self.evaluate()?;
         }
-        self.step += 1;
         let half = 0.5 * self.parts.dt;
         let too_fast = self.kick(half);
         self.check_speeds(too_fast)?;

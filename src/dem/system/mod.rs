@@ -37,6 +37,8 @@ pub(in crate::dem) struct Parts {
     pub(in crate::dem) limits: Limits,
     pub(in crate::dem) dt: f64,
     pub(in crate::dem) integrator: Integrator,
+    /// Skin of the neighbour list (m).
+    pub(in crate::dem) skin: f64,
 }
 
 /// A simulation compiled for its contact laws.
@@ -74,11 +76,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         } else {
             Reach::Contact
         };
-        let skin = 0.5 * parts.particles.largest_radius();
         let histories =
             |present: bool| vec![T::History::default(); if present { count } else { 0 }];
         Self {
-            list: (N::ACTS || parts.shielded).then(|| VerletList::new(reach, skin)),
+            list: (N::ACTS || parts.shielded).then(|| VerletList::new(reach, parts.skin)),
             stale: true,
             age: 0,
             bodies: Vec::new(),
@@ -114,6 +115,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.scatter();
         } else {
             self.parts.particles.force.fill(Vector::ZERO);
+            self.parts.particles.torque.fill(Vector::ZERO);
         }
         if N::ACTS {
             if let Some(floor) = self.parts.floor {

@@ -1,0 +1,55 @@
+//! Forces of the air on spheres at given places.
+
+use super::bench::Bench;
+use super::{Family, Measured, VerifyError, numbered};
+use crate::dem::Simulation;
+use crate::dem::vector::Vector;
+use crate::scene::{Drag, Scene, StartSphere, Swirl, Updraught};
+use serde::Deserialize;
+
+/// Spheres that nothing but the air acts on; the forces on them at the start are measured. Air
+/// tables are those of a scene.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AirForce {
+    /// Radius (m).
+    radius: f64,
+    /// Places and velocities, and radii that differ.
+    spheres: Vec<StartSphere>,
+    drag: Drag,
+    #[serde(default)]
+    swirl: Option<Swirl>,
+    #[serde(default)]
+    updraught: Option<Updraught>,
+}
+
+/// A step of this length (s) moves nothing; forces do not depend on it.
+const DT: f64 = 1e-12;
+
+/// The density (kg/m3) does not matter either.
+const DENSITY: f64 = 1000.0;
+
+impl Family for AirForce {
+    fn name(&self) -> &'static str {
+        "air-force"
+    }
+
+    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+        let scene = Scene {
+            drag: Some(self.drag.clone()),
+            swirl: self.swirl.clone(),
+            updraught: self.updraught.clone(),
+            ..bench.scene(DENSITY, self.radius, self.spheres.clone(), DT)
+        };
+        let mut simulation = Simulation::new(&scene)?;
+        bench.advance(&mut simulation, 1)?;
+        let forces = &simulation.particles().force;
+        let components: [fn(&Vector) -> f64; 3] = [|f| f.x, |f| f.y, |f| f.z];
+        let names = ["force_x", "force_y", "force_z"];
+        Ok(names
+            .into_iter()
+            .zip(components)
+            .flat_map(|(name, component)| numbered(name, forces.iter().map(component)))
+            .collect())
+    }
+}

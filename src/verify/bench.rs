@@ -1,0 +1,212 @@
+//! What the families share: materials, bare scenes, counted steps.
+
+use super::VerifyError;
+use crate::dem::vector::Vector;
+use crate::dem::{Particles, Simulation};
+use crate::scene::{
+    Contact, Guards, Integrator, Output, Radii, Scene, Spheres, Start, StartSphere, Time,
+};
+use serde::Deserialize;
+use std::f64::consts::PI;
+
+/// What spheres and walls are made of.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// Young's modulus Y (Pa).
+    pub young_modulus: f64,
+    /// Poisson's ratio nu.
+    pub poisson_ratio: f64,
+    /// Density (kg/m3).
+    pub density: f64,
+    /// Dissipation time A (s).
+    #[serde(default)]
+    pub dissipation_time: f64,
+    /// Factor c of the dissipative term.
+    #[serde(default = "one")]
+    pub dissipation_factor: f64,
+}
+
+pub(super) fn one() -> f64 {
+    1.0
+}
+
+impl Material {
+    /// Mass of a sphere of that radius (kg).
+    pub(super) fn mass(&self, radius: f64) -> f64 {
+        mass(self.density, radius)
+    }
+
+    /// K = 2 Y sqrt(R_eff) / (3 (1 - nu^2)) (N/m^1.5) of an effective radius.
+    pub(super) fn stiffness(&self, effective_radius: f64) -> f64 {
+        2.0 * self.young_modulus * effective_radius.sqrt()
+            / (3.0 * (1.0 - self.poisson_ratio * self.poisson_ratio))
+    }
+
+    /// Overlap at which the elastic force of an effective radius is `force` (m).
+    pub(super) fn overlap(&self, effective_radius: f64, force: f64) -> f64 {
+        libm::pow(force / self.stiffness(effective_radius), 2.0 / 3.0)
+    }
+
+    /// T = (m_eff / K)^0.4 v^-0.2 (s); an elastic impact lasts [`CONTACT`] of it.
+    pub(super) fn time_scale(&self, effective_radius: f64, effective_mass: f64, speed: f64) -> f64 {
+        libm::pow(effective_mass / self.stiffness(effective_radius), 0.4) * libm::pow(speed, -0.2)
+    }
+
+    /// The contact law.
+    pub(super) fn contact(&self) -> Contact {
+        Contact::Hertz {
+            young_modulus: self.young_modulus,
+            poisson_ratio: self.poisson_ratio,
+            dissipation_time: Some(self.dissipation_time),
+            restitution: None,
+            restitution_speed: 1.0,
+            dissipation_factor: self.dissipation_factor,
+        }
+    }
+}
+
+/// Duration of an elastic Hertz impact in units of T.
+pub(super) const CONTACT: f64 = 3.218_065_460;
+
+/// Mass of a sphere (kg).
+pub(super) fn mass(density: f64, radius: f64) -> f64 {
+    density * (4.0 / 3.0 * PI * radius * radius * radius)
+}
+
+/// a b / (a + b), of masses or of radii.
+pub(super) fn reduced(a: f64, b: f64) -> f64 {
+    a * b / (a + b)
+}
+
+/// A sphere at rest.
+pub(super) fn at(position: [f64; 3]) -> StartSphere {
+    moving(position, [0.0; 3])
+}
+
+/// A sphere that moves.
+pub(super) fn moving(position: [f64; 3], velocity: [f64; 3]) -> StartSphere {
+    StartSphere {
+        position,
+        velocity,
+        spin: [0.0; 3],
+        radius: None,
+    }
+}
+
+/// Where the simulations of one case run.
+pub(super) struct Bench {
+    integrator: Integrator,
+    steps: u64,
+}
+
+impl Bench {
+    pub(super) fn new(integrator: Integrator) -> Self {
+        Self {
+            integrator,
+            steps: 0,
+        }
+    }
+
+    /// A scene with these spheres and nothing else. Its guards let a sphere move as far in a step
+    /// as it likes: some set-ups have no contacts and need no small steps.
+    pub(super) fn scene(
+        &self,
+        density: f64,
+        radius: f64,
+        spheres: Vec<StartSphere>,
+        dt: f64,
+    ) -> Scene {
+        Scene {
+            title: None,
+            seed: 1,
+            spheres: Spheres {
+                count: spheres.len(),
+                radius: Radii::One(radius),
+                density,
+            },
+            contact: None,
+            friction: None,
+            tank: None,
+            start: Start::List { spheres },
+            gravity: None,
+            drag: None,
+            swirl: None,
+            updraught: None,
+            spin_damping: None,
+            time: Time {
+                dt,
+                duration: dt,
+                frame_interval: dt,
+                integrator: self.integrator,
+            },
+            guards: Guards {
+                displacement: f64::MAX,
+                ..Guards::default()
+            },
+            output: Output::default(),
+        }
+    }
+
+    /// Advances and counts.
+    pub(super) fn advance(
+        &mut self,
+        simulation: &mut Simulation,
+        steps: u64,
+    ) -> Result<(), VerifyError> {
+        self.steps += steps;
+        Ok(simulation.advance(steps)?)
+    }
+
+    /// Advances by a duration (s), to the nearest step.
+    pub(super) fn advance_for(
+        &mut self,
+        simulation: &mut Simulation,
+        duration: f64,
+        dt: f64,
+    ) -> Result<(), VerifyError> {
+        self.advance(simulation, (duration / dt).round() as u64)
+    }
+
+    /// Whether the latest forces belong to the positions before the latest step: symplectic Euler
+    /// moves the spheres after evaluating them.
+    pub(super) fn forces_lag(&self) -> bool {
+        self.integrator == Integrator::SymplecticEuler
+    }
+
+    /// Steps of all simulations so far.
+    pub(super) fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// Sum of the forces on spheres that rest where these are, in a scene without gravity or air:
+    /// forces between spheres cancel, so that the force of the walls is left (N).
+    pub(super) fn force_of_walls(
+        &mut self,
+        scene: &Scene,
+        particles: &Particles,
+    ) -> Result<Vector, VerifyError> {
+        let centre = |position: &Vector| at([position.x, position.y, position.z]);
+        // The first step of symplectic Euler evaluates the forces before anything has moved.
+        let time = Time {
+            integrator: Integrator::SymplecticEuler,
+            ..scene.time.clone()
+        };
+        let bare = Scene {
+            time,
+            start: Start::List {
+                spheres: particles.position.iter().map(centre).collect(),
+            },
+            friction: None,
+            gravity: None,
+            drag: None,
+            swirl: None,
+            updraught: None,
+            ..scene.clone()
+        };
+        let mut simulation = Simulation::new(&bare)?;
+        self.advance(&mut simulation, 1)?;
+        let forces = &simulation.particles().force;
+        Ok(forces.iter().fold(Vector::ZERO, |sum, &force| sum + force))
+    }
+}

@@ -1,0 +1,66 @@
+//! A single sphere in air and gravity.
+
+use super::bench::{Bench, moving};
+use super::{Family, Measured, VerifyError, named};
+use crate::dem::Simulation;
+use crate::scene::{Drag, Gravity, Scene, Swirl, Updraught};
+use serde::Deserialize;
+
+/// A single sphere in air and gravity, without walls. Air tables are those of a scene.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Flight {
+    /// Radius (m).
+    radius: f64,
+    /// Density (kg/m3).
+    density: f64,
+    /// Place at the start (m).
+    #[serde(default)]
+    position: [f64; 3],
+    /// Velocity at the start (m/s).
+    #[serde(default)]
+    velocity: [f64; 3],
+    #[serde(default)]
+    gravity: Option<Gravity>,
+    #[serde(default)]
+    drag: Option<Drag>,
+    /// A swirl with `omega = 0` is drag toward air at rest.
+    #[serde(default)]
+    swirl: Option<Swirl>,
+    #[serde(default)]
+    updraught: Option<Updraught>,
+    /// Time step (s).
+    dt: f64,
+    /// Duration (s).
+    duration: f64,
+}
+
+impl Family for Flight {
+    fn name(&self) -> &'static str {
+        "flight"
+    }
+
+    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+        let sphere = moving(self.position, self.velocity);
+        let scene = Scene {
+            gravity: self.gravity.clone(),
+            drag: self.drag.clone(),
+            swirl: self.swirl.clone(),
+            updraught: self.updraught.clone(),
+            ..bench.scene(self.density, self.radius, vec![sphere], self.dt)
+        };
+        let mut simulation = Simulation::new(&scene)?;
+        bench.advance_for(&mut simulation, self.duration, self.dt)?;
+        let particles = simulation.particles();
+        let (place, velocity) = (particles.position[0], particles.velocity[0]);
+        Ok(named([
+            ("x", place.x),
+            ("y", place.y),
+            ("z", place.z),
+            ("velocity_x", velocity.x),
+            ("velocity_y", velocity.y),
+            ("velocity_z", velocity.z),
+            ("speed", velocity.norm()),
+        ]))
+    }
+}

@@ -1,0 +1,100 @@
+//! An elastic gas in the tank.
+
+use super::bench::{Bench, Material};
+use super::{Family, Measured, VerifyError, named};
+use crate::dem::Simulation;
+use crate::scene::{Gravity, Scene, Spheres, Start, Tank};
+use serde::Deserialize;
+
+/// Elastic spheres that bounce on one another and on the tank's walls, held by gravity.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gas {
+    /// Number of spheres.
+    count: usize,
+    /// Radius (m).
+    radius: f64,
+    material: Material,
+    /// Radius of the tank (m).
+    tank_radius: f64,
+    /// The floor is at zero; centres start between these heights (m).
+    heights: [f64; 2],
+    /// Velocity components at the start are uniform in plus or minus this (m/s).
+    speed: f64,
+    /// Gravity (m/s2).
+    gravity: f64,
+    /// Time step (s); the order is measured against a run at an eighth of it.
+    dt: f64,
+    /// Duration (s).
+    duration: f64,
+}
+
+/// The energy is looked at this often in a run.
+const LOOKS: u32 = 1000;
+
+impl Family for Gas {
+    fn name(&self) -> &'static str {
+        "gas"
+    }
+
+    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+        let drift = self.energy_drift(self.dt, bench)?;
+        // Collisions are many and their errors random: halving the step would tell little.
+        let finer = self.energy_drift(self.dt / 8.0, bench)?;
+        Ok(named([
+            ("energy_drift", drift),
+            ("order", libm::log2(drift / finer) / 3.0),
+        ]))
+    }
+}
+
+impl Gas {
+    /// Root mean square deviation of the energy from its first value, over that value.
+    fn energy_drift(&self, dt: f64, bench: &mut Bench) -> Result<f64, VerifyError> {
+        let scene = Scene {
+            contact: Some(self.material.contact()),
+            tank: Some(Tank {
+                radius: Some(self.tank_radius),
+                floor: Some(0.0),
+            }),
+            gravity: Some(Gravity {
+                acceleration: self.gravity,
+            }),
+            ..bench.scene(self.material.density, self.radius, Vec::new(), dt)
+        };
+        let scene = Scene {
+            spheres: Spheres {
+                count: self.count,
+                ..scene.spheres
+            },
+            start: Start::Random {
+                z_min: self.heights[0],
+                z_max: self.heights[1],
+                speed: self.speed,
+                spin: 0.0,
+            },
+            ..scene
+        };
+        let mut simulation = Simulation::new(&scene)?;
+        let first = self.energy(&mut simulation);
+        let mut sum = 0.0;
+        for _ in 0..LOOKS {
+            bench.advance_for(&mut simulation, self.duration / f64::from(LOOKS), dt)?;
+            let deviation = self.energy(&mut simulation) / first - 1.0;
+            sum += deviation * deviation;
+        }
+        Ok((sum / f64::from(LOOKS)).sqrt())
+    }
+
+    fn energy(&self, simulation: &mut Simulation) -> f64 {
+        let elastic = simulation.elastic_energy();
+        let particles = simulation.particles();
+        (0..particles.len())
+            .map(|i| {
+                let kinetic = 0.5 * particles.velocity[i].norm_squared();
+                particles.mass[i] * (kinetic + self.gravity * particles.position[i].z)
+            })
+            .sum::<f64>()
+            + elastic
+    }
+}

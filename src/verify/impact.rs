@@ -1,0 +1,345 @@
+//! A sphere hits a sphere or a wall, head-on or obliquely, with or without spin.
+
+use super::bench::{Bench, CONTACT, Material, moving, reduced};
+use super::{Family, Measured, VerifyError, named};
+use crate::dem::vector::Vector;
+use crate::dem::{Particles, Simulation};
+use crate::scene::{Friction, Scene, StartSphere, Tank};
+use serde::Deserialize;
+use std::f64::consts::PI;
+
+/// A sphere hits a sphere or a wall.
+///
+/// The normal n points from the partner to the sphere, the tangent t along the tangential part of
+/// its velocity; spins are about n x t, positive where the sphere rolls forward. Two spheres move
+/// in the frame of their centre of mass.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Impact {
+    partner: Partner,
+    /// Radius of the sphere (m).
+    radius: f64,
+    /// Radius of the partner, if it is a sphere of another one (m).
+    #[serde(default)]
+    partner_radius: Option<f64>,
+    material: Material,
+    /// Whether the partner is rigid: a wall of the same material yields as much as the sphere, so
+    /// both together then yield as one material of twice the modulus.
+    #[serde(default)]
+    rigid: bool,
+    /// b = c A / T, in place of the material's dissipation time.
+    #[serde(default)]
+    damping: Option<f64>,
+    #[serde(default)]
+    friction: Option<Friction>,
+    /// Relative speed (m/s).
+    speed: f64,
+    /// Angle between velocity and normal (degrees).
+    #[serde(default)]
+    angle: f64,
+    /// Spins before the impact (rad/s).
+    #[serde(default)]
+    spin: f64,
+    #[serde(default)]
+    partner_spin: f64,
+    /// Time steps in the duration of the elastic impact.
+    #[serde(default = "thousand")]
+    steps_per_contact: f64,
+    /// Time step (s), in place of `steps_per_contact`.
+    #[serde(default)]
+    dt: Option<f64>,
+    /// Number of impacts to average over, which begin at equally spaced parts of a step; one
+    /// impact begins with a step.
+    #[serde(default = "once")]
+    phases: u32,
+}
+
+fn thousand() -> f64 {
+    1000.0
+}
+
+fn once() -> u32 {
+    1
+}
+
+/// What the sphere hits.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Partner {
+    Sphere,
+    Floor,
+    /// Tangential motion is along the axis, where a cylinder is as straight as a floor.
+    Cylinder,
+}
+
+impl Partner {
+    /// Normal and tangent.
+    fn frame(self) -> (Vector, Vector) {
+        let (x, z) = (Vector::new(1.0, 0.0, 0.0), Vector::new(0.0, 0.0, 1.0));
+        match self {
+            Self::Sphere | Self::Floor => (z, x),
+            Self::Cylinder => (-x, z),
+        }
+    }
+}
+
+/// Radius of the cylinder, in radii of the sphere.
+const CYLINDER: f64 = 100.0;
+
+/// An impact takes less than this many times the duration of the elastic one.
+const PATIENCE: f64 = 100.0;
+
+impl Family for Impact {
+    fn name(&self) -> &'static str {
+        "impact"
+    }
+
+    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+        let mut mean = Measured::new();
+        for phase in 0..self.phases {
+            let phase = f64::from(phase) / f64::from(self.phases);
+            for (quantity, value) in self.impact(phase, bench)? {
+                *mean.entry(quantity).or_default() += value / f64::from(self.phases);
+            }
+        }
+        Ok(mean)
+    }
+}
+
+/// Overlap and force at one time.
+#[derive(Clone, Copy, Default)]
+struct Moment {
+    time: f64,
+    overlap: f64,
+    force: f64,
+}
+
+impl Impact {
+    /// One impact that begins after the fraction `phase` of a step.
+    fn impact(&self, phase: f64, bench: &mut Bench) -> Result<Measured, VerifyError> {
+        let material = self.hardened();
+        let contact_time = CONTACT * self.time_scale(&material);
+        let dt = self.dt.unwrap_or(contact_time / self.steps_per_contact);
+        let begin = phase * dt;
+        let scene = self.scene(&material, begin, dt, bench);
+        let mut simulation = Simulation::new(&scene)?;
+        let before = self.state(simulation.particles());
+
+        let (mut maximum_overlap, mut maximum_force) = (0.0_f64, 0.0_f64);
+        let (mut earlier, mut last) = (Moment::default(), Moment::default());
+        let mut end = None;
+        loop {
+            let overlap = self.overlap(simulation.particles());
+            bench.advance(&mut simulation, 1)?;
+            let now = if bench.forces_lag() {
+                Moment {
+                    time: simulation.time() - dt,
+                    overlap,
+                    force: self.force(simulation.particles()),
+                }
+            } else {
+                Moment {
+                    time: simulation.time(),
+                    overlap: self.overlap(simulation.particles()),
+                    force: self.force(simulation.particles()),
+                }
+            };
+            maximum_overlap = maximum_overlap.max(now.overlap);
+            maximum_force = maximum_force.max(now.force);
+            if end.is_none() && last.force > 0.0 && now.force == 0.0 {
+                end = Some(end_of_contact(earlier, last, now));
+            }
+            if end.is_some() && now.overlap <= 0.0 {
+                break;
+            }
+            if simulation.time() > PATIENCE * contact_time {
+                return Err(VerifyError::Unfinished {
+                    awaited: "the spheres part",
+                    steps: simulation.step(),
+                });
+            }
+            (earlier, last) = (last, now);
+        }
+        let after = self.state(simulation.particles());
+        Ok(named([
+            ("maximum_overlap", maximum_overlap),
+            ("maximum_force", maximum_force),
+            ("contact_time", end.unwrap_or(f64::NAN) - begin),
+            ("restitution", -after.normal / before.normal),
+            (
+                "tangential_restitution",
+                after.tangential / before.tangential,
+            ),
+            ("lateral_velocity", after.lateral),
+            ("spin", after.spin[0]),
+            ("partner_spin", after.spin[1]),
+            ("energy_ratio", after.energy / before.energy),
+        ]))
+    }
+
+    /// The material whose equal walls yield as this set-up does.
+    fn hardened(&self) -> Material {
+        let mut material = self.material.clone();
+        if self.rigid {
+            material.young_modulus *= 2.0;
+        }
+        if let Some(damping) = self.damping {
+            material.dissipation_time =
+                damping * self.time_scale(&material) / material.dissipation_factor;
+        }
+        material
+    }
+
+    fn normal_speed(&self) -> f64 {
+        self.speed * libm::cos(self.angle * PI / 180.0)
+    }
+
+    fn time_scale(&self, material: &Material) -> f64 {
+        let radius = match self.partner {
+            Partner::Sphere => reduced(self.radius, self.partner_radius()),
+            Partner::Floor | Partner::Cylinder => self.radius,
+        };
+        let mass = match self.partner {
+            Partner::Sphere => reduced(
+                material.mass(self.radius),
+                material.mass(self.partner_radius()),
+            ),
+            Partner::Floor | Partner::Cylinder => material.mass(self.radius),
+        };
+        material.time_scale(radius, mass, self.normal_speed())
+    }
+
+    fn partner_radius(&self) -> f64 {
+        self.partner_radius.unwrap_or(self.radius)
+    }
+
+    fn scene(&self, material: &Material, begin: f64, dt: f64, bench: &Bench) -> Scene {
+        let (normal, tangent) = self.partner.frame();
+        let sine = libm::sin(self.angle * PI / 180.0);
+        let velocity = tangent * (self.speed * sine) - normal * self.normal_speed();
+        let centre = match self.partner {
+            Partner::Sphere | Partner::Floor => normal * self.radius,
+            Partner::Cylinder => normal * (self.radius * (1.0 - CYLINDER)),
+        };
+        let sphere = |centre: Vector, velocity: Vector, spin: f64| {
+            let start = centre - velocity * begin;
+            let spin = normal.cross(tangent) * spin;
+            StartSphere {
+                spin: [spin.x, spin.y, spin.z],
+                ..moving(
+                    [start.x, start.y, start.z],
+                    [velocity.x, velocity.y, velocity.z],
+                )
+            }
+        };
+        let mut spheres = vec![sphere(centre, velocity, self.spin)];
+        let mut tank = None;
+        match self.partner {
+            Partner::Sphere => {
+                let (mine, other) = (
+                    material.mass(self.radius),
+                    material.mass(self.partner_radius()),
+                );
+                let share = other / (mine + other);
+                spheres = vec![
+                    sphere(centre, velocity * share, self.spin),
+                    StartSphere {
+                        radius: self.partner_radius,
+                        ..sphere(
+                            normal * -self.partner_radius(),
+                            velocity * (share - 1.0),
+                            self.partner_spin,
+                        )
+                    },
+                ];
+            }
+            Partner::Floor => {
+                tank = Some(Tank {
+                    radius: None,
+                    floor: Some(0.0),
+                });
+            }
+            Partner::Cylinder => {
+                tank = Some(Tank {
+                    radius: Some(CYLINDER * self.radius),
+                    floor: None,
+                });
+            }
+        }
+        Scene {
+            contact: Some(material.contact()),
+            friction: self.friction.clone(),
+            tank,
+            ..bench.scene(material.density, self.radius, spheres, dt)
+        }
+    }
+
+    fn overlap(&self, particles: &Particles) -> f64 {
+        let centre = particles.position[0];
+        match self.partner {
+            Partner::Sphere => {
+                self.radius + self.partner_radius() - (centre - particles.position[1]).norm()
+            }
+            Partner::Floor => self.radius - centre.z,
+            Partner::Cylinder => {
+                let distance = Vector { z: 0.0, ..centre }.norm();
+                distance + self.radius - CYLINDER * self.radius
+            }
+        }
+    }
+
+    /// Normal force on the sphere.
+    fn force(&self, particles: &Particles) -> f64 {
+        let normal = match self.partner {
+            Partner::Sphere => {
+                let offset = particles.position[0] - particles.position[1];
+                offset * (1.0 / offset.norm())
+            }
+            Partner::Floor | Partner::Cylinder => self.partner.frame().0,
+        };
+        particles.force[0].dot(normal)
+    }
+
+    fn state(&self, particles: &Particles) -> State {
+        let (normal, tangent) = self.partner.frame();
+        let axis = normal.cross(tangent);
+        let velocity = match self.partner {
+            Partner::Sphere => particles.velocity[0] - particles.velocity[1],
+            Partner::Floor | Partner::Cylinder => particles.velocity[0],
+        };
+        let spin = |i: usize| particles.spin.get(i).map_or(0.0, |spin| spin.dot(axis));
+        let kinetic = particles.mass.iter().zip(&particles.velocity);
+        let rotational = particles.inertia.iter().zip(&particles.spin);
+        State {
+            normal: velocity.dot(normal),
+            tangential: velocity.dot(tangent),
+            lateral: particles.velocity[0].dot(tangent),
+            spin: [spin(0), spin(1)],
+            energy: kinetic
+                .chain(rotational)
+                .map(|(inertia, velocity)| 0.5 * inertia * velocity.norm_squared())
+                .sum(),
+        }
+    }
+}
+
+/// Motion before or after the impact.
+struct State {
+    normal: f64,
+    tangential: f64,
+    lateral: f64,
+    spin: [f64; 2],
+    energy: f64,
+}
+
+/// When the force ended, between the last two moments: where the overlap ends with it, it is the
+/// overlap that runs straight to zero, else the clipped force does.
+fn end_of_contact(earlier: Moment, last: Moment, now: Moment) -> f64 {
+    if now.overlap <= 0.0 {
+        let fraction = last.overlap / (last.overlap - now.overlap);
+        last.time + fraction * (now.time - last.time)
+    } else {
+        let slope = (earlier.force - last.force) / (last.time - earlier.time);
+        last.time + last.force / slope
+    }
+}

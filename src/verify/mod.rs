@@ -1,0 +1,299 @@
+//! Verification: simulations of set-ups whose outcome is known.
+//!
+//! A [`Case`] is a row of data: a set-up, the numbers to meet, a tolerance, a source. A family is a
+//! kind of set-up with its parameters: one file with what it simulates and measures, and a
+//! table of its rows beside it. A new case is a new row; a new family is a file, its table, and
+//! a line each in [`Setup`] and [`TABLES`].
+//!
+//! ```
+//! use phase::{scene::Integrator, verify};
+//!
+//! let case = verify::cases().iter().find(|case| case.name == "cradle of three").unwrap();
+//! let outcome = verify::run(case, Integrator::VelocityVerlet).unwrap();
+//! assert!(outcome.passed());
+//! ```
+
+mod air_force;
+mod bench;
+mod cradle;
+mod critical_rotation;
+mod flight;
+mod gas;
+mod impact;
+mod oscillation;
+mod rolling;
+mod stack;
+mod tripod;
+mod wall_orbit;
+
+pub use bench::Material;
+
+use crate::dem::BuildError;
+use crate::record::Instability;
+use crate::scene::Integrator;
+use bench::Bench;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+use std::time::Instant;
+
+/// The tables of all families.
+const TABLES: [&str; 11] = [
+    include_str!("impact.toml"),
+    include_str!("cradle.toml"),
+    include_str!("rolling.toml"),
+    include_str!("stack.toml"),
+    include_str!("tripod.toml"),
+    include_str!("oscillation.toml"),
+    include_str!("flight.toml"),
+    include_str!("air_force.toml"),
+    include_str!("wall_orbit.toml"),
+    include_str!("gas.toml"),
+    include_str!("critical_rotation.toml"),
+];
+
+/// A set-up whose outcome is known.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Case {
+    /// What it is, in a few words; no two cases share it.
+    pub name: String,
+    /// The family and its parameters.
+    pub setup: Setup,
+    /// Quantities that the family measures, in SI units, and the numbers to meet.
+    pub expect: BTreeMap<String, f64>,
+    /// How far a measurement may lie from its number.
+    pub tolerance: Tolerance,
+    /// Where the numbers come from.
+    pub source: String,
+    /// Integrators that claim this case; all, if the row does not say.
+    #[serde(default = "all_integrators")]
+    pub integrators: Vec<Integrator>,
+}
+
+fn all_integrators() -> Vec<Integrator> {
+    vec![Integrator::SymplecticEuler, Integrator::VelocityVerlet]
+}
+
+/// How far a measurement may lie from its number.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Tolerance {
+    /// As a fraction of the number.
+    Relative(f64),
+    /// In the unit of the number.
+    Absolute(f64),
+}
+
+impl Tolerance {
+    /// Error of a measurement, on the scale of this tolerance.
+    fn error(self, measured: f64, expected: f64) -> f64 {
+        let difference = (measured - expected).abs();
+        match self {
+            Self::Relative(_) => difference / expected.abs(),
+            Self::Absolute(_) => difference,
+        }
+    }
+
+    /// Largest error allowed.
+    pub fn limit(self) -> f64 {
+        match self {
+            Self::Relative(limit) | Self::Absolute(limit) => limit,
+        }
+    }
+}
+
+/// A family with the parameters of one set-up.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(tag = "family", rename_all = "kebab-case")]
+pub enum Setup {
+    /// A sphere hits a sphere or a wall.
+    Impact(impact::Impact),
+    /// Spheres in a row, hit by the first of them.
+    Cradle(cradle::Cradle),
+    /// A sphere slides on the floor until it rolls.
+    Rolling(rolling::Rolling),
+    /// Spheres at rest upon each other.
+    Stack(stack::Stack),
+    /// A sphere at rest on three others in a cylinder.
+    Tripod(tripod::Tripod),
+    /// A sphere on the floor swings about its rest.
+    Oscillation(oscillation::Oscillation),
+    /// A single sphere in air and gravity.
+    Flight(flight::Flight),
+    /// Forces of the air on spheres at given places.
+    AirForce(air_force::AirForce),
+    /// A sphere that turning air drives along the cylinder.
+    WallOrbit(wall_orbit::WallOrbit),
+    /// An elastic gas in the tank.
+    Gas(gas::Gas),
+    /// The critical rotation, in closed form.
+    CriticalRotation(critical_rotation::CriticalRotation),
+}
+
+impl Setup {
+    fn family(&self) -> &dyn Family {
+        match self {
+            Self::Impact(it) => it,
+            Self::Cradle(it) => it,
+            Self::Rolling(it) => it,
+            Self::Stack(it) => it,
+            Self::Tripod(it) => it,
+            Self::Oscillation(it) => it,
+            Self::Flight(it) => it,
+            Self::AirForce(it) => it,
+            Self::WallOrbit(it) => it,
+            Self::Gas(it) => it,
+            Self::CriticalRotation(it) => it,
+        }
+    }
+
+    /// Name of the family, as in the tables.
+    pub fn name(&self) -> &'static str {
+        self.family().name()
+    }
+}
+
+/// A kind of set-up.
+trait Family {
+    /// Its name, as in the tables.
+    fn name(&self) -> &'static str;
+
+    /// Simulates the set-up and measures it.
+    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError>;
+}
+
+/// Quantities and what was measured of them (SI units).
+type Measured = BTreeMap<String, f64>;
+
+/// Names quantities that are numbered from 1.
+fn numbered(quantity: &str, values: impl IntoIterator<Item = f64>) -> Measured {
+    let values = values.into_iter().enumerate();
+    values
+        .map(|(i, value)| (format!("{quantity}_{}", i + 1), value))
+        .collect()
+}
+
+/// Names quantities.
+fn named<const N: usize>(quantities: [(&str, f64); N]) -> Measured {
+    quantities
+        .map(|(quantity, value)| (quantity.to_owned(), value))
+        .into()
+}
+
+/// One number to meet and what was measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Check {
+    /// The quantity.
+    pub quantity: String,
+    /// The number to meet (SI units).
+    pub expected: f64,
+    /// What was measured (SI units).
+    pub measured: f64,
+    /// Error on the scale of the tolerance.
+    pub error: f64,
+    /// Largest error allowed.
+    pub limit: f64,
+}
+
+impl Check {
+    /// Whether the measurement is within its tolerance.
+    pub fn passed(&self) -> bool {
+        self.error <= self.limit
+    }
+}
+
+/// What became of a case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// Every number to meet.
+    pub checks: Vec<Check>,
+    /// Steps simulated.
+    pub steps: u64,
+    /// Time it took (s).
+    pub cpu_seconds: f64,
+}
+
+impl Outcome {
+    /// Whether every measurement is within its tolerance.
+    pub fn passed(&self) -> bool {
+        self.checks.iter().all(Check::passed)
+    }
+}
+
+/// Why a case has no outcome.
+#[derive(Debug, thiserror::Error)]
+pub enum VerifyError {
+    /// The scene cannot be built.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// A guard ended the simulation.
+    #[error(transparent)]
+    Unstable(#[from] Instability),
+    /// What the family waits for does not happen.
+    #[error("no end after {steps} steps: {awaited}")]
+    Unfinished {
+        /// What it waits for.
+        awaited: &'static str,
+        /// Steps done.
+        steps: u64,
+    },
+    /// The family does not measure this.
+    #[error("this set-up has no quantity \"{quantity}\"; it has {known}")]
+    UnknownQuantity {
+        /// What the case expects.
+        quantity: String,
+        /// What the family measures, separated by commas.
+        known: String,
+    },
+}
+
+/// All cases.
+pub fn cases() -> &'static [Case] {
+    static CASES: OnceLock<Vec<Case>> = OnceLock::new();
+    CASES.get_or_init(|| {
+        let read = |text: &&str| parse(text).expect("tests read every table");
+        TABLES.iter().flat_map(read).collect()
+    })
+}
+
+/// Reads a table of cases.
+///
+/// # Errors
+/// The first place that is no such table.
+pub fn parse(text: &str) -> Result<Vec<Case>, toml::de::Error> {
+    #[derive(Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Table {
+        case: Vec<Case>,
+    }
+    toml::from_str::<Table>(text).map(|table| table.case)
+}
+
+/// Simulates a case with an integrator and compares.
+///
+/// # Errors
+/// If the set-up cannot be simulated, or the case expects what its family does not measure.
+pub fn run(case: &Case, integrator: Integrator) -> Result<Outcome, VerifyError> {
+    let started = Instant::now();
+    let mut bench = Bench::new(integrator);
+    let measured = case.setup.family().measure(&mut bench)?;
+    let check = |(quantity, &expected): (&String, &f64)| match measured.get(quantity) {
+        Some(&measured) => Ok(Check {
+            quantity: quantity.clone(),
+            expected,
+            measured,
+            error: case.tolerance.error(measured, expected),
+            limit: case.tolerance.limit(),
+        }),
+        None => Err(VerifyError::UnknownQuantity {
+            quantity: quantity.clone(),
+            known: measured.keys().cloned().collect::<Vec<_>>().join(", "),
+        }),
+    };
+    Ok(Outcome {
+        checks: case.expect.iter().map(check).collect::<Result<_, _>>()?,
+        steps: bench.steps(),
+        cpu_seconds: started.elapsed().as_secs_f64(),
+    })
+}

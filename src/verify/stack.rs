@@ -1,0 +1,62 @@
+//! Spheres at rest upon each other.
+
+use super::bench::{Bench, Material, at};
+use super::{Family, Measured, VerifyError, named, numbered};
+use crate::dem::Simulation;
+use crate::scene::{Gravity, Scene, Tank};
+use serde::Deserialize;
+
+/// A column of equal spheres on the floor, let go where they just touch.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Stack {
+    /// Number of spheres.
+    count: usize,
+    /// Radius (m).
+    radius: f64,
+    /// Its dissipation time brings the spheres to rest.
+    material: Material,
+    /// Gravity (m/s2).
+    gravity: f64,
+    /// Time step (s).
+    dt: f64,
+    /// Duration (s), long enough to come to rest.
+    duration: f64,
+}
+
+impl Family for Stack {
+    fn name(&self) -> &'static str {
+        "stack"
+    }
+
+    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+        let height = |i: usize| (2 * i + 1) as f64 * self.radius;
+        let spheres = (0..self.count).map(|i| at([0.0, 0.0, height(i)])).collect();
+        let scene = Scene {
+            contact: Some(self.material.contact()),
+            gravity: Some(Gravity {
+                acceleration: self.gravity,
+            }),
+            tank: Some(Tank {
+                radius: None,
+                floor: Some(0.0),
+            }),
+            ..bench.scene(self.material.density, self.radius, spheres, self.dt)
+        };
+        let mut simulation = Simulation::new(&scene)?;
+        bench.advance_for(&mut simulation, self.duration, self.dt)?;
+        let particles = simulation.particles();
+        let z = |i: usize| particles.position[i].z;
+        // From the top contact down.
+        let mut overlaps: Vec<f64> = (1..self.count)
+            .rev()
+            .map(|i| 2.0 * self.radius - (z(i) - z(i - 1)))
+            .collect();
+        overlaps.push(self.radius - z(0));
+        let weight = self.count as f64 * self.material.mass(self.radius) * self.gravity;
+        let floor = bench.force_of_walls(&scene, particles)?.z;
+        let mut measured = numbered("overlap", overlaps);
+        measured.append(&mut named([("floor_force_over_weight", floor / weight)]));
+        Ok(measured)
+    }
+}

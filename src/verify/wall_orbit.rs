@@ -1,0 +1,70 @@
+//! A sphere that turning air drives along the cylinder.
+
+use super::bench::{Bench, Material, at};
+use super::{Family, Measured, VerifyError, named};
+use crate::dem::Simulation;
+use crate::dem::vector::Vector;
+use crate::scene::{Drag, DragForm, DragLaw, Scene, Swirl, Tank};
+use serde::Deserialize;
+
+/// A sphere at the frictionless cylinder, brought by turning air to the air's rotation.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WallOrbit {
+    /// Radius of the sphere (m).
+    radius: f64,
+    /// Radius of the cylinder (m).
+    tank_radius: f64,
+    material: Material,
+    /// Rotation of the air (rad/s).
+    omega: f64,
+    /// Rate of the linear drag, c1 over the mass (1/s).
+    drag_rate: f64,
+    /// Time step (s).
+    dt: f64,
+    /// Duration (s), long enough to take up the air's rotation.
+    duration: f64,
+}
+
+impl Family for WallOrbit {
+    fn name(&self) -> &'static str {
+        "wall-orbit"
+    }
+
+    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+        let scene = Scene {
+            contact: Some(self.material.contact()),
+            tank: Some(Tank {
+                radius: Some(self.tank_radius),
+                floor: None,
+            }),
+            drag: Some(Drag {
+                linear: self.drag_rate * self.material.mass(self.radius),
+                quadratic: 0.0,
+                law: DragLaw::Constant,
+                form: DragForm::Vector,
+            }),
+            swirl: Some(Swirl { omega: self.omega }),
+            ..bench.scene(
+                self.material.density,
+                self.radius,
+                vec![at([self.tank_radius - self.radius, 0.0, 0.0])],
+                self.dt,
+            )
+        };
+        let mut simulation = Simulation::new(&scene)?;
+        bench.advance_for(&mut simulation, self.duration, self.dt)?;
+        let particles = simulation.particles();
+        let (place, velocity) = (particles.position[0], particles.velocity[0]);
+        let distance = Vector { z: 0.0, ..place }.norm();
+        let wall = bench.force_of_walls(&scene, particles)?;
+        Ok(named([
+            ("overlap", distance - (self.tank_radius - self.radius)),
+            ("wall_force", wall.norm()),
+            (
+                "rotation",
+                (place.x * velocity.y - place.y * velocity.x) / (distance * distance),
+            ),
+        ]))
+    }
+}

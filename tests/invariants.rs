@@ -1,0 +1,291 @@
+//! What the motion keeps, whatever the scene: momentum, angular momentum, energy, symmetries.
+
+mod scenes;
+
+use phase::dem::vector::Vector;
+use phase::dem::{Particles, Simulation};
+use phase::scene::{Contact, Friction, Integrator, Scene, StartSphere, Tank};
+use proptest::prelude::*;
+use scenes::{INTEGRATORS, State, cluster, converging_spheres, frictions, state, tank};
+
+/// Laws in which every force on a sphere has a reaction on its partner, torques included.
+fn reciprocal_frictions() -> impl Strategy<Value = Option<Friction>> {
+    let [none, _, coulomb, mindlin] = frictions();
+    prop::sample::select(vec![none, coulomb, mindlin])
+}
+
+fn integrators() -> impl Strategy<Value = Integrator> {
+    prop::sample::select(INTEGRATORS.to_vec())
+}
+
+fn momentum(particles: &Particles) -> Vector {
+    (0..particles.len()).fold(Vector::ZERO, |sum, i| {
+        sum + particles.velocity[i] * particles.mass[i]
+    })
+}
+
+fn angular_momentum(particles: &Particles) -> Vector {
+    (0..particles.len()).fold(Vector::ZERO, |sum, i| {
+        let orbital = particles.position[i].cross(particles.velocity[i]) * particles.mass[i];
+        let spin = particles.spin.get(i).copied().unwrap_or_default();
+        let inertia = particles.inertia.get(i).copied().unwrap_or_default();
+        sum + orbital + spin * inertia
+    })
+}
+
+/// Momentum and angular momentum if all of it had one direction: what rounding is relative to.
+fn scales(particles: &Particles) -> (f64, f64) {
+    let spin = |i: usize| particles.spin.get(i).map_or(0.0, |spin| spin.norm());
+    let inertia = |i: usize| particles.inertia.get(i).copied().unwrap_or_default();
+    (0..particles.len()).fold((0.0, 0.0), |(linear, angular), i| {
+        let momentum = particles.mass[i] * particles.velocity[i].norm();
+        let orbital = momentum * particles.position[i].norm();
+        (linear + momentum, angular + orbital + inertia(i) * spin(i))
+    })
+}
+
+/// Kinetic, rotational, gravitational and elastic energy (J).
+fn energy(simulation: &mut Simulation, gravity: f64) -> f64 {
+    let elastic = simulation.elastic_energy();
+    let particles = simulation.particles();
+    let of_sphere = |i: usize| {
+        let spin = particles
+            .spin
+            .get(i)
+            .map_or(0.0, |spin| spin.norm_squared());
+        let inertia = particles.inertia.get(i).copied().unwrap_or_default();
+        let translation = 0.5 * particles.velocity[i].norm_squared();
+        particles.mass[i] * (translation + gravity * particles.position[i].z) + 0.5 * inertia * spin
+    };
+    (0..particles.len()).map(of_sphere).sum::<f64>() + elastic
+}
+
+fn damped(mut scene: Scene, time: f64) -> Scene {
+    let Some(Contact::Hertz {
+        dissipation_time, ..
+    }) = &mut scene.contact
+    else {
+        panic!("a scene with contacts")
+    };
+    *dissipation_time = Some(time);
+    scene
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn momentum_and_angular_momentum_of_isolated_spheres(
+        spheres in converging_spheres(),
+        friction in reciprocal_frictions(),
+        integrator in integrators(),
+        dissipation in prop::sample::select(vec![0.0, 1e-3]),
+    ) {
+        let mut scene = damped(cluster(spheres, friction, 2e-5), dissipation);
+        scene.time.integrator = integrator;
+        let mut simulation = Simulation::new(&scene).unwrap();
+        let before = simulation.particles().clone();
+        simulation.advance(1500).unwrap();
+        let after = simulation.particles();
+        let (linear, angular) = scales(&before);
+        let change = (momentum(after) - momentum(&before)).norm();
+        prop_assert!(change <= 1e-13 * linear, "momentum changes by {change} of {linear}");
+        let change = (angular_momentum(after) - angular_momentum(&before)).norm();
+        prop_assert!(change <= 1e-12 * angular, "angular momentum by {change} of {angular}");
+    }
+
+    #[test]
+    fn elastic_spheres_keep_their_energy(spheres in converging_spheres()) {
+        let mut simulation = Simulation::new(&cluster(spheres, None, 5e-6)).unwrap();
+        let before = energy(&mut simulation, 0.0);
+        for _ in 0..50 {
+            simulation.advance(100).unwrap();
+            let now = energy(&mut simulation, 0.0);
+            prop_assert!((now / before - 1.0).abs() < 1e-6, "{now} of {before}");
+        }
+    }
+
+    #[test]
+    fn dissipation_gains_no_energy(
+        spheres in converging_spheres(),
+        friction in reciprocal_frictions(),
+        dissipation in 0.0..3e-3,
+    ) {
+        let scene = damped(cluster(spheres, friction, 1e-5), dissipation);
+        let mut simulation = Simulation::new(&scene).unwrap();
+        let before = energy(&mut simulation, 0.0);
+        for _ in 0..50 {
+            simulation.advance(50).unwrap();
+            let now = energy(&mut simulation, 0.0);
+            prop_assert!(now <= before * (1.0 + 1e-5), "{now} of {before}");
+        }
+    }
+
+    #[test]
+    fn hits_on_walls_gain_no_energy(
+        angle in 0.0..1.55_f64,
+        spin in prop::array::uniform3(-500.0..500.0),
+        coefficient in 0.0..1.0,
+        coulomb in any::<bool>(),
+        cylinder in any::<bool>(),
+        poisson_ratio in 0.2..0.5,
+        dissipation in prop::sample::select(vec![0.0, 1e-4]),
+        integrator in integrators(),
+    ) {
+        let friction = if coulomb {
+            Friction::Coulomb { coefficient, regularisation: 1e-2 }
+        } else {
+            Friction::Mindlin { coefficient }
+        };
+        let (into, along) = (libm::cos(angle), libm::sin(angle));
+        let sphere = StartSphere {
+            position: if cylinder { [0.056, 0.0, 0.0] } else { [0.0, 0.0, 0.004] },
+            velocity: if cylinder { [into, along, 0.3 * along] } else { [along, 0.0, -into] },
+            spin,
+            radius: None,
+        };
+        let mut scene = damped(cluster(vec![sphere], Some(friction), 2e-6), dissipation);
+        scene.time.integrator = integrator;
+        scene.tank = Some(Tank {
+            radius: cylinder.then_some(0.06),
+            floor: (!cylinder).then_some(0.0),
+        });
+        if let Some(Contact::Hertz { poisson_ratio: ratio, .. }) = &mut scene.contact {
+            *ratio = poisson_ratio;
+        }
+        let mut simulation = Simulation::new(&scene).unwrap();
+        let before = energy(&mut simulation, 0.0);
+        simulation.advance(20_000).unwrap();
+        let after = energy(&mut simulation, 0.0);
+        prop_assert!(after <= before * (1.0 + 1e-5), "{after} of {before}");
+    }
+}
+
+#[test]
+fn a_damped_pile_under_gravity_loses_energy_from_frame_to_frame() {
+    for friction in frictions().into_iter().skip(2) {
+        let mut scene = tank(friction, Integrator::VelocityVerlet);
+        (scene.drag, scene.swirl, scene.updraught) = (None, None, None);
+        let mut simulation = Simulation::new(&scene).unwrap();
+        let first = energy(&mut simulation, 9.8);
+        let mut last = first;
+        for _ in 0..200 {
+            simulation.advance(10).unwrap();
+            let now = energy(&mut simulation, 9.8);
+            // The springs of Mindlin's law give back what they hold.
+            assert!(now < last + 2e-3 * first.abs(), "{now} after {last}");
+            last = now;
+        }
+        assert!(last < first - 0.1 * first.abs());
+    }
+}
+
+/// A scene that goes on from a state, with the radii of another simulation.
+fn going_on(scene: &Scene, from: &State, radius: &[f64]) -> Scene {
+    Scene {
+        start: from.start(radius),
+        ..scene.clone()
+    }
+}
+
+fn run(scene: &Scene, steps: u64) -> State {
+    let mut simulation = Simulation::new(scene).unwrap();
+    simulation.advance(steps).unwrap();
+    state(&simulation)
+}
+
+/// Every scene of the tank with its start and radii.
+fn tanks() -> impl Iterator<Item = (Scene, State, Vec<f64>)> {
+    let laws = frictions().into_iter();
+    let scenes = laws.flat_map(|law| INTEGRATORS.map(|integrator| tank(law.clone(), integrator)));
+    scenes.map(|scene| {
+        let simulation = Simulation::new(&scene).unwrap();
+        let radius = simulation.particles().radius.clone();
+        (scene, state(&simulation), radius)
+    })
+}
+
+/// Rounding grows in collisions: over 400 steps to much less than this part of a radius.
+const CLOSE: f64 = 1e-6;
+const STEPS: u64 = 400;
+
+#[test]
+fn mirrored_scenes_mirror() {
+    let polar = |v: Vector| Vector::new(v.x, -v.y, v.z);
+    let axial = |v: Vector| Vector::new(-v.x, v.y, -v.z);
+    for (scene, start, radius) in tanks() {
+        let mut mirrored = going_on(&scene, &start.map(polar, axial), &radius);
+        mirrored.swirl.as_mut().unwrap().omega *= -1.0;
+        let expected = run(&scene, STEPS).map(polar, axial);
+        let distance = run(&mirrored, STEPS).distance(&expected, 0.004);
+        assert!(distance < CLOSE, "{:?}: {distance}", scene.friction);
+    }
+}
+
+#[test]
+fn a_quarter_turn_about_the_axis_changes_nothing() {
+    let turn = |v: Vector| Vector::new(-v.y, v.x, v.z);
+    for (scene, start, radius) in tanks() {
+        let turned = going_on(&scene, &start.map(turn, turn), &radius);
+        let expected = run(&scene, STEPS).map(turn, turn);
+        let distance = run(&turned, STEPS).distance(&expected, 0.004);
+        assert!(distance < CLOSE, "{:?}: {distance}", scene.friction);
+    }
+}
+
+#[test]
+fn numbers_of_the_spheres_do_not_matter() {
+    for (scene, start, radius) in tanks() {
+        let count = radius.len();
+        let order: Vec<usize> = (0..count).map(|i| (7 * i + 3) % count).collect();
+        let reordered = |state: &State| {
+            let pick = |all: &[Vector]| order.iter().filter_map(|&i| all.get(i).copied()).collect();
+            State {
+                position: pick(&state.position),
+                velocity: pick(&state.velocity),
+                spin: pick(&state.spin),
+            }
+        };
+        let radius: Vec<f64> = order.iter().map(|&i| radius[i]).collect();
+        let renumbered = going_on(&scene, &reordered(&start), &radius);
+        let expected = reordered(&run(&scene, STEPS));
+        let distance = run(&renumbered, STEPS).distance(&expected, 0.004);
+        assert!(distance < CLOSE, "{:?}: {distance}", scene.friction);
+    }
+}
+
+#[test]
+fn scaling_all_forces_and_masses_changes_nothing() {
+    for (scene, start, radius) in tanks() {
+        let mut scaled = going_on(&scene, &start, &radius);
+        scaled.spheres.density *= 100.0;
+        if let Some(Contact::Hertz { young_modulus, .. }) = &mut scaled.contact {
+            *young_modulus *= 100.0;
+        }
+        let drag = scaled.drag.as_mut().unwrap();
+        drag.linear *= 100.0;
+        drag.quadratic *= 100.0;
+        let distance = run(&scaled, STEPS).distance(&run(&scene, STEPS), 0.004);
+        assert!(distance < CLOSE, "{:?}: {distance}", scene.friction);
+    }
+}
+
+#[test]
+fn isolated_spheres_do_not_mind_a_common_velocity() {
+    let spheres = |drift: f64| {
+        [-1.0, 1.0].map(|side| StartSphere {
+            position: [0.006 * side, 0.001 * side, 0.0],
+            velocity: [drift - side, 0.0, 0.5 * drift],
+            spin: [0.0, 100.0, 30.0 * side],
+            radius: None,
+        })
+    };
+    for friction in frictions() {
+        let ends = [0.0, 3.0].map(|drift| {
+            let scene = cluster(spheres(drift).to_vec(), friction.clone(), 1e-5);
+            let end = run(&scene, 2000);
+            end.position[0] - end.position[1]
+        });
+        assert!((ends[0] - ends[1]).norm() < 1e-12, "{friction:?}");
+    }
+}

@@ -1,0 +1,143 @@
+//! Scenes that the tests of the engine share.
+#![allow(dead_code, reason = "each test program uses a part of it")]
+
+use phase::dem::Simulation;
+use phase::dem::vector::Vector;
+use phase::scene::{Friction, Integrator, Scene, Start, StartSphere};
+use proptest::prelude::*;
+
+pub(crate) const INTEGRATORS: [Integrator; 2] =
+    [Integrator::SymplecticEuler, Integrator::VelocityVerlet];
+
+/// No friction, and every law of it.
+pub(crate) fn frictions() -> [Option<Friction>; 4] {
+    [
+        None,
+        Some(Friction::Spin { coefficient: 0.01 }),
+        Some(Friction::Coulomb {
+            coefficient: 0.3,
+            regularisation: 1e-2,
+        }),
+        Some(Friction::Mindlin { coefficient: 0.3 }),
+    ]
+}
+
+/// A small tank with every effect, in which spheres collide, rise, turn and pile up.
+pub(crate) fn tank(friction: Option<Friction>, integrator: Integrator) -> Scene {
+    let mut scene: Scene = toml::from_str(
+        r#"
+        spheres = { count = 60, radius = [{ radius = 0.003, share = 1 }, { radius = 0.004, share = 1 }], density = 3750.0 }
+        contact = { law = "hertz", young_modulus = 5.657e5, poisson_ratio = 0.3, dissipation_time = 1e-4 }
+        tank = { radius = 0.03, floor = -0.05 }
+        start = { kind = "random", z_min = -0.04, z_max = 0.06, speed = 0.3, spin = 5.0 }
+        gravity = { acceleration = 9.8 }
+        drag = { law = "cross-section", linear = 100.0, quadratic = 200.0, form = "component" }
+        swirl = { omega = 12.0 }
+        updraught = { speed = 5.88, decay = 25.0, origin = -0.05, alpha = 0.5 }
+        time = { dt = 1e-4, duration = 0.2, frame_interval = 1e-3 }
+        "#,
+    )
+    .unwrap();
+    scene.friction = friction;
+    scene.time.integrator = integrator;
+    scene
+}
+
+/// Spheres in empty space that fly at one another.
+pub(crate) fn cluster(spheres: Vec<StartSphere>, friction: Option<Friction>, dt: f64) -> Scene {
+    let mut scene: Scene = toml::from_str(
+        r#"
+        spheres = { count = 1, radius = 0.004, density = 1e4 }
+        contact = { law = "hertz", young_modulus = 2e5, poisson_ratio = 0.3, dissipation_time = 0.0 }
+        start = { kind = "list", spheres = [] }
+        time = { dt = 1e-5, duration = 1.0, frame_interval = 1e-3, integrator = "velocity-verlet" }
+        "#,
+    )
+    .unwrap();
+    scene.spheres.count = spheres.len();
+    scene.start = Start::List { spheres };
+    scene.friction = friction;
+    scene.time.dt = dt;
+    scene
+}
+
+/// Two to ten spheres of 2.5 to 4 mm near the corners of a lattice, which fall towards the
+/// middle with about 1 m/s and spin.
+pub(crate) fn converging_spheres() -> impl Strategy<Value = Vec<StartSphere>> {
+    let triple = || prop::array::uniform3(-1.0..1.0_f64);
+    let sphere = (triple(), triple(), triple(), 2.5e-3..4e-3);
+    prop::collection::vec(sphere, 2..10).prop_map(|spheres| {
+        let place = |(i, (shift, velocity, spin, radius)): (usize, ([f64; 3], _, _, _))| {
+            let velocity: [f64; 3] = velocity;
+            let spin: [f64; 3] = spin;
+            let corner = [i % 2, i / 2 % 2, i / 4].map(|k| 0.01 * (k as f64 - 0.5));
+            let position = std::array::from_fn(|k| corner[k] + 5e-4 * shift[k]);
+            StartSphere {
+                position,
+                velocity: std::array::from_fn(|k| 0.3 * velocity[k] - 100.0 * position[k]),
+                spin: spin.map(|component| 200.0 * component),
+                radius: Some(radius),
+            }
+        };
+        spheres.into_iter().enumerate().map(place).collect()
+    })
+}
+
+/// Where spheres are and how they move: everything that the motion goes on from.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct State {
+    pub(crate) position: Vec<Vector>,
+    pub(crate) velocity: Vec<Vector>,
+    pub(crate) spin: Vec<Vector>,
+}
+
+pub(crate) fn state(simulation: &Simulation) -> State {
+    let particles = simulation.particles();
+    State {
+        position: particles.position.clone(),
+        velocity: particles.velocity.clone(),
+        spin: particles.spin.clone(),
+    }
+}
+
+impl State {
+    /// The same bits, in the order of the spheres.
+    pub(crate) fn bits(&self) -> Vec<[u64; 3]> {
+        let all = [&self.position, &self.velocity, &self.spin];
+        all.into_iter()
+            .flatten()
+            .map(|v| [v.x, v.y, v.z].map(f64::to_bits))
+            .collect()
+    }
+
+    /// The state after each vector of it went through `polar`, each spin through `axial`.
+    pub(crate) fn map(&self, polar: fn(Vector) -> Vector, axial: fn(Vector) -> Vector) -> Self {
+        Self {
+            position: self.position.iter().copied().map(polar).collect(),
+            velocity: self.velocity.iter().copied().map(polar).collect(),
+            spin: self.spin.iter().copied().map(axial).collect(),
+        }
+    }
+
+    /// A scene's spheres in this state.
+    pub(crate) fn start(&self, radius: &[f64]) -> Start {
+        let triple = |v: Vector| [v.x, v.y, v.z];
+        let sphere = |i: usize| StartSphere {
+            position: triple(self.position[i]),
+            velocity: triple(self.velocity[i]),
+            spin: self.spin.get(i).copied().map_or([0.0; 3], triple),
+            radius: Some(radius[i]),
+        };
+        Start::List {
+            spheres: (0..radius.len()).map(sphere).collect(),
+        }
+    }
+
+    /// Largest difference of positions, over `length`.
+    pub(crate) fn distance(&self, other: &Self, length: f64) -> f64 {
+        let pairs = self.position.iter().zip(&other.position);
+        pairs
+            .map(|(&a, &b)| (a - b).norm() / length)
+            .fold(0.0, f64::max)
+    }
+}
