@@ -1,5 +1,7 @@
 //! The same input gives the same bits, a broken guard names its place, and nothing panics.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should panic")]
+
 mod scenes;
 
 use phase::dem::Simulation;

@@ -1,5 +1,7 @@
 //! What the motion keeps, whatever the scene: momentum, angular momentum, energy, symmetries.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should panic")]
+
 mod scenes;
 
 use phase::dem::vector::Vector;

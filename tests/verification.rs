@@ -1,5 +1,7 @@
 //! Every case of the verification tables, with every integrator that claims it.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should panic")]
+
 use phase::scene::Integrator;
 use phase::verify::{self, Case};
 use std::fmt::Write;
