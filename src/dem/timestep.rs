@@ -360,7 +360,8 @@ fn spin_damping_limit(scene: &Scene) -> Option<Limit> {
     })
 }
 
-fn sphere_mass(radius: f64, density: f64) -> f64 {
+/// Mass of a sphere (kg).
+pub(crate) fn sphere_mass(radius: f64, density: f64) -> f64 {
     4.0 / 3.0 * PI * radius * radius * radius * density
 }
 

@@ -2,15 +2,15 @@
 
 use super::reduce::{largest, least, sum};
 use super::{FrameView, Observations};
-use crate::scene::Scene;
+use crate::scene::{Gravity, Scene};
 use ndarray::{Array2, Array3};
 
 /// Measures a simulation at every frame.
 ///
 /// Sums run over the spheres in the order of their indices, so equal states give equal bits.
 pub struct Observer {
-    /// Acceleration g, 0 without gravity (m/s2).
-    gravity: f64,
+    /// Components of gravity along x and z, 0 without it (m/s2).
+    gravity: [f64; 2],
     /// |Omega| of the swirling air, 0 without swirl (rad/s).
     air_rotation: f64,
     bins: usize,
@@ -56,7 +56,7 @@ impl Observer {
         });
         let per_frame = |speed: &f64| speed * scene.time.frame_interval;
         Self {
-            gravity: scene.gravity.as_ref().map_or(0.0, |it| it.acceleration),
+            gravity: scene.gravity.as_ref().map_or([0.0; 2], Gravity::components),
             air_rotation: scene.swirl.as_ref().map_or(0.0, |it| it.omega.abs()),
             bins,
             bin_width,
@@ -105,8 +105,10 @@ impl Observer {
                 0.5 * inertia * (x * x + y * y + z * z)
             })
         });
-        let gravitational = sum([frame.mass, frame.position[2]], |[mass, z]| {
-            mass * self.gravity * z
+        let [x, _, z] = frame.position;
+        let [gx, gz] = self.gravity;
+        let gravitational = sum([frame.mass, x, z], |[mass, x, z]| {
+            -(mass * gx * x) - mass * gz * z
         });
         let observations = &mut self.observations;
         observations.kinetic.push(kinetic as f32);

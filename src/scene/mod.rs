@@ -206,8 +206,25 @@ pub struct StartSphere {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Gravity {
-    /// Acceleration g, downward (m/s2).
+    /// Acceleration g (m/s2).
     pub acceleration: f64,
+    /// Angle by which it leans from straight down towards +x (rad, default 0): the floor is then
+    /// an incline that descends along x.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub tilt: f64,
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+impl Gravity {
+    /// Components along x and z (m/s2); there is none along y.
+    pub fn components(&self) -> [f64; 2] {
+        // Exact without a tilt.
+        let (sine, cosine) = libm::sincos(self.tilt);
+        [self.acceleration * sine, -self.acceleration * cosine]
+    }
 }
 
 /// Air in rigid rotation about the axis (Rice, 2012, eqs. 21 to 27).

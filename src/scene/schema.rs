@@ -20,7 +20,10 @@ pub(crate) const SCENE: Kind = Kind::Table(&[
     needed("start", START),
     optional(
         "gravity",
-        Kind::Table(&[needed("acceleration", NOT_NEGATIVE)]),
+        Kind::Table(&[
+            needed("acceleration", NOT_NEGATIVE),
+            optional("tilt", NUMBER),
+        ]),
     ),
     optional("drag", DRAG),
     optional("swirl", Kind::Table(&[needed("omega", NUMBER)])),

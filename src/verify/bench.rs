@@ -1,13 +1,14 @@
 //! What the families share: materials, bare scenes, counted steps.
 
 use super::VerifyError;
+use crate::dem::timestep::{self, Impact};
 use crate::dem::vector::Vector;
 use crate::dem::{Particles, Simulation};
 use crate::scene::{
-    Contact, Guards, Integrator, Output, Radii, Scene, Spheres, Start, StartSphere, Time,
+    Contact, Gravity, Guards, Integrator, Output, Radii, Scene, Spheres, Start, StartSphere, Tank,
+    Time,
 };
 use serde::Deserialize;
-use std::f64::consts::PI;
 
 /// What spheres and walls are made of.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -34,11 +35,20 @@ pub(super) fn one() -> f64 {
 impl Material {
     /// Mass of a sphere of that radius (kg).
     pub(super) fn mass(&self, radius: f64) -> f64 {
-        mass(self.density, radius)
+        timestep::sphere_mass(radius, self.density)
+    }
+
+    /// An elastic head-on impact of an effective radius (m) and mass (kg) at a relative speed (m/s).
+    pub(super) fn impact(&self, radius: f64, mass: f64, speed: f64) -> Impact {
+        Impact {
+            effective_mass: mass,
+            stiffness: self.stiffness(radius),
+            speed,
+        }
     }
 
     /// K = 2 Y sqrt(R_eff) / (3 (1 - nu^2)) (N/m^1.5) of an effective radius.
-    pub(super) fn stiffness(&self, effective_radius: f64) -> f64 {
+    fn stiffness(&self, effective_radius: f64) -> f64 {
         2.0 * self.young_modulus * effective_radius.sqrt()
             / (3.0 * (1.0 - self.poisson_ratio * self.poisson_ratio))
     }
@@ -46,11 +56,6 @@ impl Material {
     /// Overlap at which the elastic force of an effective radius is `force` (m).
     pub(super) fn overlap(&self, effective_radius: f64, force: f64) -> f64 {
         libm::pow(force / self.stiffness(effective_radius), 2.0 / 3.0)
-    }
-
-    /// T = (m_eff / K)^0.4 v^-0.2 (s); an elastic impact lasts [`CONTACT`] of it.
-    pub(super) fn time_scale(&self, effective_radius: f64, effective_mass: f64, speed: f64) -> f64 {
-        libm::pow(effective_mass / self.stiffness(effective_radius), 0.4) * libm::pow(speed, -0.2)
     }
 
     /// The contact law.
@@ -66,17 +71,25 @@ impl Material {
     }
 }
 
-/// Duration of an elastic Hertz impact in units of T.
-pub(super) const CONTACT: f64 = 3.218_065_460;
-
-/// Mass of a sphere (kg).
-pub(super) fn mass(density: f64, radius: f64) -> f64 {
-    density * (4.0 / 3.0 * PI * radius * radius * radius)
-}
-
 /// a b / (a + b), of masses or of radii.
 pub(super) fn reduced(a: f64, b: f64) -> f64 {
     a * b / (a + b)
+}
+
+/// Gravity straight down (m/s2).
+pub(super) fn downward(acceleration: f64) -> Gravity {
+    Gravity {
+        acceleration,
+        tilt: 0.0,
+    }
+}
+
+/// No walls but a floor at height zero.
+pub(super) fn floor() -> Tank {
+    Tank {
+        radius: None,
+        floor: Some(0.0),
+    }
 }
 
 /// A sphere at rest.

@@ -1,6 +1,6 @@
 //! Newton's cradle: spheres in a row, hit by the first of them.
 
-use super::bench::{Bench, CONTACT, Material, moving};
+use super::bench::{Bench, Material, moving};
 use super::{Family, Measured, VerifyError, numbered};
 use crate::dem::{Particles, Simulation};
 use crate::scene::Scene;
@@ -41,11 +41,11 @@ impl Family for Cradle {
 
     fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
         let mass = self.material.mass(self.radius);
-        let time_scale = self
+        let impact = self
             .material
-            .time_scale(0.5 * self.radius, 0.5 * mass, self.speed);
-        let dt = CONTACT * time_scale / self.steps_per_contact;
-        let gap = self.gap * time_scale * self.speed;
+            .impact(0.5 * self.radius, 0.5 * mass, self.speed);
+        let dt = impact.contact_time() / self.steps_per_contact;
+        let gap = self.gap * impact.time_scale() * self.speed;
         let row = |i: usize| {
             let speed = if i < self.incident { self.speed } else { 0.0 };
             let place = i as f64 * (2.0 * self.radius + gap);

@@ -1,9 +1,9 @@
 //! An elastic gas in the tank.
 
-use super::bench::{Bench, Material};
+use super::bench::{Bench, Material, downward};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
-use crate::scene::{Gravity, Scene, Spheres, Start, Tank};
+use crate::scene::{Scene, Spheres, Start, Tank};
 use serde::Deserialize;
 
 /// Elastic spheres that bounce on one another and on the tank's walls, held by gravity.
@@ -57,9 +57,7 @@ impl Gas {
                 radius: Some(self.tank_radius),
                 floor: Some(0.0),
             }),
-            gravity: Some(Gravity {
-                acceleration: self.gravity,
-            }),
+            gravity: Some(downward(self.gravity)),
             ..bench.scene(self.material.density, self.radius, Vec::new(), dt)
         };
         let scene = Scene {

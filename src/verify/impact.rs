@@ -1,10 +1,10 @@
 //! A sphere hits a sphere or a wall, head-on or obliquely, with or without spin.
 
-use super::bench::{Bench, CONTACT, Material, moving, reduced};
+use super::bench::{Bench, Material, floor, moving, reduced};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::vector::Vector;
-use crate::dem::{Particles, Simulation};
-use crate::scene::{Friction, Scene, StartSphere, Tank};
+use crate::dem::{Particles, Simulation, timestep};
+use crate::scene::{Contact, Friction, Scene, StartSphere, Tank};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -30,6 +30,10 @@ pub struct Impact {
     /// b = c A / T, in place of the material's dissipation time.
     #[serde(default)]
     damping: Option<f64>,
+    /// Restitution at the normal speed, in place of the dissipation time: the scene's own key, which
+    /// speaks of two spheres of the radius.
+    #[serde(default)]
+    restitution: Option<f64>,
     #[serde(default)]
     friction: Option<Friction>,
     /// Relative speed (m/s).
@@ -118,7 +122,7 @@ impl Impact {
     /// One impact that begins after the fraction `phase` of a step.
     fn impact(&self, phase: f64, bench: &mut Bench) -> Result<Measured, VerifyError> {
         let material = self.hardened();
-        let contact_time = CONTACT * self.time_scale(&material);
+        let contact_time = self.elastic(&material).contact_time();
         let dt = self.dt.unwrap_or(contact_time / self.steps_per_contact);
         let begin = phase * dt;
         let scene = self.scene(&material, begin, dt, bench);
@@ -185,7 +189,7 @@ impl Impact {
         }
         if let Some(damping) = self.damping {
             material.dissipation_time =
-                damping * self.time_scale(&material) / material.dissipation_factor;
+                damping * self.elastic(&material).time_scale() / material.dissipation_factor;
         }
         material
     }
@@ -194,7 +198,8 @@ impl Impact {
         self.speed * libm::cos(self.angle * PI / 180.0)
     }
 
-    fn time_scale(&self, material: &Material) -> f64 {
+    /// The same impact without dissipation and friction.
+    fn elastic(&self, material: &Material) -> timestep::Impact {
         let radius = match self.partner {
             Partner::Sphere => reduced(self.radius, self.partner_radius()),
             Partner::Floor | Partner::Cylinder => self.radius,
@@ -206,7 +211,7 @@ impl Impact {
             ),
             Partner::Floor | Partner::Cylinder => material.mass(self.radius),
         };
-        material.time_scale(radius, mass, self.normal_speed())
+        material.impact(radius, mass, self.normal_speed())
     }
 
     fn partner_radius(&self) -> f64 {
@@ -254,10 +259,7 @@ impl Impact {
                 ];
             }
             Partner::Floor => {
-                tank = Some(Tank {
-                    radius: None,
-                    floor: Some(0.0),
-                });
+                tank = Some(floor());
             }
             Partner::Cylinder => {
                 tank = Some(Tank {
@@ -267,11 +269,30 @@ impl Impact {
             }
         }
         Scene {
-            contact: Some(material.contact()),
+            contact: Some(self.contact(material)),
             friction: self.friction.clone(),
             tank,
             ..bench.scene(material.density, self.radius, spheres, dt)
         }
+    }
+
+    fn contact(&self, material: &Material) -> Contact {
+        let mut law = material.contact();
+        if let (
+            Some(given),
+            Contact::Hertz {
+                dissipation_time,
+                restitution,
+                restitution_speed,
+                ..
+            },
+        ) = (self.restitution, &mut law)
+        {
+            *dissipation_time = None;
+            *restitution = Some(given);
+            *restitution_speed = self.normal_speed();
+        }
+        law
     }
 
     fn overlap(&self, particles: &Particles) -> f64 {

@@ -20,9 +20,11 @@ mod critical_rotation;
 mod flight;
 mod gas;
 mod impact;
+mod incline;
 mod oscillation;
 mod rolling;
 mod stack;
+mod step_limit;
 mod tripod;
 mod wall_orbit;
 
@@ -38,10 +40,11 @@ use std::sync::OnceLock;
 use std::time::Instant;
 
 /// The tables of all families.
-const TABLES: [&str; 11] = [
+const TABLES: [&str; 13] = [
     include_str!("impact.toml"),
     include_str!("cradle.toml"),
     include_str!("rolling.toml"),
+    include_str!("incline.toml"),
     include_str!("stack.toml"),
     include_str!("tripod.toml"),
     include_str!("oscillation.toml"),
@@ -50,6 +53,7 @@ const TABLES: [&str; 11] = [
     include_str!("wall_orbit.toml"),
     include_str!("gas.toml"),
     include_str!("critical_rotation.toml"),
+    include_str!("step_limit.toml"),
 ];
 
 /// A set-up whose outcome is known.
@@ -113,6 +117,8 @@ pub enum Setup {
     Cradle(cradle::Cradle),
     /// A sphere slides on the floor until it rolls.
     Rolling(rolling::Rolling),
+    /// A sphere rolls or slides down an incline.
+    Incline(incline::Incline),
     /// Spheres at rest upon each other.
     Stack(stack::Stack),
     /// A sphere at rest on three others in a cylinder.
@@ -129,6 +135,8 @@ pub enum Setup {
     Gas(gas::Gas),
     /// The critical rotation, in closed form.
     CriticalRotation(critical_rotation::CriticalRotation),
+    /// Limits of the time step, in closed form.
+    StepLimit(step_limit::StepLimit),
 }
 
 impl Setup {
@@ -137,6 +145,7 @@ impl Setup {
             Self::Impact(it) => it,
             Self::Cradle(it) => it,
             Self::Rolling(it) => it,
+            Self::Incline(it) => it,
             Self::Stack(it) => it,
             Self::Tripod(it) => it,
             Self::Oscillation(it) => it,
@@ -145,6 +154,7 @@ impl Setup {
             Self::WallOrbit(it) => it,
             Self::Gas(it) => it,
             Self::CriticalRotation(it) => it,
+            Self::StepLimit(it) => it,
         }
     }
 

@@ -1,9 +1,9 @@
 //! A sphere on the floor swings about its rest.
 
-use super::bench::{Bench, Material, moving};
+use super::bench::{Bench, Material, downward, floor, moving};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
-use crate::scene::{Friction, Gravity, Scene, Tank};
+use crate::scene::{Friction, Scene};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -57,13 +57,8 @@ impl Family for Oscillation {
         let scene = Scene {
             contact: Some(self.material.contact()),
             friction: self.friction.clone(),
-            gravity: Some(Gravity {
-                acceleration: self.gravity,
-            }),
-            tank: Some(Tank {
-                radius: None,
-                floor: Some(0.0),
-            }),
+            gravity: Some(downward(self.gravity)),
+            tank: Some(floor()),
             ..bench.scene(self.material.density, self.radius, vec![sphere], self.dt)
         };
         let mut simulation = Simulation::new(&scene)?;

@@ -1,9 +1,9 @@
 //! A sphere slides on the floor until it rolls.
 
-use super::bench::{Bench, Material, moving};
+use super::bench::{Bench, Material, downward, floor, moving};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::{Particles, Simulation};
-use crate::scene::{Friction, Gravity, Scene, StartSphere, Tank};
+use crate::scene::{Friction, Scene, StartSphere};
 use serde::Deserialize;
 
 /// A sphere slides along x on the floor, pressed by its weight, until it rolls.
@@ -105,13 +105,8 @@ impl Rolling {
         Scene {
             contact: Some(self.material.contact()),
             friction: Some(self.friction.clone()),
-            gravity: Some(Gravity {
-                acceleration: self.gravity,
-            }),
-            tank: Some(Tank {
-                radius: None,
-                floor: Some(0.0),
-            }),
+            gravity: Some(downward(self.gravity)),
+            tank: Some(floor()),
             ..bench.scene(self.material.density, self.radius, vec![sphere], self.dt)
         }
     }

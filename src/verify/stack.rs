@@ -1,9 +1,9 @@
 //! Spheres at rest upon each other.
 
-use super::bench::{Bench, Material, at};
+use super::bench::{Bench, Material, at, downward, floor};
 use super::{Family, Measured, VerifyError, named, numbered};
 use crate::dem::Simulation;
-use crate::scene::{Gravity, Scene, Tank};
+use crate::scene::Scene;
 use serde::Deserialize;
 
 /// A column of equal spheres on the floor, let go where they just touch.
@@ -34,13 +34,8 @@ impl Family for Stack {
         let spheres = (0..self.count).map(|i| at([0.0, 0.0, height(i)])).collect();
         let scene = Scene {
             contact: Some(self.material.contact()),
-            gravity: Some(Gravity {
-                acceleration: self.gravity,
-            }),
-            tank: Some(Tank {
-                radius: None,
-                floor: Some(0.0),
-            }),
+            gravity: Some(downward(self.gravity)),
+            tank: Some(floor()),
             ..bench.scene(self.material.density, self.radius, spheres, self.dt)
         };
         let mut simulation = Simulation::new(&scene)?;

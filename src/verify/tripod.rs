@@ -1,11 +1,11 @@
 //! A sphere at rest on three others in a cylinder.
 
-use super::bench::{Bench, Material, at};
+use super::bench::{Bench, Material, at, downward};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
 use crate::dem::contact::{Hertz, NormalLaw};
 use crate::dem::vector::Vector;
-use crate::scene::{Gravity, Scene, Tank};
+use crate::scene::{Scene, Tank};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -47,9 +47,7 @@ impl Family for Tripod {
         spheres.push(at([0.0, 0.0, self.radius + rise]));
         let scene = Scene {
             contact: Some(self.material.contact()),
-            gravity: Some(Gravity {
-                acceleration: self.gravity,
-            }),
+            gravity: Some(downward(self.gravity)),
             tank: Some(Tank {
                 radius: Some(distance + self.radius),
                 floor: Some(0.0),

@@ -1,25 +1,32 @@
-//! Gravity: F = -m g along z.
+//! Gravity: F = m g, straight down or tilted.
 
 use super::Effect;
 use crate::dem::particles::Particles;
 use crate::scene;
 
 pub(super) struct Gravity {
-    acceleration: f64,
+    /// Components along x and z (m/s2).
+    acceleration: [f64; 2],
 }
 
 impl Gravity {
     pub(super) fn new(parameters: &scene::Gravity) -> Self {
         Self {
-            acceleration: parameters.acceleration,
+            acceleration: parameters.components(),
         }
     }
 }
 
 impl Effect for Gravity {
     fn apply(&mut self, particles: &mut Particles, _: &[u32]) {
+        let [x, z] = self.acceleration;
         for (force, mass) in particles.force.iter_mut().zip(&particles.mass) {
-            force.z -= mass * self.acceleration;
+            force.z += mass * z;
+        }
+        if x != 0.0 {
+            for (force, mass) in particles.force.iter_mut().zip(&particles.mass) {
+                force.x += mass * x;
+            }
         }
     }
 }
