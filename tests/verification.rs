@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should panic")]
 
 use phase::scene::Integrator;
-use phase::verify::{self, Case};
+use phase::verify::{self, Case, Tolerance};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 fn report(case: &Case, integrator: Integrator) -> Option<String> {
@@ -35,4 +36,66 @@ fn every_case_meets_its_numbers() {
         .filter_map(|(case, integrator)| report(case, integrator))
         .collect();
     assert!(failures.is_empty(), "\n{}", failures.join("\n"));
+}
+
+#[test]
+fn the_table_is_sound() {
+    let cases = verify::cases();
+    let names: BTreeSet<&str> = cases.iter().map(|case| case.name.as_str()).collect();
+    assert_eq!(names.len(), cases.len(), "two cases share a name");
+    for case in cases {
+        let name = &case.name;
+        assert!(!case.source.is_empty(), "{name} has no source");
+        assert!(!case.expect.is_empty(), "{name} expects nothing");
+        assert!(!case.integrators.is_empty(), "{name} is never run");
+        assert!(case.tolerance.limit() <= 0.3, "{name} tolerates anything");
+        // A fraction of zero would allow nothing.
+        let relative = matches!(case.tolerance, Tolerance::Relative(_));
+        let zero = case.expect.values().any(|&value| value == 0.0);
+        assert!(!(relative && zero), "{name} needs an absolute tolerance");
+    }
+}
+
+fn throw(expect: &str) -> Case {
+    let row = format!(
+        "[[case]]\n\
+         name = \"throw\"\n\
+         setup = {{ family = \"flight\", radius = 0.01, density = 1e3, \
+                    velocity = [2.0, 0.0, 0.0], dt = 1e-3, duration = 1.0 }}\n\
+         expect = {{ {expect} }}\n\
+         tolerance = {{ relative = 1e-3 }}\n\
+         source = \"closed form\""
+    );
+    verify::parse(&row).unwrap().remove(0)
+}
+
+#[test]
+fn a_case_passes_within_its_tolerance_and_fails_beyond() {
+    for (expect, passes) in [("x = 2.0019", true), ("x = 2.0021", false)] {
+        let outcome = verify::run(&throw(expect), Integrator::VelocityVerlet).unwrap();
+        assert_eq!(outcome.passed(), passes);
+        assert_eq!(outcome.steps, 1000);
+        let check = &outcome.checks[0];
+        assert!((check.measured - 2.0).abs() < 1e-12);
+        assert!((check.error - (1.0 - 2.0 / check.expected)).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn an_unknown_quantity_is_named_with_the_known_ones() {
+    let error = verify::run(&throw("height = 2.0"), Integrator::VelocityVerlet).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "this set-up has no quantity \"height\"; \
+         it has speed, velocity_x, velocity_y, velocity_z, x, y, z"
+    );
+}
+
+#[test]
+fn an_unknown_parameter_is_refused() {
+    let row = "[[case]]\nname = \"a\"\nexpect = {}\nsource = \"\"\n\
+               tolerance = { absolute = 1.0 }\n\
+               setup = { family = \"cradle\", colour = 1 }";
+    let error = verify::parse(row).unwrap_err().to_string();
+    assert!(error.contains("colour"), "{error}");
 }
