@@ -48,7 +48,7 @@ pub(crate) fn cluster(spheres: Vec<StartSphere>, friction: Option<Friction>, dt:
     let mut scene: Scene = toml::from_str(
         r#"
         spheres = { count = 1, radius = 0.004, density = 1e4 }
-        contact = { law = "hertz", young_modulus = 2e5, poisson_ratio = 0.3, dissipation_time = 0.0 }
+        contact = { law = "hertz", young_modulus = 1e6, poisson_ratio = 0.3, dissipation_time = 0.0 }
         start = { kind = "list", spheres = [] }
         time = { dt = 1e-5, duration = 1.0, frame_interval = 1e-3, integrator = "velocity-verlet" }
         "#,
