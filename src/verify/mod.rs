@@ -3,7 +3,7 @@
 //! A [`Case`] is a row of data: a set-up, the numbers to meet, a tolerance, a source. A family is a
 //! kind of set-up with its parameters: one file with what it simulates and measures, and a
 //! table of its rows beside it. A new case is a new row; a new family is a file, its table, and
-//! a line each in [`Setup`] and [`TABLES`].
+//! a line each in [`Setup`] and `TABLES`.
 //!
 //! ```
 //! use phase::{scene::Integrator, verify};
