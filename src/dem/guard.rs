@@ -45,7 +45,8 @@ impl Limits {
                 .unwrap_or(f64::MAX),
             vertical: guards
                 .vertical
-                .or(floor.map(|floor| 10.0 * floor.abs().max(highest)))
+                .or(floor
+                    .map(|floor| 10.0 * floor.abs().max(highest).max(tank_radius.unwrap_or(1.0))))
                 .unwrap_or(f64::MAX),
         }
     }

@@ -298,8 +298,8 @@ pub struct Guards {
     /// Largest |x| and |y| of a centre (m). Default: twice the tank's radius, if there is a tank.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub horizontal: Option<f64>,
-    /// Largest |z| of a centre (m). Default: ten times the larger of the floor's depth and the
-    /// start height, if there is a floor.
+    /// Largest |z| of a centre (m). Default, if there is a floor: ten times the largest of the
+    /// floor's depth, the start height, and the tank's radius (1 m without one).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub vertical: Option<f64>,
 }
