@@ -7,6 +7,10 @@
 //! makes that file again and fails when one byte differs.
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
+#![allow(
+    clippy::print_stdout,
+    reason = "the measured numbers go to those who ask"
+)]
 
 use phase::classify::{Label, Sieves, classify};
 use phase::run::run;
