@@ -5,6 +5,7 @@
 //!
 //! To add a figure: a file with an implementation of `Figure`, and a line in `all`.
 
+mod axes;
 mod canvas;
 mod color_bar;
 mod critical;
