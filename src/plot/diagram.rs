@@ -7,7 +7,7 @@ use super::layout::{Layout, TITLE_LINE};
 use super::legend::{Entry, Key};
 use super::style::{self, Drawn, LABEL, SMALL, Sheet, TITLE, letters, px};
 use super::svg::Svg;
-use super::{Input, PlotError, canvas, critical};
+use super::{PlotError, Source, canvas, critical};
 use crate::sweep::Point;
 use plotters::drawing::IntoDrawingArea;
 use plotters::element::PathElement;
@@ -38,8 +38,8 @@ pub(super) struct Diagram<'a> {
 
 impl Diagram<'_> {
     /// Draws it.
-    pub(super) fn draw(&self, input: &Input<'_>) -> Result<Svg, PlotError> {
-        let scene = &input.sweep.scene;
+    pub(super) fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
+        let scene = &source.sweep.scene;
         let curves: Vec<Vec<critical::Piece>> = self
             .grid
             .panels
@@ -47,7 +47,7 @@ impl Diagram<'_> {
             .map(|panel| critical::curve(scene, self.grid, panel))
             .collect();
         let entries = self.entries(curves.iter().any(|curve| !curve.is_empty()));
-        let title = input.sweep.title.as_deref();
+        let title = source.sweep.title.as_deref();
         let layout = Layout::new(title, self.grid, self.bar.clone(), entries);
         let size = (layout.size.0 as u32, layout.size.1 as u32);
         let mut body = String::new();
@@ -63,7 +63,7 @@ impl Diagram<'_> {
                 bar.draw(&sheet, *corner, *height)?;
             }
         }
-        Ok(Svg::new(self.name, input, size, &body))
+        Ok(Svg::new(self.name, source, size, &body))
     }
 
     fn looks(&self, panel: &Panel) -> Vec<Option<Look>> {
