@@ -2,7 +2,7 @@
 
 use super::axes::Axes;
 use super::canvas::Canvas;
-use super::layout::{GAP, HEAD, TICKS_BELOW, TITLE_LINE, title_height, title_lines, whole};
+use super::layout::{HEAD, TICKS_BELOW, TITLE_LINE, title_height, title_lines, whole};
 use super::legend::{Entry, Key, Legend};
 use super::scale::{Direction, Room, Scale};
 use super::style::{self, Drawn, LABEL, MARGIN, SMALL, Sheet, TICK, TITLE, WIDTH, letters, px};
@@ -11,6 +11,9 @@ use super::{PlotError, Source};
 use plotters::drawing::IntoDrawingArea;
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{FontTransform, RGBColor};
+
+/// Room between panels: the last tick label of one and the first of the next must not touch.
+const GAP: i32 = px(28);
 
 /// A line: points in the order of x, and its colour.
 #[derive(Clone, Debug)]

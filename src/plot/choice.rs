@@ -114,30 +114,27 @@ pub(super) fn corners(source: &Source<'_>) -> Result<Vec<usize>, PlotError> {
     Ok(chosen)
 }
 
-/// One run of every state that occurs, in the order of the labels: of the points on which all seeds
-/// agree (or of all, where they agree on none) that nearest to the middle of them.
+/// One run of every state that occurs, in the order of the labels: at the point nearest to the
+/// middle of those where all seeds have it, or else the majority, or else any.
 pub(super) fn states(source: &Source<'_>) -> Result<Vec<usize>, PlotError> {
     let points = source.table.points();
-    let stable = |label: &Label| *label != Label::Unstable;
+    let has = |row: usize, label: Label| source.table.rows[row].verdict.label == label;
     let typical = |label: Label| {
-        let of_state = |sure: bool| -> Vec<&Point> {
-            let points = points.iter().filter(|point| point.label == label);
-            points
-                .filter(|point| !sure || point.agreement == 1.0)
-                .collect()
-        };
-        let mut candidates = of_state(true);
-        if candidates.is_empty() {
-            candidates = of_state(false);
-        }
+        let degrees: [&dyn Fn(&Point) -> bool; 3] = [
+            &|point| point.label == label && point.agreement == 1.0,
+            &|point| point.label == label,
+            &|point| point.rows.iter().any(|&row| has(row, label)),
+        ];
+        let candidates = degrees
+            .iter()
+            .map(|degree| points.iter().filter(|point| degree(point)).collect())
+            .find(|candidates: &Vec<&Point>| !candidates.is_empty())?;
         let point = nearest_to_middle(source, &candidates)?;
-        let rows = point.rows.iter().copied();
-        rows.clone()
-            .find(|&row| source.table.rows[row].verdict.label == label)
+        point.rows.iter().copied().find(|&row| has(row, label))
     };
     Ok(Label::ALL
         .into_iter()
-        .filter(stable)
+        .filter(|label| *label != Label::Unstable)
         .filter_map(typical)
         .collect())
 }

@@ -4,7 +4,7 @@ use super::chart::{self, Chart, Line, Panel, prefixed};
 use super::choice::{self, Run};
 use super::style::px;
 use super::svg::Svg;
-use super::{Figure, PlotError, Source, palette};
+use super::{Figure, PlotError, Source, palette, scale};
 use crate::record::RunRecord;
 
 /// Energies over time.
@@ -21,7 +21,7 @@ pub(super) struct Energies {
 pub(super) static ENERGIES: Energies = Energies {
     name: "energies",
     description: "mean energies of a sphere over time: the whole run and its first second",
-    default_runs: "ends of the first axis with low, middle and high values of the second",
+    default_runs: "the corners of the grid and between them",
     choice: choice::corners,
     with_states: false,
 };
@@ -164,11 +164,11 @@ fn panels(head: String, energies: &Lines, factor: f64) -> [Panel; 2] {
     } else {
         0.2 * energies.duration
     };
-    [
-        (head, energies.duration),
-        (format!("first {begin} s"), begin),
-    ]
-    .map(|(head, end)| Panel {
+    let larger = match begin {
+        1.0 => "first second".to_owned(),
+        _ => format!("first {} s", scale::number(begin)),
+    };
+    [(head, energies.duration), (larger, begin)].map(|(head, end)| Panel {
         head,
         x: (0.0, end),
         y,

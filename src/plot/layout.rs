@@ -8,7 +8,7 @@ use super::style::{LABEL, MARGIN, SMALL, TICK, TITLE, WIDTH, px};
 use super::text;
 
 /// Room between panels.
-pub(super) const GAP: i32 = px(18);
+const GAP: i32 = px(18);
 /// Height of the head of a panel.
 pub(super) const HEAD: i32 = px(20);
 /// Room of the head of a row of panels.

@@ -19,7 +19,7 @@ impl Figure for Speeds {
     }
 
     fn default_runs(&self) -> Option<&'static str> {
-        Some("ends of the first axis with low, middle and high values of the second")
+        Some("the corners of the grid and between them")
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {

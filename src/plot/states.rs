@@ -25,7 +25,7 @@ const WIDEST: i32 = px(200);
 /// Room between pictures.
 const GAP: i32 = px(12);
 /// Room of a name above a picture, and of the lines below.
-const HEAD: i32 = px(22);
+const HEAD: i32 = px(20);
 const LINE: i32 = px(17);
 /// Greatest height that is shown, over the radius of the tank.
 const HIGHEST: f64 = 4.0;
@@ -96,7 +96,7 @@ impl End {
     }
 }
 
-/// Where pictures and words go.
+/// Where pictures and words go. Corners of pictures fall on pixels of the PNG.
 struct Strip {
     title: Vec<String>,
     /// Ends, each seen equally high.
@@ -144,7 +144,7 @@ impl Strip {
         Self {
             left: (WIDTH - count * width - (count - 1) * GAP) / 2 / SNAP * SNAP,
             top: (top + SNAP - 1) / SNAP * SNAP,
-            height: whole(top + rows * (row + GAP) + LABEL + px(16) + MARGIN),
+            height: whole(top + rows * (row + GAP) + MARGIN + px(6)),
             title,
             stages,
             columns,
@@ -157,8 +157,8 @@ impl Strip {
     fn corner(&self, index: usize) -> (i32, i32) {
         let (column, row) = ((index % self.columns) as i32, (index / self.columns) as i32);
         (
-            self.left + column * (self.picture.0 + GAP / SNAP * SNAP),
-            self.top + row * (self.row + GAP) / SNAP * SNAP,
+            self.left + column * (self.picture.0 + GAP),
+            self.top + row * (self.row + GAP),
         )
     }
 
@@ -178,11 +178,10 @@ impl Strip {
             ),
             corner: (left, top),
         };
-        let first = (top + HEAD) / SNAP * SNAP;
-        let second = (first + side + GAP) / SNAP * SNAP;
+        let first = top + HEAD;
         [
             placed(Camera::side(stage), first, side),
-            placed(Camera::top(stage), second, above),
+            placed(Camera::top(stage), first + side + GAP, above),
         ]
     }
 

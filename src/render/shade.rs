@@ -29,7 +29,7 @@ const LAMP: f64 = 0.66;
 /// Share of the lamp's light that is mirrored.
 const GLOSS: f64 = 0.18;
 /// How much of their colour the farthest things lose to the paper.
-const HAZE: f64 = 0.35;
+const HAZE: f64 = 0.28;
 const FLOOR: Rgb = [232, 234, 238];
 const GLASS: Rgb = [246, 247, 249];
 const OUTLINE: Rgb = [88, 92, 100];
