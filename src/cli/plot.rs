@@ -96,7 +96,7 @@ fn list(console: &Console) -> Result<(), Failure> {
         console.result(format_args!("{:<22} {}", figure.name, figure.description))?;
         if let Some(runs) = figure.default_runs {
             console.result(format_args!(
-                "{:<22}   of single runs: --point, or {runs}",
+                "{:<22} of the runs at --point, or else {runs}",
                 ""
             ))?;
         }

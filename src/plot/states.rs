@@ -99,7 +99,7 @@ impl End {
 /// Where pictures and words go. Corners of pictures fall on pixels of the PNG.
 struct Strip {
     title: Vec<String>,
-    /// Ends, each seen equally high.
+    /// The tanks, with what is seen of them.
     stages: Vec<Stage>,
     /// Pictures per row.
     columns: usize,
@@ -122,10 +122,20 @@ impl Strip {
             (high[2] - low[2]).clamp(reach, HIGHEST * reach)
         };
         let seen = ends.iter().map(top_of).fold(0.0, f64::max);
-        let stages: Vec<Stage> = ends
+        // All are seen equally high and wide, so that one length serves for all.
+        let mut stages: Vec<Stage> = ends
             .iter()
             .map(|end| end.stage.up_to(end.stage.seen[0][2] + seen))
             .collect();
+        for axis in 0..2 {
+            let least = |low: f64, stage: &Stage| stage.seen[0][axis].min(low);
+            let most = |high: f64, stage: &Stage| stage.seen[1][axis].max(high);
+            let low = stages.iter().fold(f64::INFINITY, least);
+            let high = stages.iter().fold(f64::NEG_INFINITY, most);
+            for stage in &mut stages {
+                (stage.seen[0][axis], stage.seen[1][axis]) = (low, high);
+            }
+        }
         let columns = ends.len().clamp(1, MOST);
         let count = columns as i32;
         let room = (WIDTH - 2 * MARGIN - GAP * (count - 1)) / count;
