@@ -14,7 +14,9 @@ pub use atomic::{remove_leftovers, write_atomic};
 pub use failures::{read_failures, write_failures};
 pub use labels::{read_labels, write_labels, write_points};
 pub use radii::read_radii;
-pub use record::{RecordHeader, content_digest, read_record, read_record_header, write_record};
+pub use record::{
+    RecordHeader, content_digest, motion_digest, read_record, read_record_header, write_record,
+};
 pub use start::read_start;
 
 use std::io;
