@@ -4,6 +4,7 @@ mod check;
 mod classify;
 mod console;
 mod exit;
+mod export;
 mod format;
 mod interrupt;
 mod plot;
@@ -60,6 +61,7 @@ enum Command {
     Classify(classify::Arguments),
     Plot(plot::Arguments),
     Run(run::Arguments),
+    Export(export::Arguments),
     Check(check::Arguments),
     Status(status::Arguments),
 }
@@ -73,6 +75,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Classify(arguments) => classify::main(&arguments, &console),
         Command::Plot(arguments) => plot::main(&arguments, &console),
         Command::Run(arguments) => run::main(&arguments, &console),
+        Command::Export(arguments) => export::main(&arguments, &console),
         Command::Check(arguments) => check::main(&arguments, &console),
         Command::Status(arguments) => status::main(&arguments, &console),
     };
