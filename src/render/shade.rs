@@ -111,8 +111,10 @@ impl Shader<'_> {
                 (sphere.color, normal, GLOSS)
             }
         };
-        let lit = 1.0 - self.shadow(point, hit);
-        let ambient = AMBIENT * (1.0 - self.occlusion(column, row, depth));
+        // Shadows on the floor must not be taken for spheres.
+        let darkness = if hit == Hit::Floor { 0.45 } else { 1.0 };
+        let lit = 1.0 - darkness * self.shadow(point, hit);
+        let ambient = AMBIENT * (1.0 - self.occlusion(column, row, (depth, hit)));
         let matt = ambient + LAMP * lit * normal.dot(self.light).max(0.0);
         let mirrored = gloss * lit * thirty_second_power(normal.dot(self.half).max(0.0));
         let haze = match hit {
@@ -151,7 +153,7 @@ impl Shader<'_> {
     }
 
     /// Share of the light from everywhere that nearer neighbours in the view hide.
-    fn occlusion(&self, column: usize, row: usize, depth: f64) -> f64 {
+    fn occlusion(&self, column: usize, row: usize, (depth, hit): (f64, Hit)) -> f64 {
         /// Places around, over the reach: twelve directions, near and far in turn.
         const AROUND: [[f64; 2]; 12] = [
             [1.0, 0.0],
@@ -173,7 +175,10 @@ impl Shader<'_> {
             .filter_map(|[across, down]| {
                 let column = column as f64 + 0.5 + across * reach;
                 let row = row as f64 + 0.5 + down * reach;
-                let (near, _) = self.view.near(column, row)?;
+                let (near, neighbour) = self.view.near(column, row)?;
+                if hit == Hit::Floor && neighbour == hit {
+                    return None;
+                }
                 let rise = (near - depth) / self.reach;
                 // What is far in front of a place does not darken it.
                 Some(rise.clamp(0.0, 1.0) * (2.0 - 0.25 * rise).clamp(0.0, 1.0))
@@ -188,22 +193,20 @@ impl Shader<'_> {
         let Some(radius) = self.stage.radius else {
             return PAPER;
         };
-        // Where the ray is next to the axis, it must be inside the cylinder and between its ends.
         let near = self.view.rays.axes[2];
+        let outside = origin.x * origin.x + origin.y * origin.y - radius * radius;
         let horizontal = near.x * near.x + near.y * near.y;
-        let to_axis = if horizontal > 0.0 {
-            -(origin.x * near.x + origin.y * near.y) / horizontal
-        } else {
-            0.0
-        };
-        let point = origin + near * to_axis;
-        let inside = point.x * point.x + point.y * point.y <= radius * radius;
+        let past_axis = origin.x * near.x + origin.y * near.y;
+        let half_chord_squared = past_axis * past_axis - horizontal * outside;
         let [low, high] = self.stage.seen;
-        if inside && (horizontal == 0.0 || (low[2]..=high[2]).contains(&point.z)) {
-            GLASS
+        let inside = if horizontal == 0.0 {
+            outside <= 0.0
         } else {
-            PAPER
-        }
+            // The far side of the cylinder is behind everything.
+            let wall = origin - near * ((past_axis + half_chord_squared.sqrt()) / horizontal);
+            half_chord_squared >= 0.0 && (low[2]..=high[2]).contains(&wall.z)
+        };
+        if inside { GLASS } else { PAPER }
     }
 }
 
