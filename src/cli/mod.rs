@@ -12,6 +12,7 @@ mod progress;
 mod run;
 mod status;
 mod sweep;
+mod view;
 
 use clap::{Args, Parser, Subcommand};
 use console::Console;
@@ -62,6 +63,7 @@ enum Command {
     Plot(plot::Arguments),
     Run(run::Arguments),
     Export(export::Arguments),
+    View(view::Arguments),
     Check(check::Arguments),
     Status(status::Arguments),
 }
@@ -76,6 +78,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Plot(arguments) => plot::main(&arguments, &console),
         Command::Run(arguments) => run::main(&arguments, &console),
         Command::Export(arguments) => export::main(&arguments, &console),
+        Command::View(arguments) => view::main(&arguments, &console),
         Command::Check(arguments) => check::main(&arguments, &console),
         Command::Status(arguments) => status::main(&arguments, &console),
     };

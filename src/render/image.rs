@@ -52,17 +52,26 @@ impl Image {
         encoder.set_color(png::ColorType::Rgba);
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_compression(png::Compression::High);
-        for (keyword, text) in texts {
-            // A tEXt chunk holds Latin-1 only.
-            if text.is_ascii() {
-                encoder.add_text_chunk((*keyword).to_owned(), text.clone())?;
-            } else {
-                encoder.add_itxt_chunk((*keyword).to_owned(), text.clone())?;
-            }
-        }
+        add_texts(&mut encoder, texts)?;
         let mut writer = encoder.write_header()?;
         writer.write_image_data(&self.rgba)?;
         writer.finish()?;
         Ok(file)
     }
+}
+
+/// Adds texts (keyword, text) to the metadata of a PNG file.
+pub(super) fn add_texts<W: std::io::Write>(
+    encoder: &mut png::Encoder<'_, W>,
+    texts: &[(&str, String)],
+) -> Result<(), png::EncodingError> {
+    for (keyword, text) in texts {
+        // A tEXt chunk holds Latin-1 only.
+        if text.is_ascii() {
+            encoder.add_text_chunk((*keyword).to_owned(), text.clone())?;
+        } else {
+            encoder.add_itxt_chunk((*keyword).to_owned(), text.clone())?;
+        }
+    }
+    Ok(())
 }

@@ -5,16 +5,22 @@
 //! viewer, spheres throw shadows on each other and on the floor. The same input gives the same
 //! pixels on every machine.
 
+mod animation;
 mod camera;
+mod caption;
 mod coloring;
 mod depth;
 mod image;
+mod palette;
+mod panel;
 mod shade;
 mod stage;
 
+pub use animation::Animation;
 pub use camera::Camera;
 pub use coloring::{ColorBy, Rgb};
 pub use image::Image;
+pub use panel::{panel, strip};
 pub use stage::Stage;
 
 use crate::observe::Snapshot;

@@ -98,12 +98,11 @@ pub fn write_dump(record: &RunRecord, states: &[&Snapshot], path: &Path) -> Resu
     write_array(&values(record, states), path)
 }
 
-/// The array of a dump. The energy of a sphere is translational, rotational and m g z, without
-/// what contacts store.
+/// The array of a dump. The energy of a sphere is translational, rotational and gravitational (m g
+/// z), without what contacts store.
 fn values(record: &RunRecord, states: &[&Snapshot]) -> Array3<f64> {
     let count = record.radius.len();
     let gravity = record.scene.gravity.as_ref();
-    let gravity = gravity.map_or(0.0, |gravity| gravity.acceleration);
     let whole = run::frames(&record.scene).1 as usize + 1;
     let (rows, broken) = match &record.outcome {
         Outcome::Completed => (states.len(), f64::INFINITY),
@@ -122,9 +121,10 @@ fn values(record: &RunRecord, states: &[&Snapshot]) -> Array3<f64> {
             if state.spin.nrows() > 0 {
                 energy += 0.2 * mass * radius * radius * square(state.spin.row(sphere));
             }
-            energy += mass * gravity * state.position[[sphere, 2]];
+            let position = state.position.row(sphere);
+            energy += gravity.map_or(0.0, |it| it.energy(mass, position[0], position[2]));
             for axis in 0..3 {
-                entry[axis] = state.position[[sphere, axis]];
+                entry[axis] = position[axis];
             }
             entry[3] = energy;
         }

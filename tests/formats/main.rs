@@ -8,3 +8,4 @@ mod support;
 mod dumps;
 mod export;
 mod run_again;
+mod view;
