@@ -19,7 +19,7 @@ Example: the run at five times, then at two of one's own
   phase view spout.h5
   phase view spout.h5 --time 1.5,5 --out late.png
 
-Example: an animation; APNG (.png) keeps smaller files, GIF is shown by every program
+Example: an animation in real time; APNG (.png) keeps smaller files, GIF is shown by every program
   phase run --from results/quick --point radius=0.003,omega=6 --snapshot-interval 0.05 --out spout.h5
   phase view spout.h5 --animate spout.gif")]
 pub(crate) struct Arguments {
@@ -70,7 +70,9 @@ const PANELS: usize = 5;
 const PICTURES: usize = 100;
 /// Largest size of an animation (bytes).
 const LARGEST: usize = 5_000_000;
-/// Largest height of an animation of default width (pixels).
+/// Share of an animation after which it must show all spheres: before, they may still be falling in.
+const ARRIVAL: f64 = 0.25;
+/// Largest height of an animation (pixels).
 const ANIMATION_HEIGHT: usize = 720;
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
@@ -233,7 +235,15 @@ fn animate(
              --snapshot-interval 0.05`",
         );
     }
-    let view = View::new(record, shown, arguments);
+    let mut view = View::new(record, shown, arguments);
+    let arrived = &shown[(ARRIVAL * shown.len() as f64) as usize..];
+    let later = View::new(record, arrived, arguments).stage.seen[1][2];
+    if later < view.stage.seen[1][2] {
+        console.note(format_args!(
+            "shows up to z = {later:.3} m, where all spheres are after the first quarter"
+        ));
+        view.stage = view.stage.up_to(later);
+    }
     // In real time, but neither faster than the eye nor a slide show.
     let duration = shown[shown.len() - 1].time - shown[0].time;
     let delay = (100.0 * duration / shown.len() as f64)
