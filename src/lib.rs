@@ -8,6 +8,7 @@ pub mod notation;
 pub mod observe;
 pub mod plot;
 pub mod record;
+pub mod reference;
 pub mod run;
 pub mod scene;
 pub mod store;

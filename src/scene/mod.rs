@@ -19,11 +19,12 @@ pub(crate) use load::of_tree;
 pub use load::{from_str, load};
 pub use radius::{Radii, RadiusShare};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// One simulation, fully specified.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Free text, shown in figures and reports.
@@ -76,7 +77,7 @@ fn default_seed() -> u64 {
 }
 
 /// The spheres: how many, how large, how heavy.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Spheres {
     /// Number of spheres, n.
@@ -88,7 +89,7 @@ pub struct Spheres {
 }
 
 /// Normal contact law.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Contact {
     /// Viscoelastic Hertz contact (Brilliantov et al., 1996), never attractive.
@@ -119,7 +120,7 @@ fn one() -> f64 {
 }
 
 /// Tangential contact law.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Friction {
     /// The thesis's rule (Rice, 2012, eqs. 10 to 14): from spins alone, an impulse per step.
@@ -143,7 +144,7 @@ pub enum Friction {
 }
 
 /// The tank's walls, of the same material as the spheres.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tank {
     /// Radius R of the cylindrical wall (m). Absent: no cylinder.
@@ -155,7 +156,7 @@ pub struct Tank {
 }
 
 /// Where and how the spheres start.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Start {
     /// Random positions without overlap, inside the tank's cylinder.
@@ -186,7 +187,7 @@ pub enum Start {
 }
 
 /// One sphere of a start list.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StartSphere {
     /// Centre (m).
@@ -203,7 +204,7 @@ pub struct StartSphere {
 }
 
 /// Gravity.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Gravity {
     /// Acceleration g (m/s2).
@@ -228,7 +229,7 @@ impl Gravity {
 }
 
 /// Air in rigid rotation about the axis (Rice, 2012, eqs. 21 to 27).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Swirl {
     /// Angular velocity Omega of the air (rad/s), counter-clockwise seen from above.
@@ -236,7 +237,7 @@ pub struct Swirl {
 }
 
 /// Rising air with the rectangular counting shield (Rice, 2012, eq. 24).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Updraught {
     /// Speed v_z of the rising air (m/s).
@@ -253,7 +254,7 @@ pub struct Updraught {
 }
 
 /// Viscous damping of spins.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpinDamping {
     /// Torque per spin, c (kg m2/s).
@@ -261,7 +262,7 @@ pub struct SpinDamping {
 }
 
 /// Time step, duration, frames, integrator.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
     /// Time step dt (s).
@@ -276,7 +277,7 @@ pub struct Time {
 }
 
 /// Integration scheme.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Integrator {
     /// Symplectic (semi-implicit) Euler, as the thesis: first order.
@@ -288,7 +289,7 @@ pub enum Integrator {
 }
 
 /// Limits beyond which a run is ended and reported as unstable.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Guards {
     /// Largest overlap, in radii of the smaller partner.
@@ -316,7 +317,7 @@ impl Default for Guards {
 }
 
 /// What is stored besides the observables of every frame. Never changes the motion.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
     /// Time between snapshots of all spheres (s); 0 for none but the last.
