@@ -6,7 +6,8 @@ use phase::plot;
 use phase::record::Program;
 use phase::store;
 use phase::sweep::{Folder, LabelTable, Sweep};
-use std::path::PathBuf;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
 
 /// Draw the figures of a results folder, as SVG and PNG, from its labels.csv.
 #[derive(clap::Args)]
@@ -24,6 +25,9 @@ pub(crate) struct Arguments {
     /// Print the names of all figures and what they show.
     #[arg(short, long)]
     list: bool,
+    /// Print the result as one JSON object (docs/json.md) instead of text.
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 /// What is drawn if nothing else is asked for.
@@ -35,11 +39,42 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             console.result(format_args!("{name:<22} {description}"))?;
         }
     }
-    let Some(dir) = &arguments.dir else {
-        return Ok(Exit::Done);
-    };
+    if let Some(dir) = &arguments.dir {
+        draw_all(dir, &arguments.figure, console)?;
+    }
+    console.answer(&Answer {
+        figures: if arguments.list { list() } else { Vec::new() },
+        files: console.files(),
+    })?;
+    Ok(Exit::Done)
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Answer {
+    /// All figures, if they were asked for.
+    figures: Vec<Entry>,
+    /// The files written.
+    files: Vec<PathBuf>,
+}
+
+/// A figure that can be drawn.
+#[derive(Serialize)]
+struct Entry {
+    name: &'static str,
+    description: String,
+}
+
+fn list() -> Vec<Entry> {
+    let figures = plot::figures().into_iter();
+    figures
+        .map(|(name, description)| Entry { name, description })
+        .collect()
+}
+
+fn draw_all(dir: &Path, figures: &[String], console: &Console) -> Result<(), Failure> {
     let is_known = |name: &String| plot::figures().iter().any(|(known, _)| known == name);
-    if let Some(name) = arguments.figure.iter().find(|name| !is_known(name)) {
+    if let Some(name) = figures.iter().find(|name| !is_known(name)) {
         return Err(Failure::refused(format_args!(
             "there is no figure `{name}`; `phase plot --list` names them all"
         )));
@@ -55,14 +90,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             )));
         }
         let table = store::read_labels(&path).map_err(Failure::failed)?;
-        if arguments.figure.is_empty() {
+        if figures.is_empty() {
             draw_default_figures(&folder, &sweep, &table, console)?;
         }
-        for name in &arguments.figure {
+        for name in figures {
             draw(name, &folder, &sweep, &table, console)?;
         }
     }
-    Ok(Exit::Done)
+    Ok(())
 }
 
 /// Draws what is drawn if nothing else is asked for.
@@ -97,7 +132,7 @@ fn draw(
     for (extension, bytes) in images {
         let path = folder.figure(name, extension);
         store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
-        console.result(path.display())?;
+        console.file(&path)?;
     }
     Ok(())
 }

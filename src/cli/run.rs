@@ -3,11 +3,13 @@
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::progress::{Progress, Work};
-use super::{format, interrupt};
+use super::{folders, format, interrupt};
 use phase::record::{Outcome, RunRecord};
 use phase::run::RunError;
 use phase::store;
 use phase::sweep::work;
+use serde::Serialize;
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -16,7 +18,7 @@ use std::sync::atomic::Ordering;
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: one scene with another seed
-  phase run sweeps/scenes/tank.toml --seed 7 --out tank-7.h5")]
+  phase run sweeps/scenes/theoretical.toml --seed 7 --out tank-7.h5")]
 pub(crate) struct Arguments {
     /// The scene file (TOML).
     scene: PathBuf,
@@ -27,6 +29,9 @@ pub(crate) struct Arguments {
     /// Seed in place of the scene's.
     #[arg(short, long)]
     seed: Option<u64>,
+    /// Print the result as one JSON object (docs/json.md) instead of text.
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
@@ -37,7 +42,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         .out
         .clone()
         .unwrap_or_else(|| default_record(&arguments.scene));
-    make_folder_of(&path)?;
+    folders::make_for(&path)?;
 
     let steps = work::sphere_steps(&scene);
     let progress = Progress::new(
@@ -69,7 +74,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     };
     store::write_record(&record, &path).map_err(Failure::failed)?;
     console.result(summary(&record, seconds))?;
-    console.result(path.display())?;
+    console.file(&path)?;
+    console.answer(&Answer::new(&record, seconds, &path))?;
     Ok(Exit::Done)
 }
 
@@ -80,10 +86,63 @@ fn default_record(file: &Path) -> PathBuf {
         .with_added_extension("h5")
 }
 
-fn make_folder_of(path: &Path) -> Result<(), Failure> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::failed(format_args!("{}: {error}", folder.display())))
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Answer<'a> {
+    record: &'a Path,
+    seed: u64,
+    outcome: &'static str,
+    /// What ended an unstable run.
+    instability: Option<Broken>,
+    seconds: f64,
+    cpu_seconds: f64,
+    sphere_steps: u64,
+    frames: usize,
+    /// Time (s) and every scalar observable of the last frame, in the units of the record.
+    last_frame: BTreeMap<&'static str, f64>,
+}
+
+/// The guard that ended a run.
+#[derive(Serialize)]
+struct Broken {
+    guard: &'static str,
+    step: u64,
+    time: f64,
+    sphere: usize,
+    detail: String,
+}
+
+impl<'a> Answer<'a> {
+    fn new(record: &RunRecord, seconds: f64, path: &'a Path) -> Self {
+        let observations = &record.observations;
+        let mut last_frame = BTreeMap::new();
+        last_frame.extend(observations.time.last().map(|time| ("time", *time)));
+        for series in observations.scalars() {
+            let last = series.values.last();
+            last_frame.extend(last.map(|value| (series.name, f64::from(*value))));
+        }
+        let (outcome, instability) = match &record.outcome {
+            Outcome::Completed => ("completed", None),
+            Outcome::Unstable(instability) => ("unstable", Some(instability)),
+        };
+        Self {
+            record: path,
+            seed: record.scene.seed,
+            outcome,
+            instability: instability.map(|instability| Broken {
+                guard: instability.guard.name(),
+                step: instability.step,
+                time: instability.time,
+                sphere: instability.sphere,
+                detail: instability.detail.clone(),
+            }),
+            seconds,
+            cpu_seconds: record.cpu_seconds,
+            sphere_steps: work::sphere_steps_run(&record.scene, &record.outcome),
+            frames: observations.frames(),
+            last_frame,
+        }
+    }
 }
 
 /// How the run ended, and the state of its last frame.
