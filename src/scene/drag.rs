@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Drag {
-    /// Linear coefficient; its unit depends on `law`.
+    /// Linear coefficient, with the unit that `law` says.
     #[serde(default)]
     pub linear: f64,
-    /// Quadratic coefficient; its unit depends on `law`.
+    /// Quadratic coefficient, with the unit that `law` says.
     #[serde(default)]
     pub quadratic: f64,
     /// How the coefficients scale with the sphere.

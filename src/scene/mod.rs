@@ -72,6 +72,49 @@ pub struct Scene {
     pub output: Output,
 }
 
+impl Scene {
+    /// Spheres that start somewhere and move for a time, and nothing that acts on them: no
+    /// contacts, no walls, no forces. Seed 1, and the default guards and output.
+    ///
+    /// ```
+    /// use phase::scene::{Gravity, Integrator, Radii, Scene, Spheres, Start, StartSphere, Time};
+    ///
+    /// let falling = Scene {
+    ///     gravity: Some(Gravity { acceleration: 9.8, tilt: 0.0 }),
+    ///     ..Scene::new(
+    ///         Spheres { count: 1, radius: Radii::One(0.004), density: 2500.0 },
+    ///         Start::List { spheres: vec![StartSphere::at([0.0, 0.0, 1.0])] },
+    ///         Time {
+    ///             dt: 1e-4,
+    ///             duration: 0.1,
+    ///             frame_interval: 1e-2,
+    ///             integrator: Integrator::VelocityVerlet,
+    ///         },
+    ///     )
+    /// };
+    /// assert!(falling.problems().is_empty());
+    /// ```
+    pub fn new(spheres: Spheres, start: Start, time: Time) -> Self {
+        Self {
+            title: None,
+            seed: default_seed(),
+            spheres,
+            contact: None,
+            friction: None,
+            tank: None,
+            start,
+            gravity: None,
+            drag: None,
+            swirl: None,
+            updraught: None,
+            spin_damping: None,
+            time,
+            guards: Guards::default(),
+            output: Output::default(),
+        }
+    }
+}
+
 fn default_seed() -> u64 {
     1
 }
@@ -201,6 +244,18 @@ pub struct StartSphere {
     /// Radius (m), if it differs from `spheres.radius`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
+}
+
+impl StartSphere {
+    /// A sphere at rest at a place (m), with the radius that the scene gives it.
+    pub fn at(position: [f64; 3]) -> Self {
+        Self {
+            position,
+            velocity: [0.0; 3],
+            spin: [0.0; 3],
+            radius: None,
+        }
+    }
 }
 
 /// Gravity.
