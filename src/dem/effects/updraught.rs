@@ -47,9 +47,7 @@ pub(super) fn of_scene(
     match form(drag) {
         Form::Linear => boxed::<Linear>(parameters, coefficients),
         // Along one axis the two quadratic forms are the same.
-        Form::Vector | Form::Components => {
-            boxed::<QuadraticComponents>(parameters, coefficients)
-        }
+        Form::Vector | Form::Components => boxed::<QuadraticComponents>(parameters, coefficients),
     }
 }
 
