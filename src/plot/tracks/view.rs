@@ -232,3 +232,96 @@ fn inside(points: &[(f64, f64)], [across, up]: &[(f64, f64); 2]) -> Vec<Vec<(f64
     let pieces = pieces.filter(|piece| piece.len() > 1);
     pieces.map(<[_]>::to_vec).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::observe::Snapshot;
+    use crate::record::{Outcome, Program};
+    use crate::scene::Tank;
+    use ndarray::Array2;
+    use serde_json::json;
+
+    /// One sphere of 1 mm that goes through these places (m), a millisecond each.
+    fn record(places: &[[f64; 3]], tank: Option<Tank>) -> RunRecord {
+        let scene = serde_json::from_value(json!({
+            "spheres": { "count": 1, "radius": 0.001, "density": 1e3 },
+            "start": { "kind": "list", "spheres": [{ "position": places[0] }] },
+            "time": { "dt": 1e-3, "duration": 1.0, "frame_interval": 1e-3 },
+        }));
+        let mut scene: crate::scene::Scene = scene.unwrap();
+        scene.tank = tank;
+        let snapshot = |(frame, place): (usize, &[f64; 3])| Snapshot {
+            time: 1e-3 * frame as f64,
+            position: Array2::from_shape_fn((1, 3), |(_, axis)| place[axis]),
+            velocity: Array2::zeros((1, 3)),
+            spin: Array2::zeros((0, 3)),
+        };
+        RunRecord {
+            scene,
+            program: Program::current(),
+            outcome: Outcome::Completed,
+            radius: vec![1e-3],
+            mass: vec![1.0],
+            observations: Default::default(),
+            snapshots: Vec::new(),
+            trajectory: places.iter().enumerate().map(snapshot).collect(),
+            cpu_seconds: 0.0,
+        }
+    }
+
+    #[test]
+    fn the_plane_is_that_of_the_largest_motions() {
+        let cases = [
+            ([0.0, 0.1, 0.3], View::Plane { across: 1, up: 2 }),
+            ([0.1, -0.3, 0.05], View::Plane { across: 0, up: 1 }),
+            ([0.2, 0.0, 0.2], View::Plane { across: 0, up: 2 }),
+            ([0.0, 0.001, -0.3], View::Time { up: 2 }),
+            ([0.0; 3], View::Time { up: 0 }),
+        ];
+        for (end, expected) in cases {
+            assert_eq!(View::new(&record(&[[0.0; 3], end], None)), expected);
+        }
+    }
+
+    #[test]
+    fn spins_turn_as_they_are_seen() {
+        let spin = [1.0, 2.0, 3.0];
+        assert_eq!(View::Plane { across: 0, up: 1 }.turning(spin), 3.0);
+        assert_eq!(View::Plane { across: 0, up: 2 }.turning(spin), -2.0);
+        assert_eq!(View::Plane { across: 1, up: 2 }.turning(spin), 1.0);
+    }
+
+    #[test]
+    fn walls_are_in_sight_where_spheres_come_near() {
+        let tank = |radius, floor| Some(Tank { radius, floor });
+        let places = [[0.0, 0.0, 0.01], [0.03, 0.0, 0.03]];
+        let sight = |tank| {
+            let record = record(&places, tank);
+            Sight::new(&record, View::new(&record))
+        };
+        assert!(sight(None).outline.is_empty());
+        assert!(sight(tank(Some(0.06), Some(-0.2))).outline.is_empty());
+        let floor = sight(tank(None, Some(0.009)));
+        assert_eq!(floor.outline.len(), 1);
+        assert!(floor.outline[0].iter().all(|point| point.1 == 9.0));
+        let wall = sight(tank(Some(0.032), None));
+        assert!(wall.outline[0].iter().all(|point| point.0 == 32.0));
+        assert!(wall.ranges[0].1 > 32.0);
+
+        let from_above = record(&[[0.0; 3], [0.03, 0.03, 0.0]], tank(Some(0.05), Some(0.0)));
+        let circle = Sight::new(&from_above, View::new(&from_above));
+        assert_eq!(circle.outline.len(), 1);
+        let on_circle = |&(x, y): &(f64, f64)| (libm::hypot(x, y) - 50.0).abs() < 1e-9;
+        assert!(circle.outline[0].len() > 100 && circle.outline[0].iter().all(on_circle));
+    }
+
+    #[test]
+    fn everything_is_in_sight() {
+        let record = record(&[[0.0; 3], [0.01, 0.3, 0.0], [0.05, -0.1, 0.0]], None);
+        let [(left, right), (bottom, top)] = Sight::new(&record, View::new(&record)).ranges;
+        assert!(left < -1.0 && right > 51.0 && bottom < -101.0 && top > 301.0);
+        // Not narrower than three tenths of its height.
+        assert!((right - left) > 0.3 * (top - bottom) * 0.9);
+    }
+}
