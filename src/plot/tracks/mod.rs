@@ -217,7 +217,7 @@ impl Tracks<'_> {
         let spins = (0..self.record.radius.len())
             .flat_map(|sphere| [0, last].map(|frame| self.turning(frame, sphere)));
         if spins.into_iter().any(|spin| spin != 0.0) {
-            caption += "; arrows: spin at start and end";
+            caption += "; arrows: spin";
         }
         caption
     }
