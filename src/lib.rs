@@ -1,6 +1,7 @@
 //! `phase` turns a TOML file into a phase diagram.
 
 pub mod classify;
+mod color;
 mod cpu_time;
 pub mod dem;
 pub mod document;
@@ -8,6 +9,8 @@ pub mod notation;
 pub mod observe;
 pub mod plot;
 pub mod record;
+pub mod render;
+pub mod replay;
 pub mod run;
 pub mod scene;
 pub mod store;

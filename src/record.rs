@@ -26,6 +26,45 @@ pub struct RunRecord {
     pub cpu_seconds: f64,
 }
 
+/// States of all spheres that a record holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum States<'a> {
+    /// At every frame.
+    Trajectory(&'a [Snapshot]),
+    /// Now and then.
+    Snapshots(&'a [Snapshot]),
+}
+
+impl RunRecord {
+    /// The finest states of all spheres that the record holds: its trajectory, or else its
+    /// snapshots.
+    pub fn states(&self) -> States<'_> {
+        if self.trajectory.is_empty() {
+            States::Snapshots(&self.snapshots)
+        } else {
+            States::Trajectory(&self.trajectory)
+        }
+    }
+}
+
+impl<'a> States<'a> {
+    /// The states, in order of time.
+    pub fn all(self) -> &'a [Snapshot] {
+        match self {
+            Self::Trajectory(states) | Self::Snapshots(states) => states,
+        }
+    }
+}
+
+impl std::fmt::Display for States<'_> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Trajectory(_) => formatter.write_str("the trajectory, every frame"),
+            Self::Snapshots(_) => formatter.write_str("the snapshots, as there is no trajectory"),
+        }
+    }
+}
+
 /// The program that made a record.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {

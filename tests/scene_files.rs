@@ -221,6 +221,13 @@ fn points_are_chosen_by_name_and_value() {
     let jobs = sweep.select(&point).unwrap().jobs().unwrap();
     assert_eq!(jobs.len(), 2);
     assert_eq!(jobs[0].values, [0.003, 10.0, 1000.0, 0.1]);
+    let one_seed = sweep::parse_point(
+        "seed=SEED"
+            .replace("SEED", &jobs[1].seed.to_string())
+            .as_str(),
+    );
+    let seeds = sweep.select(&one_seed.unwrap()).unwrap().seeds;
+    assert_eq!(seeds, [jobs[1].seed]);
     let refusals = [
         (
             "radius",

@@ -1,4 +1,7 @@
-//! `phase classify`: labels the runs of a results folder again, from their records.
+//! `phase classify`: labels the runs of a results folder again, from their records, or those of a
+//! folder of dumps.
+
+mod dumps;
 
 use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
@@ -18,12 +21,22 @@ use std::path::PathBuf;
 #[command(after_help = "\
 Example: other thresholds. Edit [sieves] in a copy of the sweep file, then
   phase classify results/quick --sweep edited.toml
-  phase plot results/quick")]
+  phase plot results/quick
+
+Example: dumps as the thesis's program wrote them (dump_r00.003_p03750.0_f006.0.npy: frames x spheres
+x 4 of x, y, z and energy). Radius, density and Omega come from the names, the rest from the scene
+  phase classify dumps --scene sweeps/scenes/theoretical.toml
+A dump has no velocities, spins or contact energies: the sieves get along without them, but the
+order parameters rotation and mobility are then those of displacements from frame to frame.")]
 pub(crate) struct Arguments {
-    /// A results folder of `phase sweep`, or a folder that holds several.
+    /// A results folder of `phase sweep`, or a folder that holds several; or, with --scene, a folder
+    /// of dumps.
     dir: PathBuf,
+    /// The folder holds dumps (.npy) of runs of this scene.
+    #[arg(long, value_name = "FILE")]
+    scene: Option<PathBuf>,
     /// Take the thresholds, the title and the plot settings from this sweep file from now on. The
-    /// scene, the axes and the seeds must be those that were run.
+    /// scene, the axes and the seeds must be those that were run. With --scene, the thresholds only.
     #[arg(long, value_name = "FILE")]
     sweep: Option<PathBuf>,
     /// Records to read at the same time [default: all cores].
@@ -37,8 +50,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         Some(file) => Some(phase::sweep::load(file).map_err(Failure::refused)?),
         None => None,
     };
+    if let Some(scene) = &arguments.scene {
+        let sieves = edited.map(|sweep| sweep.sieves).unwrap_or_default();
+        return dumps::label(&arguments.dir, scene, &sieves, workers, console);
+    }
     let mut exit = Exit::Done;
-    for folder in Folder::find(&arguments.dir).map_err(Failure::refused)? {
+    let folders =
+        Folder::find(&arguments.dir).map_err(|error| dumps::hint(&arguments.dir, &error))?;
+    for folder in folders {
         let mut sweep = folder.read_sweep().map_err(Failure::failed)?;
         // The sweep is kept with its new thresholds, so that the labels are always those it says.
         let mut lock = None;
@@ -109,23 +128,35 @@ pub(super) fn label_folder(
     workers: usize,
     console: &Console,
 ) -> Result<Labelled, Failure> {
-    let before = read_labels_before(folder, console);
-    let Labelling {
-        table,
-        missing,
-        problems,
-    } = Labelling::new(folder, sweep, jobs, workers).map_err(Failure::failed)?;
-    name_first(&problems, |problem| {
-        console.error(format_args!("no label: {problem}"))
-    });
-    if missing > 0 {
+    let labelling = Labelling::new(folder, sweep, jobs, workers).map_err(Failure::failed)?;
+    let problems = labelling.problems.len();
+    if labelling.missing > 0 {
         console.note(format_args!(
             "{}: {} of {} not yet run, and without a label",
             folder.root().display(),
-            missing,
+            labelling.missing,
             format::count(jobs.len(), "job")
         ));
     }
+    Ok(Labelled {
+        table: write_tables(labelling, folder, console)?,
+        problems,
+    })
+}
+
+/// Writes labels.csv and points.csv of a folder and prints what they say.
+fn write_tables(
+    labelling: Labelling,
+    folder: &Folder,
+    console: &Console,
+) -> Result<LabelTable, Failure> {
+    let before = read_labels_before(folder, console);
+    let Labelling {
+        table, problems, ..
+    } = labelling;
+    name_first(&problems, |problem| {
+        console.error(format_args!("no label: {problem}"))
+    });
     store::write_labels(&table, &folder.labels()).map_err(Failure::failed)?;
     store::write_points(&table, &folder.points()).map_err(Failure::failed)?;
     console.result(counts(&table))?;
@@ -134,10 +165,7 @@ pub(super) fn label_folder(
     }
     console.result(folder.labels().display())?;
     console.result(folder.points().display())?;
-    Ok(Labelled {
-        table,
-        problems: problems.len(),
-    })
+    Ok(table)
 }
 
 fn read_labels_before(folder: &Folder, console: &Console) -> Option<LabelTable> {

@@ -4,6 +4,7 @@ mod check;
 mod classify;
 mod console;
 mod exit;
+mod export;
 mod format;
 mod interrupt;
 mod plot;
@@ -11,6 +12,7 @@ mod progress;
 mod run;
 mod status;
 mod sweep;
+mod view;
 
 use clap::{Args, Parser, Subcommand};
 use console::Console;
@@ -60,6 +62,8 @@ enum Command {
     Classify(classify::Arguments),
     Plot(plot::Arguments),
     Run(run::Arguments),
+    Export(export::Arguments),
+    View(view::Arguments),
     Check(check::Arguments),
     Status(status::Arguments),
 }
@@ -73,6 +77,8 @@ pub(crate) fn main() -> ExitCode {
         Command::Classify(arguments) => classify::main(&arguments, &console),
         Command::Plot(arguments) => plot::main(&arguments, &console),
         Command::Run(arguments) => run::main(&arguments, &console),
+        Command::Export(arguments) => export::main(&arguments, &console),
+        Command::View(arguments) => view::main(&arguments, &console),
         Command::Check(arguments) => check::main(&arguments, &console),
         Command::Status(arguments) => status::main(&arguments, &console),
     };

@@ -1,45 +1,120 @@
-//! `phase run`: runs one scene.
+//! `phase run`: runs one scene, or one job of a sweep again.
+
+mod again;
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::progress::{Progress, Work};
 use super::{format, interrupt};
+use again::Original;
+use phase::document::Problem;
 use phase::record::{Outcome, RunRecord};
 use phase::run::RunError;
+use phase::scene::Scene;
 use phase::store;
 use phase::sweep::work;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
-/// Run one scene and store its record.
+/// Run one scene, or one job of a sweep again, and store its record.
+///
+/// More output never changes the motion: a job that is run again gives the same bits as in the
+/// sweep, and the command says whether it did.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: one scene with another seed
-  phase run sweeps/scenes/tank.toml --seed 7 --out tank-7.h5")]
+  phase run sweeps/scenes/theoretical.toml --seed 7 --out tank-7.h5
+
+Example: one job of a sweep, this time with all spheres at every frame
+  phase run --from results/quick --point radius=0.003,omega=6 --trajectory --out spout.h5")]
 pub(crate) struct Arguments {
     /// The scene file (TOML).
-    scene: PathBuf,
-    /// The record to write, an HDF5 file; one of that name is replaced [default:
-    /// results/NAME.h5, the scene file's name without .toml].
+    #[arg(required_unless_present = "from")]
+    scene: Option<PathBuf>,
+    /// Run a job of the sweep in this results folder again, in place of a scene file.
+    #[arg(long, value_name = "DIR", conflicts_with = "scene")]
+    from: Option<PathBuf>,
+    /// Which job: a value for every axis of the sweep and, if it has several seeds, `seed=N` (else
+    /// the first one is taken).
+    #[arg(long, value_name = "NAME=VALUE,...", requires = "from")]
+    point: Option<String>,
+    /// The record to write, an HDF5 file; one of that name is replaced [default: results/NAME.h5,
+    /// the scene file's name without .toml; of a job DIR/runs/POINT.h5].
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Seed in place of the scene's.
-    #[arg(short, long)]
+    #[arg(short, long, conflicts_with = "from")]
     seed: Option<u64>,
+    /// Store position, velocity and spin of every sphere at every frame.
+    #[arg(short, long)]
+    trajectory: bool,
+    /// Time between snapshots of all spheres (s); 0 for none but the last.
+    #[arg(long, value_name = "SECONDS")]
+    snapshot_interval: Option<f64>,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    let mut scene = phase::scene::load(&arguments.scene).map_err(Failure::refused)?;
-    scene.seed = arguments.seed.unwrap_or(scene.seed);
-    let stop = interrupt::stop_on_signal(console)?;
-    let path = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| default_record(&arguments.scene));
+    let (mut scene, default_path, original) = match (&arguments.scene, &arguments.from) {
+        (Some(file), _) => {
+            let mut scene = phase::scene::load(file).map_err(Failure::refused)?;
+            scene.seed = arguments.seed.unwrap_or(scene.seed);
+            (scene, default_record(file), None)
+        }
+        (None, Some(folder)) => {
+            let point = arguments.point.as_deref().unwrap_or_default();
+            let original = Original::find(folder, point, console)?;
+            let path = original.default_path();
+            (original.job.scene.clone(), path, Some(original))
+        }
+        // The parser of the command line asks for one of them.
+        (None, None) => return Err(Failure::refused("give a scene file, or --from and --point")),
+    };
+    ask_for_more(&mut scene, arguments)?;
+    let path = arguments.out.clone().unwrap_or(default_path);
+    if let Some(original) = &original {
+        original.refuse_to_replace(&path)?;
+    }
     make_folder_of(&path)?;
+    let Some((record, seconds)) = run(&scene, console)? else {
+        console.note("interrupted; nothing was stored");
+        return Ok(Exit::Interrupted);
+    };
+    store::write_record(&record, &path).map_err(Failure::failed)?;
+    console.result(summary(&record, seconds))?;
+    console.result(path.display())?;
+    match original {
+        Some(original) => original.compare(&record, console),
+        None => Ok(Exit::Done),
+    }
+}
 
-    let steps = work::sphere_steps(&scene);
+/// Puts what the command line says of the output into the scene.
+fn ask_for_more(scene: &mut Scene, arguments: &Arguments) -> Result<(), Failure> {
+    scene.output.trajectory |= arguments.trajectory;
+    let Some(interval) = arguments.snapshot_interval else {
+        return Ok(());
+    };
+    if !(interval.is_finite() && interval >= 0.0) {
+        return Err(Failure::refused(format_args!(
+            "--snapshot-interval {interval}: must be a time in seconds, 0 or more"
+        )));
+    }
+    scene.output.snapshot_interval = interval;
+    match scene.problems().as_slice() {
+        [] => Ok(()),
+        problems => {
+            let problems: Vec<String> = problems.iter().map(Problem::to_string).collect();
+            Err(Failure::refused(problems.join("; ")))
+        }
+    }
+}
+
+/// Runs a scene, with a progress bar. Returns the record and the seconds it took, or nothing if it
+/// was interrupted.
+fn run(scene: &Scene, console: &Console) -> Result<Option<(RunRecord, f64)>, Failure> {
+    let stop = interrupt::stop_on_signal(console)?;
+    let steps = work::sphere_steps(scene);
     let progress = Progress::new(
         console,
         Work {
@@ -49,8 +124,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             steps_done: 0,
         },
     );
-    let steps_per_frame = steps / phase::run::frames(&scene).1.max(1);
-    let result = phase::run::run(&scene, &mut |_| {
+    let steps_per_frame = steps / phase::run::frames(scene).1.max(1);
+    let result = phase::run::run(scene, &mut |_| {
         progress.advance(steps_per_frame);
         if stop.load(Ordering::Relaxed) {
             ControlFlow::Break(())
@@ -59,18 +134,11 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         }
     });
     let seconds = progress.finish();
-    let record = match result {
-        Ok(record) => record,
-        Err(RunError::Interrupted) => {
-            console.note("interrupted; nothing was stored");
-            return Ok(Exit::Interrupted);
-        }
-        Err(error) => return Err(Failure::failed(error)),
-    };
-    store::write_record(&record, &path).map_err(Failure::failed)?;
-    console.result(summary(&record, seconds))?;
-    console.result(path.display())?;
-    Ok(Exit::Done)
+    match result {
+        Ok(record) => Ok(Some((record, seconds))),
+        Err(RunError::Interrupted) => Ok(None),
+        Err(error) => Err(Failure::failed(error)),
+    }
 }
 
 /// `results/<stem of the scene file>.h5`.

@@ -1,6 +1,6 @@
 //! Where and how the spheres start.
 
-use super::particles::Particles;
+use super::particles::{Particles, sphere_mass};
 use super::vector::Vector;
 use crate::scene::{Radii, Scene, Start};
 use rand::Rng;
@@ -102,11 +102,10 @@ pub fn place(scene: &Scene) -> Result<Particles, StartError> {
 }
 
 fn give_mass(particles: &mut Particles, density: f64) {
-    let volume = |radius: &f64| 4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius;
     particles.mass = particles
         .radius
         .iter()
-        .map(|radius| density * volume(radius))
+        .map(|radius| sphere_mass(density, *radius))
         .collect();
     particles.inverse_mass = particles.mass.iter().map(|mass| 1.0 / mass).collect();
     particles.force = vec![Vector::ZERO; particles.len()];

@@ -1,9 +1,10 @@
 //! The colour bar: which colour stands for which value.
 
-use super::palette::ColorMap;
+use super::palette;
 use super::scale::{Direction, Room, Scale};
 use super::style::{self, Drawn, LABEL, SMALL, Sheet, TICK, frame, letters, px};
 use super::text;
+use crate::color::ColorMap;
 use plotters::element::PathElement;
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{FontTransform, RGBColor};
@@ -64,7 +65,7 @@ impl ColorBar {
 
     /// Colour of a value.
     pub(super) fn color(&self, value: f64) -> RGBColor {
-        self.map.color((value - self.low) / (self.high - self.low))
+        palette::mapped(self.map, (value - self.low) / (self.high - self.low))
     }
 
     fn scale(&self, height: i32) -> Scale {
@@ -88,7 +89,7 @@ impl ColorBar {
         let (right, bottom) = (left + BAR, top + height);
         for step in 0..STEPS {
             let edge = |index: i32| bottom - height * index / STEPS;
-            let color = self.map.color((f64::from(step) + 0.5) / f64::from(STEPS));
+            let color = palette::mapped(self.map, (f64::from(step) + 0.5) / f64::from(STEPS));
             style::fill(sheet, [(left, edge(step + 1)), (right, edge(step))], color)?;
         }
         style::outline(sheet, [(left, top), (right, bottom)], frame())?;
@@ -125,7 +126,7 @@ mod tests {
             (bar.low, bar.high, bar.map),
             (-1.0, 3.0, ColorMap::Sequential)
         );
-        assert_eq!(bar.color(3.0), ColorMap::Sequential.color(1.0));
+        assert_eq!(bar.color(3.0), palette::mapped(ColorMap::Sequential, 1.0));
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! print and for every kind of colour blindness; the tests hold them to that.
 
 use crate::classify::Label;
+use crate::color::{self, ColorMap};
 use plotters::style::RGBColor;
 
 /// Colour of a state.
@@ -37,57 +38,23 @@ pub(super) fn faded(color: RGBColor, agreement: f64) -> RGBColor {
     )
 }
 
-/// Map from a quantity to colours, perceptually uniform and safe for the colour-blind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ColorMap {
-    /// From low to high: viridis (van der Walt and Smith, 2015; CC0).
-    Sequential,
-    /// From negative over zero to positive: RdBu reversed (Harrower and Brewer, 2003).
-    Diverging,
-}
-
-const VIRIDIS: [u32; 9] = [
-    0x44_01_54, 0x47_2d_7b, 0x3b_52_8b, 0x2c_72_8e, 0x21_91_8c, 0x28_ae_80, 0x5e_c9_62, 0xad_dc_30,
-    0xfd_e7_25,
-];
-
-const BLUE_RED: [u32; 9] = [
-    0x21_66_ac, 0x43_93_c3, 0x92_c5_de, 0xd1_e5_f0, 0xf7_f7_f7, 0xfd_db_c7, 0xf4_a5_82, 0xd6_60_4d,
-    0xb2_18_2b,
-];
-
-impl ColorMap {
-    /// Colour at `fraction` of the map, 0 to 1.
-    pub(super) fn color(self, fraction: f64) -> RGBColor {
-        let anchors = match self {
-            Self::Sequential => &VIRIDIS,
-            Self::Diverging => &BLUE_RED,
-        };
-        let position = fraction.clamp(0.0, 1.0) * (anchors.len() - 1) as f64;
-        let index = (position as usize).min(anchors.len() - 2);
-        mix(
-            rgb(anchors[index]),
-            rgb(anchors[index + 1]),
-            position - index as f64,
-        )
-    }
+/// Colour at `fraction` of a map, 0 to 1.
+pub(super) fn mapped(map: ColorMap, fraction: f64) -> RGBColor {
+    color(map.at(fraction))
 }
 
 const fn rgb(hex: u32) -> RGBColor {
-    let [_, red, green, blue] = hex.to_be_bytes();
+    color(color::rgb(hex))
+}
+
+const fn color([red, green, blue]: [u8; 3]) -> RGBColor {
     RGBColor(red, green, blue)
 }
 
-/// `share` of `other` in `color`.
-fn mix(color: RGBColor, other: RGBColor, share: f64) -> RGBColor {
-    let channel = |one: u8, two: u8| {
-        (f64::from(one) + share * (f64::from(two) - f64::from(one))).round() as u8
-    };
-    RGBColor(
-        channel(color.0, other.0),
-        channel(color.1, other.1),
-        channel(color.2, other.2),
-    )
+/// `share` of `other` in `one`.
+fn mix(one: RGBColor, other: RGBColor, share: f64) -> RGBColor {
+    let channels = |color: RGBColor| [color.0, color.1, color.2];
+    color(color::mix(channels(one), channels(other), share))
 }
 
 #[cfg(test)]
@@ -221,7 +188,7 @@ mod tests {
     #[test]
     fn sequential_map_is_monotone_and_even_in_grey() {
         let shades: Vec<f64> = (0..=32)
-            .map(|index| lightness(ColorMap::Sequential.color(f64::from(index) / 32.0)))
+            .map(|index| lightness(mapped(ColorMap::Sequential, f64::from(index) / 32.0)))
             .collect();
         for pair in shades.windows(2) {
             let step = pair[1] - pair[0];
@@ -231,11 +198,11 @@ mod tests {
 
     #[test]
     fn diverging_map_is_lightest_in_the_middle() {
-        let shade = |fraction| lightness(ColorMap::Diverging.color(fraction));
+        let shade = |fraction| lightness(mapped(ColorMap::Diverging, fraction));
         assert!(shade(0.5) > 96.0 && shade(0.0) < 45.0 && shade(1.0) < 45.0);
         assert_eq!(
-            ColorMap::Diverging.color(7.0),
-            ColorMap::Diverging.color(1.0)
+            mapped(ColorMap::Diverging, 7.0),
+            mapped(ColorMap::Diverging, 1.0)
         );
     }
 }

@@ -225,6 +225,12 @@ impl Gravity {
         let (sine, cosine) = libm::sincos(self.tilt);
         [self.acceleration * sine, -self.acceleration * cosine]
     }
+
+    /// Gravitational energy (J) of a mass (kg) at x and z (m): m g z without a tilt.
+    pub fn energy(&self, mass: f64, x: f64, z: f64) -> f64 {
+        let [gx, gz] = self.components();
+        -(mass * gx * x) - mass * gz * z
+    }
 }
 
 /// Air in rigid rotation about the axis (Rice, 2012, eqs. 21 to 27).

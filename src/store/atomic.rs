@@ -2,7 +2,7 @@
 
 use super::StoreError;
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 /// How the name of an unfinished file begins.
@@ -20,6 +20,22 @@ const SUFFIX: &str = ".tmp";
 /// [`StoreError::DiskFull`] or [`StoreError::Write`]; the old content is still there.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     replace(path, |file| file.write_all(bytes)).map_err(|error| StoreError::writing(path, error))
+}
+
+/// The same for a file too large to be in memory: `fill` writes it.
+///
+/// # Errors
+/// Those of [`write_atomic`].
+pub(super) fn write_atomic_with(
+    path: &Path,
+    fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
+) -> Result<(), StoreError> {
+    replace(path, |file| {
+        let mut buffer = BufWriter::new(file);
+        fill(&mut buffer)?;
+        buffer.flush()
+    })
+    .map_err(|error| StoreError::writing(path, error))
 }
 
 fn replace(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {

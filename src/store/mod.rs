@@ -1,8 +1,10 @@
-//! Files: run records (HDF5), tables (CSV). One file per format, the only place that knows it.
+//! Files: run records (HDF5), tables (CSV), states for other programs (XYZ, VTK, NPY, CSV). One file per format, the only place that knows it.
 //!
 //! Whatever is written here appears whole or not at all (see [`write_atomic`]).
 
 mod atomic;
+mod dump;
+mod export;
 mod failures;
 mod labels;
 mod radii;
@@ -11,10 +13,14 @@ mod start;
 mod text;
 
 pub use atomic::{remove_leftovers, write_atomic};
+pub use dump::{DumpName, read_dump, write_dump};
+pub use export::{write_arrays, write_observations, write_spheres, write_vtk, write_xyz};
 pub use failures::{read_failures, write_failures};
 pub use labels::{read_labels, write_labels, write_points};
 pub use radii::read_radii;
-pub use record::{RecordHeader, content_digest, read_record, read_record_header, write_record};
+pub use record::{
+    RecordHeader, content_digest, motion_digest, read_record, read_record_header, write_record,
+};
 pub use start::read_start;
 
 use std::io;
@@ -62,6 +68,17 @@ pub enum StoreError {
     /// The file is something other than a run record.
     #[error("{} is not a run record of phase: {reason}", path.display())]
     NotARecord {
+        /// The file.
+        path: PathBuf,
+        /// What shows it.
+        reason: String,
+    },
+    /// The file is something other than a dump.
+    #[error(
+        "{} is no dump, an array of frames x spheres x 4 of 64-bit floating point numbers: {reason}",
+        path.display()
+    )]
+    NotADump {
         /// The file.
         path: PathBuf,
         /// What shows it.

@@ -2,6 +2,7 @@
 
 mod axis;
 mod difference;
+mod dumps;
 mod failure;
 mod folder;
 mod forecast;
@@ -19,6 +20,7 @@ pub mod work;
 
 pub use axis::Axis;
 pub use difference::differing_keys;
+pub use dumps::find_dumps;
 pub use failure::{Failure, describe};
 pub use folder::{Folder, FolderError, Lock};
 pub use forecast::{Forecast, ForecastError, forecast};

@@ -44,14 +44,25 @@ pub fn parse_point(text: &str) -> Result<Vec<(String, f64)>, SelectError> {
 }
 
 impl Sweep {
-    /// This sweep with only the named values left on the named axes. A name may be that of the axis
-    /// or the path of its key; a value is found within rounding.
+    /// This sweep with only the named values left on the named axes. A name may be that of the axis,
+    /// the path of its key, or `seed`; a value is found within rounding.
     ///
     /// # Errors
     /// [`SelectError::Axis`] or [`SelectError::Value`].
     pub fn select(&self, point: &[(String, f64)]) -> Result<Self, SelectError> {
         let mut chosen = self.clone();
         for (name, value) in point {
+            if name == "seed" {
+                chosen.seeds.retain(|&seed| seed as f64 == *value);
+                if chosen.seeds.is_empty() {
+                    return Err(SelectError::Value {
+                        name: name.clone(),
+                        value: value.to_string(),
+                        values: join(&self.seeds),
+                    });
+                }
+                continue;
+            }
             let named = |axis: &&mut super::Axis| axis.name == *name || axis.key == *name;
             let Some(axis) = chosen.axes.iter_mut().find(named) else {
                 return Err(SelectError::Axis {

@@ -23,7 +23,7 @@ mod write;
 
 use super::{StoreError, write_atomic};
 use crate::record::{Outcome, Program, RunRecord};
-use crate::scene::Scene;
+use crate::scene::{Output, Scene};
 use std::path::Path;
 
 /// What the attribute `format` of a record says.
@@ -83,4 +83,31 @@ pub fn read_record_header(path: &Path) -> Result<RecordHeader, StoreError> {
 pub fn content_digest(record: &RunRecord) -> Result<String, String> {
     let bytes = write::encode(record, None)?;
     Ok(blake3::hash(&bytes).to_hex().to_string())
+}
+
+/// The same for two runs of which more or less was stored: a hash of the outcome, of what was
+/// observed at every frame, and of all spheres at the end.
+///
+/// # Errors
+/// What does not fit together in the record.
+pub fn motion_digest(record: &RunRecord) -> Result<String, String> {
+    content_digest(&RunRecord {
+        scene: Scene {
+            title: None,
+            output: Output {
+                snapshot_interval: 0.0,
+                trajectory: false,
+                ..record.scene.output.clone()
+            },
+            ..record.scene.clone()
+        },
+        program: record.program.clone(),
+        outcome: record.outcome.clone(),
+        radius: record.radius.clone(),
+        mass: record.mass.clone(),
+        observations: record.observations.clone(),
+        snapshots: record.snapshots.last().cloned().into_iter().collect(),
+        trajectory: Vec::new(),
+        cpu_seconds: record.cpu_seconds,
+    })
 }

@@ -1,0 +1,171 @@
+//! `phase export`: writes the spheres of records for other programs.
+
+use super::console::Console;
+use super::exit::{Exit, Failure};
+use super::format;
+use phase::observe::Snapshot;
+use phase::record::{RunRecord, States};
+use phase::store::{self, DumpName, StoreError};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// Write the spheres of records for other programs.
+///
+/// Takes every frame of the trajectory if the record has one, else its snapshots, and says which.
+/// `phase run --trajectory` makes a record with every frame.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Formats:
+  xyz   NAME.xyz, extended XYZ for OVITO and ASE: radius, mass, velocity (velo), spin (omega)
+  vtk   NAME.pvd and NAME/frame_*.vtp for ParaView: points with radius, mass, velocity, spin
+  npy   NAME/*.npy for NumPy: time, position, velocity, spin, radius, mass
+  csv   NAME.csv, one row per state and sphere; NAME-observations.csv, one row per frame
+  dump  dump_r..._p..._f....npy, the thesis's own: frames x spheres x 4 of x, y, z (m) and
+        energy (J); the name says radius, density and Omega, and the seed unless it is 1
+
+Example: one frame in ten for ParaView
+  phase export spout.h5 --to vtk --every 10
+
+Example: dumps of a whole sweep that was run with output.trajectory
+  phase export results/tank/records/*.h5 --to dump --out dumps")]
+pub(crate) struct Arguments {
+    /// The records (HDF5).
+    #[arg(required = true, value_name = "RECORD")]
+    records: Vec<PathBuf>,
+    /// The format to write.
+    #[arg(long, value_name = "FORMAT")]
+    to: Format,
+    /// The folder to write into, made if it is not there; or, of a single record, the .xyz, .pvd,
+    /// .csv or .npy file [default: beside the record].
+    #[arg(short, long, value_name = "PATH")]
+    out: Option<PathBuf>,
+    /// Write one state in N, from the first on.
+    #[arg(long, value_name = "N", value_parser = super::sweep::at_least_one)]
+    every: Option<usize>,
+}
+
+/// A format to write.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Format {
+    /// Extended XYZ.
+    Xyz,
+    /// VTP files and a PVD series.
+    Vtk,
+    /// NumPy arrays.
+    Npy,
+    /// Tables of spheres and of observables.
+    Csv,
+    /// The thesis's own dump.
+    Dump,
+}
+
+impl Format {
+    /// Extension of the file that stands for the whole.
+    fn extension(self) -> &'static str {
+        match self {
+            Self::Xyz => "xyz",
+            Self::Vtk => "pvd",
+            Self::Csv => "csv",
+            Self::Npy => "",
+            Self::Dump => "npy",
+        }
+    }
+}
+
+pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
+    if arguments.to == Format::Dump && arguments.every.is_some() {
+        return Err(Failure::refused(
+            "a dump holds every frame, as the sieves need them: leave out --every",
+        ));
+    }
+    let mut written: HashMap<PathBuf, &Path> = HashMap::new();
+    for path in &arguments.records {
+        let record = store::read_record(path).map_err(Failure::failed)?;
+        let target = target(arguments, path, &record);
+        if let Some(other) = written.insert(target.clone(), path) {
+            return Err(Failure::failed(format_args!(
+                "{} and {} would both be written to {}; export them one by one, each to its own \
+                 --out",
+                other.display(),
+                path.display(),
+                target.display()
+            )));
+        }
+        export(&record, path, &target, arguments, console)?;
+    }
+    Ok(Exit::Done)
+}
+
+/// Where an export goes: the file that stands for it, or the folder of its arrays.
+fn target(arguments: &Arguments, record_path: &Path, record: &RunRecord) -> PathBuf {
+    let extension = arguments.to.extension();
+    let beside = record_path.parent().unwrap_or(Path::new(""));
+    let folder = match &arguments.out {
+        Some(out)
+            if arguments.records.len() == 1
+                && !extension.is_empty()
+                && out.extension().is_some_and(|it| it == extension) =>
+        {
+            return out.clone();
+        }
+        Some(folder) => folder.as_path(),
+        None => beside,
+    };
+    let stem = record_path.file_stem().unwrap_or("record".as_ref());
+    match arguments.to {
+        Format::Dump => folder.join(DumpName::of_record(record).to_string()),
+        Format::Npy => folder.join(stem),
+        _ => folder.join(stem).with_added_extension(extension),
+    }
+}
+
+fn export(
+    record: &RunRecord,
+    path: &Path,
+    target: &Path,
+    arguments: &Arguments,
+    console: &Console,
+) -> Result<(), Failure> {
+    let states = record.states();
+    let every = arguments.every.unwrap_or(1);
+    let chosen: Vec<&Snapshot> = states.all().iter().step_by(every).collect();
+    if chosen.is_empty() {
+        return Err(Failure::failed(format_args!(
+            "{}: the record holds no states of the spheres",
+            path.display()
+        )));
+    }
+    console.note(format_args!(
+        "{}: {states}: {}",
+        path.display(),
+        format::count(chosen.len(), "state")
+    ));
+    if arguments.to == Format::Dump && matches!(states, States::Snapshots(_)) {
+        console.note(
+            "a dump of snapshots cannot be classified, which takes every frame: run it again with \
+             `phase run --trajectory`",
+        );
+    }
+    if let Some(folder) = target.parent() {
+        std::fs::create_dir_all(folder)
+            .map_err(|error| Failure::failed(format_args!("{}: {error}", folder.display())))?;
+    }
+    let observations = target.with_file_name(format!(
+        "{}-observations.csv",
+        target.file_stem().unwrap_or_default().to_string_lossy()
+    ));
+    let result: Result<(), StoreError> = match arguments.to {
+        Format::Xyz => store::write_xyz(record, &chosen, target),
+        Format::Vtk => store::write_vtk(record, &chosen, target),
+        Format::Npy => store::write_arrays(record, &chosen, target),
+        Format::Csv => store::write_spheres(record, &chosen, target)
+            .and_then(|()| store::write_observations(record, &observations)),
+        Format::Dump => store::write_dump(record, &chosen, target),
+    };
+    result.map_err(Failure::failed)?;
+    console.result(target.display())?;
+    if arguments.to == Format::Csv {
+        console.result(observations.display())?;
+    }
+    Ok(())
+}

@@ -1,0 +1,136 @@
+//! A job of a sweep that is run again.
+
+use crate::cli::console::Console;
+use crate::cli::exit::{Exit, Failure};
+use phase::record::RunRecord;
+use phase::store;
+use phase::sweep::{Axis, Folder, Job, parse_point};
+use std::path::{Path, PathBuf};
+
+/// A job of a sweep, and where its record is.
+pub(super) struct Original {
+    folder: Folder,
+    axes: Vec<Axis>,
+    pub(super) job: Job,
+}
+
+impl Original {
+    /// The job of that point in a results folder.
+    pub(super) fn find(folder: &Path, point: &str, console: &Console) -> Result<Self, Failure> {
+        let folder = one_folder(folder)?;
+        let sweep = folder.read_sweep().map_err(Failure::failed)?;
+        let refuse = |reason: String| Failure::refused(format_args!("--point: {reason}"));
+        let point = match point {
+            "" => Vec::new(),
+            text => parse_point(text).map_err(|error| refuse(error.to_string()))?,
+        };
+        let chosen = sweep
+            .select(&point)
+            .map_err(|error| refuse(error.to_string()))?;
+        if let Some(axis) = chosen.axes.iter().find(|axis| axis.values.len() > 1) {
+            let values: Vec<String> = axis.values.iter().map(f64::to_string).collect();
+            return Err(refuse(format!(
+                "say which run: add {}=..., one of {}",
+                axis.name,
+                values.join(", ")
+            )));
+        }
+        let mut jobs = chosen.jobs().map_err(Failure::refused)?;
+        if jobs.is_empty() {
+            return Err(refuse("the sweep has no seeds".to_owned()));
+        }
+        if jobs.len() > 1 {
+            console.note(format_args!(
+                "the point has {} seeds; taking the first, seed={}",
+                jobs.len(),
+                jobs[0].seed
+            ));
+        }
+        Ok(Self {
+            folder,
+            axes: chosen.axes,
+            job: jobs.swap_remove(0),
+        })
+    }
+
+    /// `DIR/runs/radius-0.003_omega-6_seed-1.h5`.
+    pub(super) fn default_path(&self) -> PathBuf {
+        let values = self.axes.iter().zip(&self.job.values);
+        let mut name: String = values
+            .map(|(axis, value)| format!("{}-{value}_", axis.name))
+            .collect();
+        name += &format!("seed-{}.h5", self.job.seed);
+        self.folder.root().join("runs").join(name)
+    }
+
+    fn record(&self) -> PathBuf {
+        self.folder.record(&self.job.id)
+    }
+
+    /// Refuses to write over the record of the sweep, which would then have another output than
+    /// the sweep asks for.
+    pub(super) fn refuse_to_replace(&self, path: &Path) -> Result<(), Failure> {
+        let same = |a: &Path, b: &Path| {
+            let (a, b) = (a.canonicalize(), b.canonicalize());
+            a.is_ok_and(|a| b.is_ok_and(|b| a == b))
+        };
+        if same(path, &self.record()) {
+            return Err(Failure::refused(format_args!(
+                "{}: this is the sweep's own record; choose another name with --out",
+                path.display()
+            )));
+        }
+        Ok(())
+    }
+
+    /// Says whether a run gave the same bits as in the sweep.
+    pub(super) fn compare(&self, again: &RunRecord, console: &Console) -> Result<Exit, Failure> {
+        let path = self.record();
+        if !path.exists() {
+            console.result(format_args!(
+                "the sweep has no record of this job to compare with ({})",
+                path.display()
+            ))?;
+            return Ok(Exit::Done);
+        }
+        let before = store::read_record(&path).map_err(Failure::failed)?;
+        let digest = |record| store::motion_digest(record).map_err(Failure::failed);
+        if digest(&before)? == digest(again)? {
+            console.result(format_args!(
+                "same bits as in the sweep: {} frames of observables and the last state of all \
+                 spheres ({})",
+                again.observations.frames(),
+                path.display()
+            ))?;
+            return Ok(Exit::Done);
+        }
+        let by = |record: &RunRecord| {
+            let program = &record.program;
+            format!("phase {}, commit {}", program.version, program.commit)
+        };
+        Err(Failure::failed(format_args!(
+            "the run differs from the sweep's record {}: that one is by {}, this one by {}. \
+             Records of another program may differ; run the sweep again to have one kind",
+            path.display(),
+            by(&before),
+            by(again)
+        )))
+    }
+}
+
+/// The results folder at that path.
+fn one_folder(path: &Path) -> Result<Folder, Failure> {
+    let mut folders = Folder::find(path).map_err(Failure::refused)?;
+    if folders.len() > 1 {
+        let names: Vec<String> = folders
+            .iter()
+            .map(|folder| folder.root().display().to_string())
+            .collect();
+        return Err(Failure::refused(format_args!(
+            "{} holds several results folders; give one of {}",
+            path.display(),
+            names.join(", ")
+        )));
+    }
+    Ok(folders.swap_remove(0))
+}

@@ -1,0 +1,305 @@
+//! `phase view`: pictures of a run, without any other program.
+
+use super::console::Console;
+use super::exit::{Exit, Failure};
+use super::format;
+use phase::observe::Snapshot;
+use phase::record::{Outcome, RunRecord, States};
+use phase::render::{Animation, ColorBy, Image, Stage, panel, strip};
+use phase::store;
+use phase::sweep::work;
+use std::path::{Path, PathBuf};
+
+/// Draw the spheres of a run: side view and view from above.
+///
+/// Takes the trajectory if the record has one, else its snapshots, and says which times it shows.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example: the run at five times, then at two of one's own
+  phase view spout.h5
+  phase view spout.h5 --time 1.5,5 --out late.png
+
+Example: an animation in real time; APNG (.png) keeps smaller files, GIF is shown by every program
+  phase run --from results/quick --point radius=0.003,omega=6 --snapshot-interval 0.05 --out spout.h5
+  phase view spout.h5 --animate spout.gif")]
+pub(crate) struct Arguments {
+    /// The record (HDF5).
+    record: PathBuf,
+    /// Frames to show, counted from 0 at the start.
+    #[arg(long, value_name = "N", value_delimiter = ',', conflicts_with = "time")]
+    frame: Vec<u64>,
+    /// Times to show (s); the nearest state is taken.
+    #[arg(
+        long,
+        value_name = "T",
+        value_delimiter = ',',
+        allow_negative_numbers = true
+    )]
+    time: Vec<f64>,
+    /// The picture to write (PNG) [default: the record's name with .png].
+    #[arg(short, long, value_name = "PNG", conflicts_with = "animate")]
+    out: Option<PathBuf>,
+    /// Write an animation of the whole run: .png (APNG) or .gif.
+    #[arg(short, long, value_name = "FILE", conflicts_with_all = ["frame", "time"])]
+    animate: Option<PathBuf>,
+    /// What the colours stand for.
+    #[arg(long, value_name = "WHAT", default_value = "speed")]
+    color: Color,
+    /// Width of a panel (pixels).
+    #[arg(long, value_name = "PIXELS", default_value_t = 320,
+          value_parser = clap::value_parser!(u32).range(40..=4000))]
+    width: u32,
+}
+
+/// What the colours of the spheres stand for.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Color {
+    /// Speed, from rest to the highest that is shown.
+    Speed,
+    /// Height, from the lowest to the highest that is shown.
+    Height,
+    /// The sphere: neighbours in the list differ.
+    Index,
+    /// Nothing.
+    None,
+}
+
+/// Panels if no times are asked for.
+const PANELS: usize = 5;
+/// Most pictures of an animation.
+const PICTURES: usize = 100;
+/// Largest size of an animation (bytes).
+const LARGEST: usize = 5_000_000;
+/// Share of an animation after which it must show all spheres: before, they may still be falling in.
+const ARRIVAL: f64 = 0.25;
+/// Largest height of an animation (pixels).
+const ANIMATION_HEIGHT: usize = 720;
+
+pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
+    if let Some(path) = &arguments.animate {
+        file_kind(path)?;
+    }
+    let record = store::read_record(&arguments.record).map_err(Failure::failed)?;
+    let states = drawable(&record);
+    if states.is_empty() {
+        return Err(Failure::failed(format_args!(
+            "{}: the record holds no state to draw",
+            arguments.record.display()
+        )));
+    }
+    console.note(format_args!(
+        "{}: {}: {}",
+        arguments.record.display(),
+        record.states(),
+        format::count(states.len(), "state")
+    ));
+    let (path, bytes) = match &arguments.animate {
+        Some(path) => {
+            let shown = evenly(states, PICTURES);
+            (
+                path.clone(),
+                animate(&record, &shown, path, arguments, console)?,
+            )
+        }
+        None => {
+            let shown = chosen(&record, states, arguments)?;
+            let times: Vec<String> = shown.iter().map(|state| state.time.to_string()).collect();
+            console.note(format_args!("shows t = {} s", times.join(", ")));
+            let view = View::new(&record, &shown, arguments);
+            let image = strip(&view.panels(&shown, arguments.width as usize)?);
+            let path = arguments.out.clone();
+            (
+                path.unwrap_or_else(|| arguments.record.with_extension("png")),
+                image.to_png(&texts(&record)).map_err(Failure::failed)?,
+            )
+        }
+    };
+    store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
+    console.result(path.display())?;
+    Ok(Exit::Done)
+}
+
+/// The states of a record without the one that broke a guard, whose numbers mean nothing.
+fn drawable(record: &RunRecord) -> &[Snapshot] {
+    let states = record.states().all();
+    match &record.outcome {
+        Outcome::Unstable(broken) => {
+            let sound = states.iter().take_while(|state| state.time < broken.time);
+            &states[..sound.count()]
+        }
+        Outcome::Completed => states,
+    }
+}
+
+/// The states that the command line asks for, in order of time.
+fn chosen<'a>(
+    record: &RunRecord,
+    states: &'a [Snapshot],
+    arguments: &Arguments,
+) -> Result<Vec<&'a Snapshot>, Failure> {
+    let interval = record.scene.time.frame_interval;
+    let frames = arguments.frame.iter().map(|&frame| frame as f64 * interval);
+    let mut times: Vec<f64> = frames.chain(arguments.time.iter().copied()).collect();
+    if times.is_empty() {
+        return Ok(evenly(states, PANELS));
+    }
+    let (first, last) = (states[0].time, states[states.len() - 1].time);
+    for time in &times {
+        let inside = *time >= first - 0.5 * interval && *time <= last + 0.5 * interval;
+        if !inside {
+            return Err(Failure::refused(format_args!(
+                "there is no state at t = {time} s: the record holds them from {first} to {last} s \
+                 ({} frames of {interval} s)",
+                record.observations.frames()
+            )));
+        }
+    }
+    times.sort_by(f64::total_cmp);
+    let distance = |state: &Snapshot, time: f64| (state.time - time).abs();
+    let nearest = |time: &f64| {
+        let order =
+            |a: &&Snapshot, b: &&Snapshot| distance(a, *time).total_cmp(&distance(b, *time));
+        states.iter().min_by(order)
+    };
+    let mut shown: Vec<&Snapshot> = times.iter().filter_map(nearest).collect();
+    shown.dedup_by_key(|state| state.time.to_bits());
+    Ok(shown)
+}
+
+/// At most so many states, as evenly spaced as can be, the first and the last among them.
+fn evenly(states: &[Snapshot], most: usize) -> Vec<&Snapshot> {
+    let count = states.len().min(most);
+    if count < 2 {
+        return states.iter().take(count).collect();
+    }
+    let at = |index: usize| &states[index * (states.len() - 1) / (count - 1)];
+    (0..count).map(at).collect()
+}
+
+/// What all pictures of a run have in common.
+struct View<'a> {
+    record: &'a RunRecord,
+    stage: Stage,
+    color: ColorBy,
+}
+
+impl<'a> View<'a> {
+    fn new(record: &'a RunRecord, shown: &[&Snapshot], arguments: &Arguments) -> Self {
+        let all = || shown.iter().copied();
+        Self {
+            record,
+            stage: Stage::of_scene(&record.scene).around(all(), &record.radius),
+            color: match arguments.color {
+                Color::Speed => ColorBy::speed_of(all()),
+                Color::Height => ColorBy::height_of(all()),
+                Color::Index => ColorBy::Index,
+                Color::None => ColorBy::Nothing,
+            },
+        }
+    }
+
+    /// A panel of every state, drawn on all cores.
+    fn panels(&self, shown: &[&Snapshot], width: usize) -> Result<Vec<Image>, Failure> {
+        // As many digits as the frames ask for.
+        let interval = self.record.scene.time.frame_interval;
+        let tenfold = std::iter::successors(Some(interval), |scaled| Some(10.0 * scaled));
+        let digits = tenfold.take(6).position(|scaled| scaled >= 1.0 - 1e-9);
+        let digits = digits.unwrap_or(6);
+        work::map(work::default_workers(), shown, |state| {
+            let colors = self.color.colors(state);
+            let text = format!("t = {:.digits$} s", state.time);
+            panel(
+                state,
+                &self.record.radius,
+                &colors,
+                &self.stage,
+                width,
+                &text,
+            )
+        })
+        .map_err(Failure::failed)
+    }
+}
+
+/// The bytes of an animation, made smaller until it has a reasonable size.
+fn animate(
+    record: &RunRecord,
+    shown: &[&Snapshot],
+    path: &Path,
+    arguments: &Arguments,
+    console: &Console,
+) -> Result<Vec<u8>, Failure> {
+    if let (States::Snapshots(_), true) = (record.states(), shown.len() < PICTURES / 2) {
+        console.note(
+            "few states make a jerky animation: store more of them with `phase run \
+             --snapshot-interval 0.05`",
+        );
+    }
+    let mut view = View::new(record, shown, arguments);
+    let arrived = &shown[(ARRIVAL * shown.len() as f64) as usize..];
+    let later = View::new(record, arrived, arguments).stage.seen[1][2];
+    if later < view.stage.seen[1][2] {
+        console.note(format_args!(
+            "shows up to z = {later:.3} m, where all spheres are after the first quarter"
+        ));
+        view.stage = view.stage.up_to(later);
+    }
+    // In real time, but neither faster than the eye nor a slide show.
+    let duration = shown[shown.len() - 1].time - shown[0].time;
+    let delay = (100.0 * duration / shown.len() as f64)
+        .round()
+        .clamp(4.0, 50.0) as u16;
+    let mut width = arguments.width as usize;
+    let trial = view.panels(&shown[..1], width)?;
+    if trial[0].height > ANIMATION_HEIGHT {
+        width = width * ANIMATION_HEIGHT / trial[0].height;
+    }
+    loop {
+        let animation = Animation::new(&view.panels(shown, width)?, delay);
+        let bytes = if file_kind(path)? == Kind::Gif {
+            animation.to_gif().map_err(Failure::failed)?
+        } else {
+            animation.to_apng(&texts(record)).map_err(Failure::failed)?
+        };
+        if bytes.len() <= LARGEST || width < 80 {
+            console.note(format_args!(
+                "{} of {width} pixels' width, {}",
+                format::count(shown.len(), "picture"),
+                format::bytes(bytes.len() as f64)
+            ));
+            return Ok(bytes);
+        }
+        // The size goes with the area.
+        let shrink = (LARGEST as f64 / bytes.len() as f64).sqrt().min(0.95);
+        width = (0.97 * shrink * width as f64) as usize;
+    }
+}
+
+/// A kind of animated file.
+#[derive(PartialEq, Eq)]
+enum Kind {
+    Apng,
+    Gif,
+}
+
+fn file_kind(path: &Path) -> Result<Kind, Failure> {
+    match path.extension().and_then(|extension| extension.to_str()) {
+        Some("gif") => Ok(Kind::Gif),
+        Some("png" | "apng") => Ok(Kind::Apng),
+        _ => Err(Failure::refused(format_args!(
+            "{}: an animation is a .png (APNG) or a .gif",
+            path.display()
+        ))),
+    }
+}
+
+/// What the metadata of a picture says.
+fn texts(record: &RunRecord) -> Vec<(&'static str, String)> {
+    vec![
+        ("Title", record.scene.title.clone().unwrap_or_default()),
+        ("Software", format!("phase {}", record.program.version)),
+        ("Commit", record.program.commit.clone()),
+        ("Run", record.scene.identity()),
+        ("Seed", record.scene.seed.to_string()),
+    ]
+}

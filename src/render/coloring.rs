@@ -1,0 +1,79 @@
+//! What the colours of the spheres stand for.
+
+use crate::color::ColorMap;
+use crate::observe::Snapshot;
+
+/// Red, green and blue.
+pub type Rgb = [u8; 3];
+
+/// What the colours of the spheres stand for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ColorBy {
+    /// Nothing: all have one colour.
+    Nothing,
+    /// Speed, from zero to `fastest` (m/s).
+    Speed {
+        /// The speed of the last colour; faster spheres have it, too.
+        fastest: f64,
+    },
+    /// Height of the centre, from `low` to `high` (m).
+    Height {
+        /// The height of the first colour.
+        low: f64,
+        /// The height of the last colour.
+        high: f64,
+    },
+    /// Index of the sphere: neighbours in the list differ, so that single spheres can be followed.
+    Index,
+}
+
+/// Colour of spheres whose colour stands for nothing.
+const PLAIN: Rgb = [0xd8, 0xb4, 0x6a];
+
+/// The share of the golden ratio: consecutive multiples, modulo 1, are far apart.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+impl ColorBy {
+    /// By speed, up to the highest of these snapshots.
+    pub fn speed_of<'a>(snapshots: impl IntoIterator<Item = &'a Snapshot>) -> Self {
+        let fastest = snapshots
+            .into_iter()
+            .flat_map(|snapshot| (0..snapshot.velocity.nrows()).map(|s| speed(snapshot, s)))
+            .fold(0.0, f64::max);
+        Self::Speed { fastest }
+    }
+
+    /// By height, over the range of these snapshots.
+    pub fn height_of<'a>(snapshots: impl IntoIterator<Item = &'a Snapshot>) -> Self {
+        let heights = snapshots
+            .into_iter()
+            .flat_map(|snapshot| snapshot.position.column(2))
+            .filter(|height| height.is_finite());
+        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &z| {
+            (z.min(low), z.max(high))
+        });
+        Self::Height { low, high }
+    }
+
+    /// The colour of every sphere of a snapshot.
+    pub fn colors(self, snapshot: &Snapshot) -> Vec<Rgb> {
+        (0..snapshot.position.nrows())
+            .map(|sphere| match self {
+                Self::Nothing => PLAIN,
+                Self::Speed { fastest } => mapped(speed(snapshot, sphere), 0.0, fastest),
+                Self::Height { low, high } => mapped(snapshot.position[[sphere, 2]], low, high),
+                Self::Index => ColorMap::Sequential.at((GOLDEN * sphere as f64) % 1.0),
+            })
+            .collect()
+    }
+}
+
+fn mapped(value: f64, low: f64, high: f64) -> Rgb {
+    let fraction = (value - low) / (high - low);
+    ColorMap::Sequential.at(if fraction.is_nan() { 0.0 } else { fraction })
+}
+
+fn speed(snapshot: &Snapshot, sphere: usize) -> f64 {
+    let velocity = snapshot.velocity.row(sphere);
+    velocity.iter().map(|v| v * v).sum::<f64>().sqrt()
+}

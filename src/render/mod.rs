@@ -1,0 +1,79 @@
+//! Pictures of spheres in their tank: a small software renderer.
+//!
+//! An orthographic [`Camera`] looks at a [`Stage`]; [`picture`] draws every sphere as what it is,
+//! so that spheres that overlap meet in the right circle. Light comes from the upper left of the
+//! viewer, spheres throw shadows on each other and on the floor. The same input gives the same
+//! pixels on every machine.
+
+mod animation;
+mod camera;
+mod caption;
+mod coloring;
+mod depth;
+mod image;
+mod palette;
+mod panel;
+mod shade;
+mod stage;
+
+pub use animation::Animation;
+pub use camera::Camera;
+pub use coloring::{ColorBy, Rgb};
+pub use image::Image;
+pub use panel::{panel, strip};
+pub use stage::Stage;
+
+use crate::observe::Snapshot;
+
+/// A picture of `width` x `height` pixels of all spheres of a snapshot.
+///
+/// The view of the camera fills the picture as far as its proportions allow, centred on white.
+/// Spheres outside the view are not drawn.
+///
+/// * `radius`: radius of every sphere (m)
+/// * `stage`: the walls; keep it, and the camera made of it, over the frames of an animation
+/// * `color`: colour of every sphere, see [`ColorBy::colors`]
+///
+/// ```
+/// use ndarray::array;
+/// use phase::observe::Snapshot;
+/// use phase::render::{Camera, ColorBy, Stage, picture};
+///
+/// let snapshot = Snapshot {
+///     position: array![[0.0, 0.0, -0.19], [0.01, 0.0, -0.175]],
+///     velocity: array![[0.0, 0.0, 0.0], [0.1, 0.0, 0.0]],
+///     ..Snapshot::default()
+/// };
+/// let radius = [0.01, 0.01];
+/// let stage = Stage::new(Some(0.06), Some(-0.2)).around([&snapshot], &radius);
+/// let color = ColorBy::Speed { fastest: 0.1 }.colors(&snapshot);
+/// let image = picture(&snapshot, &radius, &color, &stage, &Camera::side(&stage), 300, 200);
+/// assert_eq!(image.rgba.len(), 4 * 300 * 200);
+/// ```
+pub fn picture(
+    snapshot: &Snapshot,
+    radius: &[f64],
+    color: &[Rgb],
+    stage: &Stage,
+    camera: &Camera,
+    width: usize,
+    height: usize,
+) -> Image {
+    let spheres: Vec<shade::Sphere> = snapshot
+        .position
+        .rows()
+        .into_iter()
+        .zip(radius)
+        .zip(color)
+        .map(|((centre, &radius), &color)| shade::Sphere {
+            centre: [centre[0], centre[1], centre[2]].into(),
+            radius,
+            color,
+        })
+        .filter(|sphere| sphere.is_drawable())
+        .collect();
+    shade::render(&spheres, stage, camera, width, height)
+}
+
+#[cfg(test)]
+mod tests;

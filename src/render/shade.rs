@@ -1,0 +1,347 @@
+//! Light and shadow.
+
+use super::depth::{DepthMap, Hit, Rays};
+use super::{Camera, Image, Rgb, Stage};
+use crate::dem::vector::Vector;
+
+/// A sphere to draw.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sphere {
+    pub(super) centre: Vector,
+    pub(super) radius: f64,
+    pub(super) color: Rgb,
+}
+
+impl Sphere {
+    pub(super) fn is_drawable(&self) -> bool {
+        let Vector { x, y, z } = self.centre;
+        [x, y, z, self.radius].iter().all(|v| v.is_finite()) && self.radius > 0.0
+    }
+}
+
+/// Rays per pixel, along each side: smooth edges.
+const SAMPLES: usize = 3;
+/// Direction to the light along right, up and to the viewer; of length 1.
+const LIGHT: [f64; 3] = [-0.36, 0.48, 0.8];
+/// Light from everywhere, and from the lamp.
+const AMBIENT: f64 = 0.42;
+const LAMP: f64 = 0.66;
+/// Share of the lamp's light that is mirrored.
+const GLOSS: f64 = 0.18;
+/// How much of their colour the farthest things lose to the paper.
+const HAZE: f64 = 0.35;
+const FLOOR: Rgb = [232, 234, 238];
+const GLASS: Rgb = [246, 247, 249];
+const OUTLINE: Rgb = [88, 92, 100];
+/// Width of outlines (pixels).
+const STROKE: f64 = 1.2;
+/// Largest side of the map of shadows.
+const LARGEST_SHADOW: f64 = 4096.0;
+
+pub(super) fn render(
+    spheres: &[Sphere],
+    stage: &Stage,
+    camera: &Camera,
+    width: usize,
+    height: usize,
+) -> Image {
+    let axes = [camera.right, camera.up, camera.viewer];
+    let scale = camera.scale(width, height);
+    let mut view = DepthMap::new(
+        Rays {
+            axes,
+            centre: camera.centre,
+            scale: scale * SAMPLES as f64,
+            width: width * SAMPLES,
+            height: height * SAMPLES,
+        },
+        spheres,
+    );
+    view.add_floor(stage);
+    let light = axes[0] * LIGHT[0] + axes[1] * LIGHT[1] + axes[2] * LIGHT[2];
+    let largest = spheres.iter().fold(0.0, |r, sphere| sphere.radius.max(r));
+    let shader = Shader {
+        spheres,
+        stage,
+        shadows: shadow_map(spheres, light, camera.up, scale),
+        light,
+        half: unit(light + camera.viewer),
+        depths: depths(spheres, camera),
+        reach: largest,
+        view: &view,
+    };
+    let mut samples: Vec<[f32; 3]> = Vec::with_capacity(view.rays.width * view.rays.height);
+    for row in 0..view.rays.height {
+        samples.extend((0..view.rays.width).map(|column| shader.color(column, row)));
+    }
+    for line in outlines(stage, camera) {
+        draw_line(&line, &view, &mut samples);
+    }
+    average(&samples, width, height)
+}
+
+/// Everything a ray needs to find its colour.
+struct Shader<'a> {
+    spheres: &'a [Sphere],
+    stage: &'a Stage,
+    view: &'a DepthMap,
+    shadows: DepthMap,
+    /// Unit vector to the light.
+    light: Vector,
+    /// Unit vector half way between the light and the viewer.
+    half: Vector,
+    /// Depth of the farthest and of the nearest sphere (m).
+    depths: [f64; 2],
+    /// How far neighbours darken a place (m).
+    reach: f64,
+}
+
+impl Shader<'_> {
+    /// The colour of a ray, in linear light.
+    fn color(&self, column: usize, row: usize) -> [f32; 3] {
+        let (depth, hit) = self.view.at(column, row);
+        let origin = self.view.rays.origin(column, row);
+        let point = origin + self.view.rays.axes[2] * depth;
+        let (color, normal, gloss) = match hit {
+            Hit::Nothing => return linear(self.background(origin)),
+            Hit::Floor => (FLOOR, Vector::new(0.0, 0.0, 1.0), 0.0),
+            Hit::Sphere(index) => {
+                let sphere = &self.spheres[index as usize];
+                let normal = (point - sphere.centre) * (1.0 / sphere.radius);
+                (sphere.color, normal, GLOSS)
+            }
+        };
+        // Shadows on the floor must not be taken for spheres.
+        let darkness = if hit == Hit::Floor { 0.45 } else { 1.0 };
+        let lit = 1.0 - darkness * self.shadow(point, hit);
+        let ambient = AMBIENT * (1.0 - self.occlusion(column, row, (depth, hit)));
+        let matt = ambient + LAMP * lit * normal.dot(self.light).max(0.0);
+        let mirrored = gloss * lit * thirty_second_power(normal.dot(self.half).max(0.0));
+        let haze = match hit {
+            Hit::Sphere(_) => HAZE * self.distance(depth),
+            _ => 0.0,
+        };
+        let paper = linear(GLASS);
+        let mut result = linear(color);
+        for (channel, paper) in result.iter_mut().zip(paper) {
+            let shaded = f64::from(*channel) * matt * 1.12 + mirrored;
+            *channel = (shaded + haze * (f64::from(paper) - shaded)) as f32;
+        }
+        result
+    }
+
+    /// 0 for the nearest sphere, 1 for the farthest.
+    fn distance(&self, depth: f64) -> f64 {
+        let [far, near] = self.depths;
+        ((near - depth) / (near - far).max(self.reach)).clamp(0.0, 1.0)
+    }
+
+    /// Share of the lamp that other spheres hide from a point.
+    fn shadow(&self, point: Vector, hit: Hit) -> f64 {
+        let [column, row, depth] = self.shadows.rays.project(point);
+        let mut hidden = 0;
+        for down in [-1.0, 0.0, 1.0] {
+            for across in [-1.0, 0.0, 1.0] {
+                // A sphere never throws a shadow on its own lit side.
+                hidden += match self.shadows.near(column + across, row + down) {
+                    Some((above, blocker)) if blocker != hit && above > depth => 1,
+                    _ => 0,
+                };
+            }
+        }
+        f64::from(hidden) / 9.0
+    }
+
+    /// Share of the light from everywhere that nearer neighbours in the view hide.
+    fn occlusion(&self, column: usize, row: usize, (depth, hit): (f64, Hit)) -> f64 {
+        /// Places around, over the reach: twelve directions, near and far in turn.
+        const AROUND: [[f64; 2]; 12] = [
+            [1.0, 0.0],
+            [0.43, 0.25],
+            [0.5, 0.87],
+            [0.0, 0.5],
+            [-0.5, 0.87],
+            [-0.43, 0.25],
+            [-1.0, 0.0],
+            [-0.43, -0.25],
+            [-0.5, -0.87],
+            [0.0, -0.5],
+            [0.5, -0.87],
+            [0.43, -0.25],
+        ];
+        let reach = self.reach * self.view.rays.scale;
+        let hidden: f64 = AROUND
+            .iter()
+            .filter_map(|[across, down]| {
+                let column = column as f64 + 0.5 + across * reach;
+                let row = row as f64 + 0.5 + down * reach;
+                let (near, neighbour) = self.view.near(column, row)?;
+                if hit == Hit::Floor && neighbour == hit {
+                    return None;
+                }
+                let rise = (near - depth) / self.reach;
+                // What is far in front of a place does not darken it.
+                Some(rise.clamp(0.0, 1.0) * (2.0 - 0.25 * rise).clamp(0.0, 1.0))
+            })
+            .sum();
+        (1.3 * hidden / AROUND.len() as f64).min(0.85)
+    }
+
+    /// What is behind everything: the inside of the tank, or paper.
+    fn background(&self, origin: Vector) -> Rgb {
+        const PAPER: Rgb = [255, 255, 255];
+        let Some(radius) = self.stage.radius else {
+            return PAPER;
+        };
+        let near = self.view.rays.axes[2];
+        let outside = origin.x * origin.x + origin.y * origin.y - radius * radius;
+        let horizontal = near.x * near.x + near.y * near.y;
+        let past_axis = origin.x * near.x + origin.y * near.y;
+        let half_chord_squared = past_axis * past_axis - horizontal * outside;
+        let [low, high] = self.stage.seen;
+        let inside = if horizontal == 0.0 {
+            outside <= 0.0
+        } else {
+            // The far side of the cylinder is behind everything.
+            let wall = origin - near * ((past_axis + half_chord_squared.sqrt()) / horizontal);
+            half_chord_squared >= 0.0 && (low[2]..=high[2]).contains(&wall.z)
+        };
+        if inside { GLASS } else { PAPER }
+    }
+}
+
+/// What the light meets first.
+fn shadow_map(spheres: &[Sphere], light: Vector, up: Vector, scale: f64) -> DepthMap {
+    let right = unit(up.cross(light));
+    let axes = [right, light.cross(right), light];
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for sphere in spheres {
+        for axis in 0..2 {
+            let place = sphere.centre.dot(axes[axis]);
+            low[axis] = low[axis].min(place - sphere.radius);
+            high[axis] = high[axis].max(place + sphere.radius);
+        }
+    }
+    let size = [0, 1].map(|axis| (high[axis] - low[axis]).max(0.0));
+    let scale = scale.min(LARGEST_SHADOW / size[0].max(size[1]));
+    let middle = |axis: usize| axes[axis] * (0.5 * (low[axis] + high[axis]));
+    let cells = |length: f64| (length * scale).ceil() as usize + 2;
+    let rays = Rays {
+        axes,
+        centre: if spheres.is_empty() {
+            Vector::ZERO
+        } else {
+            middle(0) + middle(1)
+        },
+        scale,
+        width: cells(size[0]),
+        height: cells(size[1]),
+    };
+    DepthMap::new(rays, spheres)
+}
+
+/// Depth of the farthest and of the nearest sphere.
+fn depths(spheres: &[Sphere], camera: &Camera) -> [f64; 2] {
+    let depth = |sphere: &Sphere| (sphere.centre - camera.centre).dot(camera.viewer);
+    spheres
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[far, near], sphere| {
+            [far.min(depth(sphere)), near.max(depth(sphere))]
+        })
+}
+
+/// The edges of the tank that the camera sees.
+fn outlines(stage: &Stage, camera: &Camera) -> Vec<Vec<Vector>> {
+    let [low, high] = stage.seen;
+    let bottom = stage.floor.unwrap_or(low[2]);
+    let mut lines = Vec::new();
+    if let Some(radius) = stage.radius {
+        for side in [-radius, radius] {
+            let at = |z| camera.right * side + Vector::new(0.0, 0.0, z);
+            lines.push(vec![at(bottom), at(high[2])]);
+        }
+        if camera.viewer.z != 0.0 {
+            lines.push(stage.rim(high[2]));
+        }
+    }
+    match (stage.floor, stage.radius) {
+        (Some(floor), Some(_)) => lines.push(stage.rim(floor)),
+        (Some(floor), None) if camera.viewer.z == 0.0 => {
+            let at = |x| Vector::new(x, 0.0, floor);
+            lines.push(vec![at(low[0]), at(high[0])]);
+        }
+        _ => {}
+    }
+    lines
+}
+
+/// Draws a line where nothing is before it.
+fn draw_line(line: &[Vector], view: &DepthMap, samples: &mut [[f32; 3]]) {
+    let half = 0.5 * STROKE * SAMPLES as f64;
+    let color = linear(OUTLINE);
+    for ends in line.windows(2) {
+        let (from, to) = (view.rays.project(ends[0]), view.rays.project(ends[1]));
+        let length = (to[0] - from[0]).abs().max((to[1] - from[1]).abs());
+        let steps = length.ceil().max(1.0);
+        for step in 0..=steps as usize {
+            let share = step as f64 / steps;
+            let [x, y, depth] = [0, 1, 2].map(|axis| from[axis] + share * (to[axis] - from[axis]));
+            for row in cells(y, half, view.rays.height) {
+                for column in cells(x, half, view.rays.width) {
+                    let (across, down) = (column as f64 + 0.5 - x, row as f64 + 0.5 - y);
+                    let (nearest, hit) = view.at(column, row);
+                    let hidden = matches!(hit, Hit::Sphere(_)) && nearest > depth;
+                    if across * across + down * down <= half * half && !hidden {
+                        samples[column + row * view.rays.width] = color;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Indices, of `count`, of the cells around a place.
+fn cells(place: f64, half: f64, count: usize) -> std::ops::Range<usize> {
+    let end = (place + half).ceil().max(0.0) as usize;
+    ((place - half).floor() as usize).min(count)..end.min(count)
+}
+
+/// The pixels: the mean of their rays.
+fn average(samples: &[[f32; 3]], width: usize, height: usize) -> Image {
+    let mut image = Image::white(width, height);
+    for row in 0..height {
+        for column in 0..width {
+            let mut sum = [0.0_f32; 3];
+            for down in 0..SAMPLES {
+                let first = column * SAMPLES + (row * SAMPLES + down) * width * SAMPLES;
+                for sample in &samples[first..first + SAMPLES] {
+                    for channel in 0..3 {
+                        sum[channel] += sample[channel].min(1.0);
+                    }
+                }
+            }
+            let at = 4 * (column + row * width);
+            for channel in 0..3 {
+                let mean = f64::from(sum[channel]) / (SAMPLES * SAMPLES) as f64;
+                image.rgba[at + channel] = (mean.sqrt() * 255.0).round() as u8;
+            }
+        }
+    }
+    image
+}
+
+/// The light of a colour. A square stands for the screen's exponent of 2.2.
+fn linear(color: Rgb) -> [f32; 3] {
+    color.map(|channel| {
+        let value = f32::from(channel) / 255.0;
+        value * value
+    })
+}
+
+fn thirty_second_power(value: f64) -> f64 {
+    (0..5).fold(value, |power, _| power * power)
+}
+
+fn unit(vector: Vector) -> Vector {
+    vector * (1.0 / vector.norm())
+}

@@ -1,0 +1,196 @@
+//! The thesis's own dump: a `.npy` array of frames x n x 4 with x, y, z (m) and energy (J) of every
+//! sphere, whose name says radius, density and rotation of the air.
+//!
+//! The names are those of the thesis's control script (Rice, 2012, section 7.2):
+//! `dump_r00.003_p03750.0_f006.0.npy`. The script pads the radius to six characters, the analysis
+//! of section 7.3 cuts out five; names are read here by their letters, so either will do. Of
+//! another seed than 1, which the thesis does not know, `_s2` follows. A run that broke off has all
+//! its coordinates at 1 from there on, which is how the analysis knows it.
+
+use super::StoreError;
+use super::export::write_array;
+use crate::observe::Snapshot;
+use crate::record::{Outcome, RunRecord};
+use crate::run;
+use ndarray::Array3;
+use ndarray_npy::ReadNpyExt;
+use std::fmt;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+/// What the name of a dump says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DumpName {
+    /// Radius of the spheres (m), their mean if they differ.
+    pub radius: f64,
+    /// Density of the spheres (kg/m3).
+    ///
+    /// Rice's program makes the mass pi r^3 of this (an integer division); here it is the mass in
+    /// the true volume, 4/3 pi r^3.
+    pub density: f64,
+    /// Angular velocity Omega of the air (rad/s), 0 without swirl.
+    pub omega: f64,
+    /// Seed of the run.
+    pub seed: u64,
+}
+
+impl DumpName {
+    /// The name for the dump of a record.
+    pub fn of_record(record: &RunRecord) -> Self {
+        let scene = &record.scene;
+        let radii = &record.radius;
+        // The mean of equal numbers need not be that number.
+        let radius = if radii.iter().all(|radius| *radius == radii[0]) {
+            radii[0]
+        } else {
+            radii.iter().sum::<f64>() / radii.len() as f64
+        };
+        Self {
+            radius,
+            density: scene.spheres.density,
+            omega: scene.swirl.as_ref().map_or(0.0, |swirl| swirl.omega),
+            seed: scene.seed,
+        }
+    }
+
+    /// What the name of a file says, if it is the name of a dump.
+    pub fn parse(file: &str) -> Option<Self> {
+        let rest = file.strip_prefix("dump_r")?.strip_suffix(".npy")?;
+        let (radius, rest) = rest.split_once("_p")?;
+        let (density, rest) = rest.split_once("_f")?;
+        let (omega, seed) = match rest.split_once("_s") {
+            Some((omega, seed)) => (omega, seed.parse().ok()?),
+            None => (rest, 1),
+        };
+        let number = |text: &str| text.parse().ok().filter(|value: &f64| value.is_finite());
+        Some(Self {
+            radius: number(radius).filter(|radius| *radius > 0.0)?,
+            density: number(density).filter(|density| *density > 0.0)?,
+            omega: number(omega)?,
+            seed,
+        })
+    }
+}
+
+impl fmt::Display for DumpName {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            radius,
+            density,
+            omega,
+            seed,
+        } = self;
+        // Zeros go between the sign and the digits.
+        write!(formatter, "dump_r{radius:06?}_p{density:07?}_f{omega:05?}")?;
+        if *seed != 1 {
+            write!(formatter, "_s{seed}")?;
+        }
+        formatter.write_str(".npy")
+    }
+}
+
+/// Writes states of a record as a dump.
+///
+/// # Errors
+/// [`StoreError::DiskFull`] or [`StoreError::Write`].
+pub fn write_dump(record: &RunRecord, states: &[&Snapshot], path: &Path) -> Result<(), StoreError> {
+    write_array(&values(record, states), path)
+}
+
+/// The array of a dump. The energy of a sphere is translational, rotational and gravitational (m g
+/// z), without what contacts store.
+fn values(record: &RunRecord, states: &[&Snapshot]) -> Array3<f64> {
+    let count = record.radius.len();
+    let gravity = record.scene.gravity.as_ref();
+    let whole = run::frames(&record.scene).1 as usize + 1;
+    let (rows, broken) = match &record.outcome {
+        Outcome::Completed => (states.len(), f64::INFINITY),
+        Outcome::Unstable(instability) => (whole.max(states.len()), instability.time),
+    };
+    let mut values = Array3::zeros((rows, count, 4));
+    for (row, mut spheres) in values.outer_iter_mut().enumerate() {
+        let Some(state) = states.get(row).filter(|state| state.time < broken) else {
+            (0..3).for_each(|axis| spheres.column_mut(axis).fill(1.0));
+            continue;
+        };
+        for (sphere, mut entry) in spheres.outer_iter_mut().enumerate() {
+            let square = |row: ndarray::ArrayView1<'_, f64>| row.dot(&row);
+            let (mass, radius) = (record.mass[sphere], record.radius[sphere]);
+            let mut energy = 0.5 * mass * square(state.velocity.row(sphere));
+            if state.spin.nrows() > 0 {
+                energy += 0.2 * mass * radius * radius * square(state.spin.row(sphere));
+            }
+            let position = state.position.row(sphere);
+            energy += gravity.map_or(0.0, |it| it.energy(mass, position[0], position[2]));
+            for axis in 0..3 {
+                entry[axis] = position[axis];
+            }
+            entry[3] = energy;
+        }
+    }
+    values
+}
+
+/// Reads the array of a dump: frames x n x 4.
+///
+/// # Errors
+/// [`StoreError::Read`], or [`StoreError::NotADump`] if it is another kind of array.
+pub fn read_dump(path: &Path) -> Result<Array3<f64>, StoreError> {
+    let not_a_dump = |reason: String| StoreError::NotADump {
+        path: path.to_owned(),
+        reason,
+    };
+    let file = File::open(path).map_err(|error| StoreError::reading(path, error))?;
+    let values = Array3::<f64>::read_npy(BufReader::new(file))
+        .map_err(|error| not_a_dump(error.to_string()))?;
+    match values.dim() {
+        (frames, count, 4) if frames > 0 && count > 0 => Ok(values),
+        shape => Err(not_a_dump(format!("its shape is {shape:?}"))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn names_are_those_of_the_thesis() {
+        let name = DumpName {
+            radius: 0.003,
+            density: 3750.0,
+            omega: 6.0,
+            seed: 1,
+        };
+        assert_eq!(name.to_string(), "dump_r00.003_p03750.0_f006.0.npy");
+        let other = DumpName {
+            omega: -6.5,
+            seed: 12,
+            ..name
+        };
+        assert_eq!(other.to_string(), "dump_r00.003_p03750.0_f-06.5_s12.npy");
+        for text in [
+            "dump_r00.00_p03750.0_f006.0.h5",
+            "dump_r0_p03750.0_f006.0.npy",
+            "dump_r0.1_p1_fnan.npy",
+            "dump_r0.1_p1_f1_sx.npy",
+            "position.npy",
+        ] {
+            assert_eq!(DumpName::parse(text), None, "{text}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn names_keep_every_bit(
+            radius in 1e-9..1e3,
+            density in 1e-3..1e6,
+            omega in -1e6..1e6,
+            seed: u64,
+        ) {
+            let name = DumpName { radius, density, omega, seed };
+            prop_assert_eq!(DumpName::parse(&name.to_string()), Some(name));
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Labels the runs of a folder of dumps, as the thesis's analysis did.
+
+use super::{LabelRow, LabelTable, Labelling, work};
+use crate::classify::{self, Sieves};
+use crate::replay;
+use crate::scene::{Radii, Scene};
+use crate::store::{self, DumpName};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The dumps in a folder, by name: all its `.npy` files.
+///
+/// # Errors
+/// If the folder cannot be listed.
+pub fn find_dumps(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let mut dumps = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|extension| extension == "npy") {
+            dumps.push(path);
+        }
+    }
+    dumps.sort();
+    Ok(dumps)
+}
+
+impl Labelling {
+    /// Labels dumps of runs of a scene, with that many workers. Radius, density and Omega are those
+    /// that the name of a dump says; the scene says everything else, and these too where a name
+    /// says nothing. The table has them as its axes, and the name of the dump as its id.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub fn of_dumps(
+        dumps: &[PathBuf],
+        scene: &Scene,
+        sieves: &Sieves,
+        workers: usize,
+    ) -> Result<Self, rayon::ThreadPoolBuildError> {
+        let mut labelling = Self {
+            table: LabelTable {
+                axes: ["radius", "density", "omega"].map(str::to_owned).into(),
+                rows: Vec::new(),
+            },
+            missing: 0,
+            problems: Vec::new(),
+        };
+        for row in work::map(workers, dumps, |path| label(path, scene, sieves))? {
+            match row {
+                Ok(row) => labelling.table.rows.push(row),
+                Err(problem) => labelling.problems.push(problem),
+            }
+        }
+        labelling.table.rows.sort_by(|a, b| {
+            let order = |row: &LabelRow| row.values.clone();
+            let values = order(a).partial_cmp(&order(b)).expect("finite numbers");
+            values.then(a.seed.cmp(&b.seed)).then(a.id.cmp(&b.id))
+        });
+        Ok(labelling)
+    }
+}
+
+fn label(path: &Path, scene: &Scene, sieves: &Sieves) -> Result<LabelRow, String> {
+    let fail = |reason: String| format!("{}: {reason}", path.display());
+    let (scene, name) = scene_of(path, scene).map_err(fail)?;
+    let values = store::read_dump(path).map_err(|error| error.to_string())?;
+    let record = replay::replay(&values, &scene).map_err(|error| fail(error.to_string()))?;
+    let verdict = classify::classify(&record, sieves).map_err(|error| fail(error.to_string()))?;
+    Ok(LabelRow {
+        id: path
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into(),
+        values: vec![name.radius, name.density, name.omega],
+        seed: name.seed,
+        verdict,
+    })
+}
+
+/// The scene of a dump: what its name says, and the rest of `base`.
+fn scene_of(path: &Path, base: &Scene) -> Result<(Scene, DumpName), String> {
+    let mut scene = base.clone();
+    let file = path.file_name().unwrap_or_default().to_string_lossy();
+    let Some(name) = DumpName::parse(&file) else {
+        let name = DumpName {
+            radius: scene.spheres.radius.mean(),
+            density: scene.spheres.density,
+            omega: scene.swirl.as_ref().map_or(0.0, |swirl| swirl.omega),
+            seed: scene.seed,
+        };
+        return Ok((scene, name));
+    };
+    if let Radii::One(radius) = &mut scene.spheres.radius {
+        *radius = name.radius;
+    }
+    scene.spheres.density = name.density;
+    scene.seed = name.seed;
+    match &mut scene.swirl {
+        Some(swirl) => swirl.omega = name.omega,
+        None if name.omega == 0.0 => {}
+        None => {
+            return Err(format!(
+                "its name says that the air rotates ({} rad/s), but the scene has no [swirl]",
+                name.omega
+            ));
+        }
+    }
+    Ok((scene, name))
+}

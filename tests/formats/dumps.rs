@@ -1,0 +1,121 @@
+//! Dumps as the thesis's program wrote them give the labels that records give.
+
+use crate::support::{TinySweep, Workplace, scene_file};
+use phase::classify::Label;
+use phase::store::read_labels;
+use phase::sweep::LabelRow;
+use std::collections::BTreeMap;
+
+/// A sweep of every kind of run that eight spheres can give, the last one unstable.
+fn sweep() -> TinySweep {
+    TinySweep {
+        omegas: vec![0.0, 4.0, 20.0, 4000.0],
+        more: "[scene.output]\ntrajectory = true\n\
+               [sieves]\nsettle = { window = 0.3 }\nfluid = { window = 0.3 }\n\
+               pinned = { window = 0.3 }\nspout = { window = 0.3 }\n"
+            .to_owned(),
+        ..TinySweep::default()
+    }
+}
+
+fn swept_and_exported() -> Workplace {
+    let place = Workplace::new();
+    place.write("tiny.toml", &sweep().text());
+    place.write("scene.toml", &scene_file());
+    place.phase(&["sweep", "tiny.toml", "--no-plot"]).code(0);
+    let records = place.records("results/tiny");
+    let records = records
+        .iter()
+        .map(|name| format!("results/tiny/records/{name}"));
+    let records: Vec<String> = records.collect();
+    let mut arguments = vec!["export", "--to", "dump", "--out", "dumps"];
+    arguments.extend(records.iter().map(String::as_str));
+    place.phase(&arguments).code(0);
+    place
+}
+
+/// Rows of a table of labels by Omega and seed.
+fn rows(place: &Workplace, table: &str, omega: &str) -> BTreeMap<(String, u64), LabelRow> {
+    let table = read_labels(&place.path(table)).unwrap();
+    let axis = table.axes.iter().position(|axis| axis == omega).unwrap();
+    let key = |row: &LabelRow| (row.values[axis].to_string(), row.seed);
+    table.rows.into_iter().map(|row| (key(&row), row)).collect()
+}
+
+#[test]
+fn dumps_give_the_labels_of_records() {
+    let place = swept_and_exported();
+    place
+        .phase(&[
+            "classify",
+            "dumps",
+            "--scene",
+            "scene.toml",
+            "--sweep",
+            "tiny.toml",
+        ])
+        .code(0)
+        .says("8 runs labelled")
+        .says("dumps/labels.csv");
+    let of_records = rows(&place, "results/tiny/labels.csv", "omega");
+    let of_dumps = rows(&place, "dumps/labels.csv", "omega");
+    assert!(of_records.keys().eq(of_dumps.keys()));
+    let mut labels = Vec::new();
+    for (from_record, from_dump) in of_records.values().zip(of_dumps.values()) {
+        let (expected, found) = (&from_record.verdict, &from_dump.verdict);
+        assert_eq!(found.label, expected.label, "{}", from_dump.id);
+        assert_eq!(found.settle_time, expected.settle_time);
+        // What depends on positions alone has the same bits.
+        assert_eq!(found.order.hole_radius, expected.order.hole_radius);
+        assert_eq!(found.order.packing_height, expected.order.packing_height);
+        assert_eq!(found.order.spout_count, expected.order.spout_count);
+        assert_eq!(found.evidence.pinned_share, expected.evidence.pinned_share);
+        assert_eq!(found.evidence.spout_share, expected.evidence.spout_share);
+        assert_eq!(found.evidence.fluid_share, expected.evidence.fluid_share);
+        let near = |a: Option<f64>, b: Option<f64>, tolerance: f64| match (a, b) {
+            (Some(a), Some(b)) => (a - b).abs() <= tolerance * b.abs(),
+            (a, b) => a == b,
+        };
+        let change = (
+            found.evidence.settle_change,
+            expected.evidence.settle_change,
+        );
+        assert!(near(change.0, change.1, 1e-3), "{change:?}");
+        let rotation = (found.order.rotation, expected.order.rotation);
+        assert!(near(rotation.0, rotation.1, 0.05), "{rotation:?}");
+        labels.push(expected.label);
+    }
+    assert!(labels.contains(&Label::Unstable), "{labels:?}");
+    labels.sort_by_key(|label| label.code());
+    labels.dedup();
+    assert!(labels.len() >= 3, "too few kinds to compare: {labels:?}");
+}
+
+#[test]
+fn what_is_no_dump_of_the_scene_is_refused() {
+    let place = swept_and_exported();
+    let classify = |more: &[&str]| place.phase(&[&["classify"], more].concat());
+    classify(&["dumps"])
+        .code(2)
+        .complains("say with --scene FILE");
+    classify(&["results/tiny", "--scene", "scene.toml"])
+        .code(2)
+        .complains("needs no --scene");
+    std::fs::create_dir(place.path("empty")).unwrap();
+    classify(&["empty", "--scene", "scene.toml"])
+        .code(2)
+        .complains("holds no .npy files");
+    place.write(
+        "short.toml",
+        &scene_file().replace("duration = 2.0", "duration = 3.0"),
+    );
+    classify(&["dumps", "--scene", "short.toml"])
+        .code(1)
+        .complains("it has 201 frames")
+        .complains("make 301");
+    place.write("dumps/other.npy", "text");
+    classify(&["dumps", "--scene", "scene.toml"])
+        .code(1)
+        .says("8 runs labelled")
+        .complains("other.npy is no dump");
+}

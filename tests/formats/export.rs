@@ -1,0 +1,139 @@
+//! Exports hold every number of the record, as programs read them that are not ours.
+//!
+//! Needs python3 with numpy, h5py, ase and vtk. Where they are absent the tests say that they were
+//! skipped; with `PHASE_NEED_READERS=1` in the environment, as in continuous integration, they
+//! fail.
+
+use crate::support::{Workplace, scene_file};
+use std::io::Write;
+use std::path::Path;
+use std::process::Command;
+
+fn python() -> String {
+    std::env::var("PHASE_PYTHON").unwrap_or_else(|_| "python3".to_owned())
+}
+
+/// Whether Python has the readers; says so if not.
+fn readers() -> bool {
+    let modules = "import numpy, h5py, ase, vtkmodules";
+    let found = Command::new(python()).args(["-c", modules]).output();
+    if found.is_ok_and(|output| output.status.success()) {
+        return true;
+    }
+    let required = std::env::var_os("PHASE_NEED_READERS").is_some();
+    assert!(
+        !required,
+        "python3 with numpy, h5py, ase and vtk is needed but absent"
+    );
+    // Not eprintln!, which the test runner hides.
+    let message = b"SKIPPED a check of exports: python3 with numpy, h5py, ase and vtk is absent\n";
+    std::io::stderr().write_all(message).unwrap();
+    false
+}
+
+/// A scene whose spheres have radii of their own and, with friction, spins.
+fn scene(friction: bool) -> String {
+    let shares = "[{ radius = 0.003, share = 1 }, { radius = 0.0041, share = 1 }]";
+    let mut text = scene_file().replace("radius = 0.004", &format!("radius = {shares}"));
+    if friction {
+        text += "[friction]\nlaw = \"spin\"\ncoefficient = 0.01\n";
+    }
+    text
+}
+
+/// Exports a record in all formats and has the result read.
+fn exported_and_read(place: &Workplace, every: usize, states: &str) {
+    let step = every.to_string();
+    for format in ["xyz", "vtk", "npy", "csv", "dump"] {
+        let mut arguments = vec!["export", "run.h5", "--to", format, "--out", "out"];
+        if format != "dump" {
+            arguments.extend(["--every", &step]);
+        }
+        place.phase(&arguments).code(0).complains(states);
+    }
+    if !readers() {
+        return;
+    }
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/read_exports.py");
+    let result = Command::new(python())
+        .arg(script)
+        .args([place.path("run.h5"), place.path("out")])
+        .arg(step)
+        .output()
+        .unwrap();
+    assert!(
+        result.status.success(),
+        "{}{}",
+        String::from_utf8_lossy(&result.stdout),
+        String::from_utf8_lossy(&result.stderr)
+    );
+}
+
+#[test]
+fn others_read_every_number_of_a_trajectory() {
+    let place = Workplace::new();
+    place.write("scene.toml", &scene(true));
+    place
+        .phase(&["run", "scene.toml", "--trajectory", "--out", "run.h5"])
+        .code(0);
+    exported_and_read(&place, 50, "run.h5: the trajectory, every frame: ");
+}
+
+#[test]
+fn others_read_every_number_of_snapshots() {
+    let place = Workplace::new();
+    place.write("scene.toml", &scene(false));
+    place
+        .phase(&["run", "scene.toml", "--out", "run.h5"])
+        .code(0);
+    exported_and_read(
+        &place,
+        1,
+        "run.h5: the snapshots, as there is no trajectory: 3 states",
+    );
+}
+
+#[test]
+fn exports_go_where_they_are_sent() {
+    let place = Workplace::new();
+    place.write("scene.toml", &scene_file());
+    for seed in ["1", "2"] {
+        let record = format!("run-{seed}.h5");
+        place
+            .phase(&["run", "scene.toml", "--seed", seed, "--out", &record])
+            .code(0);
+    }
+    let export = |more: &[&str]| place.phase(&[&["export", "run-1.h5"], more].concat());
+    export(&["--to", "xyz"]).code(0).says("run-1.xyz");
+    export(&["--to", "csv", "--out", "a/b.csv"])
+        .code(0)
+        .says("a/b.csv\na/b-observations.csv");
+    export(&["--to", "vtk", "--out", "a/b.pvd"]).code(0);
+    assert!(place.path("a/b/frame_00002.vtp").exists());
+    assert!(!place.path("a/b/frame_00003.vtp").exists());
+    export(&["run-2.h5", "--to", "dump", "--out", "dumps"])
+        .code(0)
+        .says("dumps/dump_r00.004_p03750.0_f004.0.npy")
+        .says("dumps/dump_r00.004_p03750.0_f004.0_s2.npy")
+        .complains("a dump of snapshots cannot be classified");
+    assert_eq!(place.read("a/b-observations.csv").lines().count(), 202);
+    assert_eq!(place.read("a/b.csv").lines().count(), 1 + 3 * 8);
+    assert_eq!(place.read("a/b.csv"), {
+        export(&["--to", "csv", "--out", "again"]).code(0);
+        place.read("again/run-1.csv")
+    });
+
+    export(&["run-1.h5", "--to", "npy", "--out", "dumps"])
+        .code(1)
+        .complains("would both be written to dumps/run-1");
+    export(&["--to", "dump", "--every", "2"])
+        .code(2)
+        .complains("leave out --every");
+    export(&["--to", "pdb"])
+        .code(2)
+        .complains("possible values: xyz, vtk, npy, csv, dump");
+    place
+        .phase(&["export", "scene.toml", "--to", "xyz"])
+        .code(1)
+        .complains("is not a run record");
+}

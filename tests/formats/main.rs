@@ -1,0 +1,11 @@
+//! One run out of a sweep, and its spheres in the formats of other programs.
+
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod dumps;
+mod export;
+mod run_again;
+mod view;
