@@ -288,6 +288,7 @@ fn odd_scene() -> impl Strategy<Value = Scene> {
             }
             scene.swirl = air.then_some(phase::scene::Swirl { omega: number });
             scene.updraught = lift.then_some(phase::scene::Updraught {
+                reference_omega: None,
                 speed: number,
                 strength: size[4],
                 decay: size[5],

@@ -79,6 +79,7 @@ fn shipped_sweeps_have_the_grids_they_promise() {
     let grids = [
         ("quick", 9, 9, 1),
         ("realistic", 9, 9, 1),
+        ("steel", 3, 3, 1),
         ("theoretical", 41, 41, 1),
         ("theoretical-9x9", 9, 9, 3),
         ("theoretical-quadratic", 41, 41, 1),
@@ -99,11 +100,57 @@ fn shipped_sweeps_have_the_grids_they_promise() {
         load_sweep("sweeps/theoretical.toml").axes[0].values[17],
         0.0037
     );
+    let sweep = load_sweep("sweeps/density-friction.toml");
+    let names: Vec<&str> = sweep.axes.iter().map(|axis| axis.name.as_str()).collect();
+    assert_eq!(names, ["radius", "omega", "density", "coefficient"]);
+    assert_eq!(sweep.jobs().unwrap().len(), 180);
     for path in files("sweeps") {
         let name = path.file_stem().unwrap().to_str().unwrap();
         assert!(
-            grids.iter().any(|grid| grid.0 == name),
+            name == "density-friction" || grids.iter().any(|grid| grid.0 == name),
             "{name} is not in this test"
+        );
+    }
+}
+
+/// `phase check` refuses what this refuses; its trial runs would take seconds.
+#[test]
+fn every_job_of_the_sweeps_off_the_main_road_is_stable() {
+    for name in ["steel", "density-friction"] {
+        for job in load_sweep(format!("sweeps/{name}.toml")).jobs().unwrap() {
+            let problems: Vec<String> = job
+                .scene
+                .problems()
+                .iter()
+                .map(|it| it.to_string())
+                .collect();
+            assert_eq!(problems, Vec::<String>::new(), "{name}: {:?}", job.values);
+            let limit = phase::dem::timestep::largest_stable(&job.scene).unwrap();
+            assert!(job.scene.time.dt < 0.8 * limit.seconds, "{name}: {limit:?}");
+        }
+    }
+}
+
+#[test]
+fn steel_is_lifted_as_its_comment_says() {
+    let scene = load_scene("sweeps/scenes/steel.toml");
+    let (drag, air) = (
+        scene.drag.as_ref().unwrap(),
+        scene.updraught.as_ref().unwrap(),
+    );
+    assert_eq!(
+        (air.strength, Some(air.origin)),
+        (1.0, scene.tank.as_ref().unwrap().floor)
+    );
+    for (radius, expected) in [(0.002, 6.0), (0.004, 3.0), (0.006, 2.0)] {
+        let (linear, quadratic) = drag.coefficients(radius);
+        let lift = linear * air.speed + quadratic * air.speed * air.speed;
+        let volume = 4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius;
+        let weight = volume * scene.spheres.density * 9.8;
+        assert!(
+            (lift / weight - expected).abs() < 0.01,
+            "{radius}: {}",
+            lift / weight
         );
     }
 }

@@ -1,24 +1,28 @@
-//! `phase plot`: draws the figures of a results folder.
+//! `phase plot`: draws the figures of a results folder or of the record of a single run.
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
-use phase::plot;
+use phase::plot::{self, Svg};
 use phase::record::Program;
 use phase::store;
 use phase::sweep::{Folder, LabelTable, Sweep};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-/// Draw the figures of a results folder, as SVG and PNG, from its labels.csv.
+/// Draw the figures of a results folder, as SVG and PNG, from its labels.csv, or the tracks of the
+/// spheres from the record of one run.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: what can be drawn, and one of it
   phase plot --list
-  phase plot results/quick --figure hole-radius")]
+  phase plot results/quick --figure hole-radius
+The paths of the spheres in one record, which needs `trajectory = true` in its scene
+  phase plot results/collisions/cradle.h5")]
 pub(crate) struct Arguments {
-    /// A results folder of `phase sweep`, or a folder that holds several.
+    /// A results folder of `phase sweep`, a folder that holds several, or a record (.h5).
     #[arg(required_unless_present = "list")]
     dir: Option<PathBuf>,
-    /// A figure to draw; may be given several times [default: phase and settle-time].
+    /// A figure to draw; may be given several times [default: phase and settle-time of a folder,
+    /// tracks of a record].
     #[arg(short, long, value_name = "NAME", value_delimiter = ',')]
     figure: Vec<String>,
     /// Print the names of all figures and what they show.
@@ -29,15 +33,29 @@ pub(crate) struct Arguments {
 /// What is drawn if nothing else is asked for.
 const DEFAULT_FIGURES: [&str; 2] = ["phase", "settle-time"];
 
+/// The figure of a single run.
+const TRACKS: &str = "tracks";
+
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     if arguments.list {
         for (name, description) in plot::figures() {
             console.result(format_args!("{name:<22} {description}"))?;
         }
+        let description = "paths of the spheres, from the record of one run with its trajectory";
+        console.result(format_args!("{TRACKS:<22} {description}"))?;
     }
     let Some(dir) = &arguments.dir else {
         return Ok(Exit::Done);
     };
+    if dir.is_file() {
+        return draw_record(dir, &arguments.figure, console);
+    }
+    if arguments.figure.iter().any(|name| name == TRACKS) {
+        return Err(Failure::refused(format_args!(
+            "`{TRACKS}` is drawn from the record of one run; name its .h5 file instead of {}",
+            dir.display()
+        )));
+    }
     let is_known = |name: &String| plot::figures().iter().any(|(known, _)| known == name);
     if let Some(name) = arguments.figure.iter().find(|name| !is_known(name)) {
         return Err(Failure::refused(format_args!(
@@ -90,12 +108,34 @@ fn draw(
     console: &Console,
 ) -> Result<(), Failure> {
     let figure = plot::draw(name, sweep, table, &Program::current()).map_err(Failure::failed)?;
+    write(&figure, |extension| folder.figure(name, extension), console)
+}
+
+/// Draws the tracks of a record beside it: NAME.h5 gives NAME-tracks.svg and .png.
+fn draw_record(path: &Path, figures: &[String], console: &Console) -> Result<Exit, Failure> {
+    if let Some(name) = figures.iter().find(|name| *name != TRACKS) {
+        return Err(Failure::refused(format_args!(
+            "`{name}` is no figure of a single record; `{TRACKS}` is"
+        )));
+    }
+    let record = store::read_record(path).map_err(Failure::failed)?;
+    let figure = plot::draw_tracks(&record)
+        .map_err(|error| Failure::failed(format_args!("{}: {error}", path.display())))?;
+    let mut stem = path.file_stem().unwrap_or_default().to_owned();
+    stem.push("-tracks");
+    let place = |extension: &str| path.with_file_name(&stem).with_added_extension(extension);
+    write(&figure, place, console)?;
+    Ok(Exit::Done)
+}
+
+/// Writes a figure as SVG and PNG and prints their paths.
+fn write(figure: &Svg, place: impl Fn(&str) -> PathBuf, console: &Console) -> Result<(), Failure> {
     let images = [
         ("svg", figure.to_svg_bytes()),
         ("png", figure.to_png_bytes().map_err(Failure::failed)?),
     ];
     for (extension, bytes) in images {
-        let path = folder.figure(name, extension);
+        let path = place(extension);
         store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
         console.result(path.display())?;
     }

@@ -333,7 +333,7 @@ fn drag_limit(scene: &Scene) -> Option<Limit> {
         (Start::File { .. }, None) => 0.0,
     };
     let updraught = scene.updraught.as_ref().map_or(0.0, |air| {
-        air.strength * libm::exp(-air.decay * (lowest - air.origin))
+        air.strength_in(scene.swirl.as_ref()) * libm::exp(-air.decay * (lowest - air.origin))
     });
     let swirl = if scene.swirl.is_some() { 1.0 } else { 0.0 };
     let (linear, quadratic) = drag.coefficients(scene.smallest_radius());

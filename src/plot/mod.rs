@@ -19,8 +19,10 @@ mod scale;
 mod style;
 mod svg;
 mod text;
+mod tracks;
 
 pub use svg::Svg;
+pub use tracks::draw as draw_tracks;
 
 use crate::record::Program;
 use crate::sweep::{LabelTable, Sweep};
@@ -139,6 +141,12 @@ pub enum PlotError {
         /// Identity of the run.
         id: String,
     },
+    /// The record of a run does not hold what its tracks are drawn from.
+    #[error(
+        "the record holds no trajectory; add `trajectory = true` to [output] of the scene and run \
+         it again"
+    )]
+    NoTrajectory,
     /// The drawing failed.
     #[error("cannot draw the figure: {0}")]
     Drawing(String),

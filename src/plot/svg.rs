@@ -2,6 +2,7 @@
 
 use super::canvas::{self, PNG_SCALE, escape};
 use super::{Input, PlotError, text};
+use crate::record::RunRecord;
 use resvg::{tiny_skia, usvg};
 use std::sync::Arc;
 
@@ -30,6 +31,29 @@ impl Svg {
                 ranges(input.table.rows.iter().map(|row| row.seed).collect()),
             ),
         ];
+        Self::with_metadata(metadata, size, body)
+    }
+
+    /// The same for a figure of a single run.
+    pub(super) fn of_record(
+        figure: &str,
+        record: &RunRecord,
+        size: (u32, u32),
+        body: &str,
+    ) -> Self {
+        let program = &record.program;
+        let metadata = vec![
+            ("Title", record.scene.title.clone().unwrap_or_default()),
+            ("Software", format!("phase {}", program.version)),
+            ("Commit", program.commit.clone()),
+            ("Figure", figure.to_owned()),
+            ("Seeds", record.scene.seed.to_string()),
+        ];
+        Self::with_metadata(metadata, size, body)
+    }
+
+    /// The figure with keys and values of its metadata, the title first.
+    fn with_metadata(metadata: Vec<(&'static str, String)>, size: (u32, u32), body: &str) -> Self {
         let lines: Vec<String> = metadata
             .iter()
             .map(|(key, value)| format!("{key}: {}", escape(value)))

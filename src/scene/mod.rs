@@ -256,6 +256,21 @@ pub struct Updraught {
     pub origin: f64,
     /// Factor alpha per shielding sphere below, 0 to 1.
     pub alpha: f64,
+    /// Rotation Omega_0 (rad/s) of the swirl at which the force is as given; at another Omega it is
+    /// (Omega / Omega_0)^2 times that (Rice, 2012, eq. 44). Absent: the swirl does not matter.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reference_omega: Option<f64>,
+}
+
+impl Updraught {
+    /// The factor on the force at the height z0, without shield: s, or s (Omega / Omega_0)^2.
+    pub fn strength_in(&self, swirl: Option<&Swirl>) -> f64 {
+        let rotation = match (self.reference_omega, swirl) {
+            (Some(reference), Some(swirl)) => swirl.omega / reference,
+            _ => 1.0,
+        };
+        self.strength * rotation * rotation
+    }
 }
 
 /// Viscous damping of spins.

@@ -129,6 +129,7 @@ const UPDRAUGHT: Kind = Kind::Table(&[
     needed("decay", NOT_NEGATIVE),
     needed("origin", NUMBER),
     needed("alpha", Kind::Number(Range::FRACTION)),
+    optional("reference_omega", POSITIVE),
 ]);
 
 const TIME: Kind = Kind::Table(&[

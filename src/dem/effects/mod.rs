@@ -27,7 +27,12 @@ pub(super) fn of_scene(scene: &Scene, particles: &Particles) -> Vec<Box<dyn Effe
             effects.push(swirl::of_scene(swirl, drag, particles));
         }
         if let Some(updraught) = &scene.updraught {
-            effects.push(updraught::of_scene(updraught, drag, particles));
+            effects.push(updraught::of_scene(
+                updraught,
+                scene.swirl.as_ref(),
+                drag,
+                particles,
+            ));
         }
     }
     if let Some(damping) = &scene.spin_damping {

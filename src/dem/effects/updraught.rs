@@ -8,7 +8,8 @@ use crate::scene::{self, Drag};
 use std::marker::PhantomData;
 
 /// Rice (2012), eq. 24: F_z = s exp(-beta (z - z0)) alpha^n drag(v_air - v_z), with n the number
-/// of lower spheres whose centre lies within 2r in |dx| and in |dy|.
+/// of lower spheres whose centre lies within 2r in |dx| and in |dy|. With a reference rotation
+/// Omega_0, s (Omega / Omega_0)^2 takes the place of s (eq. 44).
 struct Updraught<K> {
     parameters: scene::Updraught,
     coefficients: Coefficients,
@@ -21,6 +22,7 @@ struct Updraught<K> {
 
 pub(super) fn of_scene(
     updraught: &scene::Updraught,
+    swirl: Option<&scene::Swirl>,
     drag: &Drag,
     particles: &Particles,
 ) -> Box<dyn Effect> {
@@ -38,12 +40,14 @@ pub(super) fn of_scene(
         })
     }
     let coefficients = Coefficients::new(drag, particles);
+    let parameters = scene::Updraught {
+        strength: updraught.strength_in(swirl),
+        ..updraught.clone()
+    };
     match form(drag) {
-        Form::Linear => boxed::<Linear>(updraught.clone(), coefficients),
+        Form::Linear => boxed::<Linear>(parameters, coefficients),
         // Along one axis the two quadratic forms are the same.
-        Form::Vector | Form::Components => {
-            boxed::<QuadraticComponents>(updraught.clone(), coefficients)
-        }
+        Form::Vector | Form::Components => boxed::<QuadraticComponents>(parameters, coefficients),
     }
 }
 

@@ -4,7 +4,7 @@ mod start;
 mod time;
 
 use super::schema::SCENE;
-use super::{Contact, Radii, Scene, Start};
+use super::{Contact, Radii, Scene, Start, Updraught};
 use crate::document::{Problem, number};
 
 /// Largest number of spheres: the engine numbers them with 32 bits, and holds them in memory.
@@ -45,6 +45,12 @@ impl Scene {
             let message = "[drag] acts through [swirl] or [updraught], but there is neither";
             let help = "add [swirl], with `omega = 0.0` for still air, or remove [drag]";
             problems.push(Problem::new("drag", message).help(help));
+        }
+        let rotates = |air: &Updraught| air.reference_omega.is_some();
+        if self.updraught.as_ref().is_some_and(rotates) && self.swirl.is_none() {
+            let message = "`updraught.reference_omega` refers to [swirl], but there is none";
+            let help = "add [swirl], or remove `reference_omega`";
+            problems.push(Problem::new("updraught.reference_omega", message).help(help));
         }
         if self.friction.is_some() && self.contact.is_none() {
             let message = "[friction] acts at contacts, but there is no [contact]";

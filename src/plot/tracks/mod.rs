@@ -1,0 +1,382 @@
+//! Tracks: the path of every sphere of one run, with circles that show its size now and then.
+//!
+//! Spheres are seen in the plane in which they move most; where all of them move along one line,
+//! their place on it is drawn over time.
+
+mod view;
+
+use super::scale::{Direction, Room, Scale};
+use super::style::{self, Drawn, LABEL, MARGIN, SMALL, Sheet, TICK, TITLE, WIDTH, letters, px};
+use super::svg::Svg;
+use super::{PlotError, canvas, palette, text};
+use crate::record::RunRecord;
+use plotters::drawing::IntoDrawingArea;
+use plotters::element::{Circle, PathElement, Polygon};
+use plotters::style::text_anchor::{HPos, VPos};
+use plotters::style::{BLACK, Color, FontTransform, RGBColor, WHITE};
+use view::{Sight, View};
+
+/// Greatest height of the panel.
+const HEIGHT: i32 = px(520);
+/// Height of a panel over time.
+const OVER_TIME: i32 = px(330);
+/// Most instants at which circles are drawn.
+const MOST_INSTANTS: f64 = 12.0;
+/// With more spheres than this, circles are drawn at the start and at the end only.
+const FEW_SPHERES: usize = 12;
+/// A spin is marked if the surface it turns moves at least at this share of the fastest motion.
+const NOTABLE_SPIN: f64 = 0.02;
+/// Stroke of a path.
+const STROKE: u32 = 18;
+/// Distance of the lines of the words.
+const LINE: i32 = px(19);
+
+/// Room right of the panel, for half of the last number.
+const RIGHT: i32 = px(12);
+
+/// Colours of the spheres, in turn; told apart by every kind of colour vision (Okabe and Ito, 2008).
+const COLORS: [RGBColor; 6] = [
+    RGBColor(0x00, 0x72, 0xb2),
+    RGBColor(0xd5, 0x5e, 0x00),
+    RGBColor(0x00, 0x9e, 0x73),
+    RGBColor(0xcc, 0x79, 0xa7),
+    RGBColor(0xe6, 0x9f, 0x00),
+    RGBColor(0x56, 0xb4, 0xe9),
+];
+
+/// Draws the tracks of a run.
+///
+/// # Errors
+/// [`PlotError::NoTrajectory`] if the record holds no trajectory.
+pub fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
+    if record.trajectory.len() < 2 {
+        return Err(PlotError::NoTrajectory);
+    }
+    let view = View::new(record);
+    let tracks = Tracks {
+        record,
+        view,
+        sight: Sight::new(record, view),
+        instants: instants(record),
+    };
+    let layout = Layout::new(&tracks);
+    let size = (layout.size.0 as u32, layout.size.1 as u32);
+    let mut body = String::new();
+    {
+        let sheet = canvas::Canvas::new(&mut body, size).into_drawing_area();
+        tracks.draw_outline(&sheet, &layout)?;
+        for sphere in 0..record.radius.len() {
+            tracks.draw_sphere(&sheet, &layout, sphere)?;
+        }
+        layout.draw_frame(&sheet)?;
+        tracks.draw_words(&sheet, &layout)?;
+    }
+    Ok(Svg::of_record("tracks", record, size, &body))
+}
+
+/// Frames at which circles are drawn, and the time between them (s).
+fn instants(record: &RunRecord) -> (Vec<usize>, f64) {
+    let last = record.trajectory.len() - 1;
+    let interval = record.scene.time.frame_interval;
+    if record.radius.len() > FEW_SPHERES {
+        return (vec![0, last], last as f64 * interval);
+    }
+    let least = last as f64 / MOST_INSTANTS;
+    let mut decade = 1.0;
+    let every = loop {
+        let round = [1.0, 2.0, 5.0].map(|mantissa| mantissa * decade);
+        if let Some(every) = round.into_iter().find(|every| *every >= least) {
+            break every as usize;
+        }
+        decade *= 10.0;
+    };
+    ((0..=last).step_by(every).collect(), every as f64 * interval)
+}
+
+struct Tracks<'a> {
+    record: &'a RunRecord,
+    view: View,
+    sight: Sight,
+    instants: (Vec<usize>, f64),
+}
+
+impl Tracks<'_> {
+    fn place(&self, frame: usize, sphere: usize) -> (f64, f64) {
+        let snapshot = &self.record.trajectory[frame];
+        let centre = [0, 1, 2].map(|axis| snapshot.position[[sphere, axis]]);
+        self.view.place(snapshot.time, centre)
+    }
+
+    /// Its spin about the line of sight.
+    fn turning(&self, frame: usize, sphere: usize) -> f64 {
+        let spin = &self.record.trajectory[frame].spin;
+        if spin.is_empty() {
+            return 0.0;
+        }
+        self.view
+            .turning([0, 1, 2].map(|axis| spin[[sphere, axis]]))
+    }
+
+    /// Speed of its surface due to that spin (m/s).
+    fn surface_speed(&self, frame: usize, sphere: usize) -> f64 {
+        self.turning(frame, sphere).abs() * self.record.radius[sphere]
+    }
+
+    /// The fastest motion of a centre or of a surface (m/s).
+    fn fastest(&self) -> f64 {
+        let spheres = || 0..self.record.radius.len();
+        let surfaces = [0, self.record.trajectory.len() - 1]
+            .into_iter()
+            .flat_map(|frame| spheres().map(move |sphere| self.surface_speed(frame, sphere)));
+        let centres = self
+            .record
+            .trajectory
+            .iter()
+            .flat_map(|frame| frame.velocity.iter().map(|part| part.abs()));
+        surfaces.chain(centres).fold(0.0, f64::max)
+    }
+
+    fn draw_outline(&self, sheet: &Sheet<'_>, layout: &Layout) -> Drawn {
+        self.sight.outline.iter().try_for_each(|line| {
+            let points: Vec<(i32, i32)> = line.iter().map(|&point| layout.at(point)).collect();
+            sheet.draw(&PathElement::new(points, palette::HATCH.stroke_width(30)))
+        })
+    }
+
+    fn draw_sphere(&self, sheet: &Sheet<'_>, layout: &Layout, sphere: usize) -> Drawn {
+        let color = COLORS[sphere % COLORS.len()];
+        let last = self.record.trajectory.len() - 1;
+        let radius = 1e3 * self.record.radius[sphere];
+        let path = thinned((0..=last).map(|frame| layout.at(self.place(frame, sphere))));
+        if let View::Time { .. } = self.view {
+            let edge = |shift: f64| {
+                move |frame| {
+                    let (time, place) = self.place(frame, sphere);
+                    layout.at((time, place + shift))
+                }
+            };
+            let mut band = thinned((0..=last).map(edge(radius)));
+            band.extend(thinned((0..=last).map(edge(-radius))).into_iter().rev());
+            sheet.draw(&Polygon::new(band, color.mix(0.22)))?;
+            return sheet.draw(&PathElement::new(path, color.stroke_width(STROKE)));
+        }
+        let size = layout.length(radius);
+        for &frame in &self.instants.0 {
+            let centre = layout.at(self.place(frame, sphere));
+            let fill = if frame == 0 { 0.55 } else { 0.08 };
+            sheet.draw(&Circle::new(centre, size, color.mix(fill).filled()))?;
+            sheet.draw(&Circle::new(centre, size, color.mix(0.6).stroke_width(6)))?;
+        }
+        let end = layout.at(self.place(last, sphere));
+        sheet.draw(&Circle::new(end, size, color.stroke_width(STROKE)))?;
+        sheet.draw(&PathElement::new(path, color.stroke_width(STROKE)))?;
+        for frame in [0, last] {
+            if self.surface_speed(frame, sphere) > NOTABLE_SPIN * self.fastest() {
+                let centre = layout.at(self.place(frame, sphere));
+                let counter_clockwise = self.turning(frame, sphere) > 0.0;
+                draw_turn(sheet, centre, 0.6 * f64::from(size), counter_clockwise)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn draw_words(&self, sheet: &Sheet<'_>, layout: &Layout) -> Drawn {
+        let [x, y] = self.view.labels();
+        let [(left, top), (right, bottom)] = layout.panel;
+        let middle = (left + right) / 2;
+        let label = letters(LABEL, HPos::Center, VPos::Top);
+        let mut below = bottom + 2 * TICK + SMALL + px(8);
+        sheet.draw_text(&x, &label, (middle, below))?;
+        let turned = label.transform(FontTransform::Rotate270);
+        sheet.draw_text(&y, &turned, (MARGIN, (top + bottom) / 2))?;
+        for (index, line) in layout.title.iter().enumerate() {
+            let style = letters(TITLE, HPos::Center, VPos::Top);
+            let place = (layout.size.0 / 2, MARGIN + index as i32 * LINE);
+            sheet.draw_text(line, &style, place)?;
+        }
+        below += LABEL + px(9);
+        for line in &layout.caption {
+            let style = letters(SMALL, HPos::Center, VPos::Top);
+            sheet.draw_text(line, &style, (layout.size.0 / 2, below))?;
+            below += LINE;
+        }
+        Ok(())
+    }
+
+    /// What the marks mean.
+    fn caption(&self) -> String {
+        if let View::Time { .. } = self.view {
+            return "bands: from edge to edge of a sphere".to_owned();
+        }
+        let mut caption = "filled: start; bold: end".to_owned();
+        if self.record.radius.len() <= FEW_SPHERES {
+            let every = super::scale::number(1e3 * self.instants.1);
+            caption = format!("circles every {every} ms; {caption}");
+        }
+        let last = self.record.trajectory.len() - 1;
+        let spins = (0..self.record.radius.len())
+            .flat_map(|sphere| [0, last].map(|frame| self.turning(frame, sphere)));
+        if spins.into_iter().any(|spin| spin != 0.0) {
+            caption += "; arrows: spin";
+        }
+        caption
+    }
+}
+
+/// The points of a path that its picture needs: the others lie within a hair of the lines between
+/// them (Douglas and Peucker, 1973).
+fn thinned(points: impl Iterator<Item = (i32, i32)>) -> Vec<(i32, i32)> {
+    const HAIR: f64 = 1.5;
+    let mut points: Vec<(i32, i32)> = points.collect();
+    points.dedup();
+    let mut needed = vec![false; points.len()];
+    let mut spans = vec![(0, points.len() - 1)];
+    while let Some((first, last)) = spans.pop() {
+        (needed[first], needed[last]) = (true, true);
+        let from_line = |&index: &usize| distance(points[index], points[first], points[last]);
+        let farthest = (first + 1..last).max_by(|a, b| from_line(a).total_cmp(&from_line(b)));
+        if let Some(middle) = farthest.filter(|index| from_line(index) > HAIR) {
+            spans.extend([(first, middle), (middle, last)]);
+        }
+    }
+    let mut needed = needed.into_iter();
+    points.retain(|_| needed.next() == Some(true));
+    points
+}
+
+/// Distance of a point from the straight piece between two others.
+fn distance(point: (i32, i32), from: (i32, i32), to: (i32, i32)) -> f64 {
+    let (x, y) = (f64::from(point.0 - from.0), f64::from(point.1 - from.1));
+    let (dx, dy) = (f64::from(to.0 - from.0), f64::from(to.1 - from.1));
+    let squared = dx * dx + dy * dy;
+    let along = if squared > 0.0 {
+        ((x * dx + y * dy) / squared).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    libm::hypot(x - along * dx, y - along * dy)
+}
+
+/// An arrow around a centre, counter-clockwise or clockwise.
+fn draw_turn(sheet: &Sheet<'_>, centre: (i32, i32), radius: f64, counter_clockwise: bool) -> Drawn {
+    const PARTS: i32 = 40;
+    let sense = if counter_clockwise { 1.0 } else { -1.0 };
+    let at = |degrees: f64, radius: f64| {
+        let (sine, cosine) = libm::sincos(degrees.to_radians());
+        // Heights of the canvas grow downward.
+        let offset = ((radius * cosine).round(), (radius * sine).round());
+        (centre.0 + offset.0 as i32, centre.1 - offset.1 as i32)
+    };
+    let (start, turn, head) = (60.0, sense * 250.0, sense * 38.0);
+    let arc: Vec<(i32, i32)> = (0..=PARTS)
+        .map(|part| at(start + turn * f64::from(part) / f64::from(PARTS), radius))
+        .collect();
+    let end = start + turn;
+    let triangle = vec![
+        at(end, 0.68 * radius),
+        at(end + head, radius),
+        at(end, 1.32 * radius),
+    ];
+    sheet.draw(&PathElement::new(arc.clone(), WHITE.stroke_width(30)))?;
+    sheet.draw(&PathElement::new(arc, BLACK.mix(0.8).stroke_width(12)))?;
+    sheet.draw(&Polygon::new(triangle, BLACK.mix(0.8)))
+}
+
+/// Where the parts of the figure go, in units of the canvas.
+struct Layout {
+    size: (i32, i32),
+    panel: style::Corners,
+    ranges: [(f64, f64); 2],
+    scales: [Scale; 2],
+    title: Vec<String>,
+    caption: Vec<String>,
+}
+
+impl Layout {
+    fn new(tracks: &Tracks<'_>) -> Self {
+        let ranges = tracks.sight.ranges;
+        let [across, up] = ranges.map(|(low, high)| high - low);
+        let left = MARGIN + LABEL + px(8) + 2 * TICK + px(34);
+        let room = WIDTH - left - MARGIN - RIGHT;
+        let (width, height) = match tracks.view {
+            View::Time { .. } => (room, OVER_TIME),
+            View::Plane { .. } => {
+                let scale = (f64::from(room) / across).min(f64::from(HEIGHT) / up);
+                ((scale * across) as i32, (scale * up) as i32)
+            }
+        };
+        let whole = |length: i32| (length + px(2) - 1) / px(2) * px(2);
+        let size = whole(left + width + MARGIN + RIGHT);
+        let lines = |words: &str, letters: i32| {
+            let mut lines = text::wrap(words, f64::from(letters), f64::from(size - 2 * MARGIN));
+            lines.retain(|line| !line.is_empty());
+            lines
+        };
+        let title = lines(tracks.record.scene.title.as_deref().unwrap_or(""), TITLE);
+        let caption = lines(&tracks.caption(), SMALL);
+        let top = MARGIN + LINE * title.len() as i32 + px(6);
+        let words = 2 * TICK + SMALL + px(8) + LABEL + px(9) + LINE * caption.len() as i32;
+        let scale = |direction: usize, length: i32, way: Direction| {
+            let room = Room {
+                length: f64::from(length),
+                size: f64::from(SMALL),
+                direction: way,
+            };
+            let (low, high) = ranges[direction];
+            Scale::new(low, high, false, &[], room)
+        };
+        Self {
+            size: (size, whole(top + height + words + MARGIN - px(4))),
+            panel: [(left, top), (left + width, top + height)],
+            ranges,
+            scales: [
+                scale(0, width, Direction::Horizontal),
+                scale(1, height, Direction::Vertical),
+            ],
+            title,
+            caption,
+        }
+    }
+
+    /// Where a place is on the canvas.
+    fn at(&self, (x, y): (f64, f64)) -> (i32, i32) {
+        let [(left, top), (right, bottom)] = self.panel;
+        let [across, up] = [self.scales[0].fraction(x), self.scales[1].fraction(y)];
+        (
+            left + (across * f64::from(right - left)).round() as i32,
+            bottom - (up * f64::from(bottom - top)).round() as i32,
+        )
+    }
+
+    /// A length on the canvas, of a picture to scale.
+    fn length(&self, millimetres: f64) -> i32 {
+        let [(left, _), (right, _)] = self.panel;
+        let (low, high) = self.ranges[0];
+        (millimetres / (high - low) * f64::from(right - left)).round() as i32
+    }
+
+    /// The frame, and the ticks with their numbers.
+    fn draw_frame(&self, sheet: &Sheet<'_>) -> Drawn {
+        style::outline(sheet, self.panel, style::frame())?;
+        let [(left, _), (_, bottom)] = self.panel;
+        for (value, label) in self.scales[0].ticks() {
+            let x = self.at((*value, self.ranges[1].0)).0;
+            sheet.draw(&PathElement::new(
+                [(x, bottom), (x, bottom + TICK)],
+                style::frame(),
+            ))?;
+            let style = letters(SMALL, HPos::Center, VPos::Top);
+            sheet.draw_text(label, &style, (x, bottom + 2 * TICK))?;
+        }
+        for (value, label) in self.scales[1].ticks() {
+            let y = self.at((self.ranges[0].0, *value)).1;
+            sheet.draw(&PathElement::new(
+                [(left - TICK, y), (left, y)],
+                style::frame(),
+            ))?;
+            let style = letters(SMALL, HPos::Right, VPos::Center);
+            sheet.draw_text(label, &style, (left - 2 * TICK, y))?;
+        }
+        Ok(())
+    }
+}
