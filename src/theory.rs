@@ -1,5 +1,6 @@
 //! Closed forms that the simulations are compared with.
 
+use crate::scene::{Drag, Updraught};
 use std::f64::consts::{PI, SQRT_2};
 
 /// Critical angular velocity Omega_c (rad/s) at which the surface of the spheres, taken for that
@@ -24,9 +25,26 @@ pub fn critical_rotation(count: f64, radius: f64, tank_radius: f64, gravity: f64
         * (SQRT_2 / PI * count * radius * radius * radius * gravity).sqrt()
 }
 
+/// Force of the updraught (N) on a resting sphere that none shields: Rice (2012), eq. 24 with n = 0,
+///
+/// F_z = s exp(-beta (z - z0)) (c1 v_z + c2 v_z^2).
+///
+/// * `drag`: where c1 and c2 come from
+/// * `radius`: radius of the sphere (m)
+/// * `height`: height z of its centre (m)
+pub fn unshielded_lift(updraught: &Updraught, drag: &Drag, radius: f64, height: f64) -> f64 {
+    let (linear, quadratic) = drag.coefficients(radius);
+    let speed = updraught.speed;
+    updraught.strength
+        * libm::exp(-updraught.decay * (height - updraught.origin))
+        * (linear + quadratic * speed.abs())
+        * speed
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{DragForm, DragLaw};
 
     #[test]
     fn critical_rotation_of_the_tank() {
@@ -49,5 +67,29 @@ mod tests {
         let paraboloid = PI * omega * omega * libm::pow(tank_radius, 4.0) / (4.0 * gravity);
         let spheres = 4.0 * SQRT_2 * count * libm::pow(radius, 3.0);
         assert!((paraboloid / spheres - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn lift_of_the_theoretical_tank_is_three_weights_at_its_floor() {
+        // M = 100 kg/(m2 s), v_z = 5.88 m/s, r = 4 mm, 3750 kg/m3, g = 9.8 m/s2: the presets are
+        // made so that the lift at z0 is M v_z pi r^2 / (4/3 pi r^3 rho g) = 3 weights.
+        let updraught = Updraught {
+            speed: 5.88,
+            strength: 1.0,
+            decay: 25.0,
+            origin: -0.2,
+            alpha: 0.5,
+            reference_omega: None,
+        };
+        let drag = Drag {
+            linear: 100.0,
+            quadratic: 0.0,
+            law: DragLaw::CrossSection,
+            form: DragForm::Component,
+        };
+        let weight = 3750.0 * 4.0 / 3.0 * PI * 0.004 * 0.004 * 0.004 * 9.8;
+        let lift = |height| unshielded_lift(&updraught, &drag, 0.004, height);
+        assert!((lift(-0.2) / weight - 3.0).abs() < 1e-12);
+        assert!((lift(-0.16) / lift(-0.2) - libm::exp(-1.0)).abs() < 1e-12);
     }
 }

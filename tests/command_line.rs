@@ -333,6 +333,25 @@ fn figures_are_drawn_by_name() {
 }
 
 #[test]
+fn figures_of_single_runs_read_their_records() {
+    let (place, answer) = swept(&TinySweep::default());
+    answer.code(0);
+    let plot = ["plot", "results/tiny", "--figure", "speeds", "--point"];
+    let at = |point: &str| place.phase(&[&plot[..], &[point]].concat());
+    at("omega=4,seed=2").code(0).says("results/tiny/speeds.png");
+    at("omega=5").code(2).complains("`omega` is never 5");
+    at("omega").code(2).complains("`name=value`");
+    place
+        .phase(&["plot", "results/tiny", "--point", "omega=4"])
+        .code(2)
+        .complains("--figure");
+    std::fs::remove_dir_all(place.path("results/tiny/records")).unwrap();
+    at("omega=4,seed=2")
+        .code(1)
+        .complains("the run at omega = 4, seed = 2: cannot read results/tiny/records/");
+}
+
+#[test]
 fn one_scene_is_run_and_stored() {
     let place = Workplace::new();
     place.write("scene.toml", &scene_file());

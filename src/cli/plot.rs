@@ -5,17 +5,19 @@ use super::exit::{Exit, Failure};
 use phase::plot::{self, Svg};
 use phase::record::Program;
 use phase::store;
-use phase::sweep::{Folder, LabelTable, Sweep};
+use phase::sweep::{Folder, LabelTable, Sweep, parse_point};
 use std::path::{Path, PathBuf};
 
-/// Draw the figures of a results folder, as SVG and PNG, from its labels.csv, or the tracks of the
-/// spheres from the record of one run.
+/// Draw the figures of a results folder, as SVG and PNG, from its labels.csv and records, or the
+/// tracks of the spheres from the record of one run.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: what can be drawn, and one of it
   phase plot --list
   phase plot results/quick --figure hole-radius
-The paths of the spheres in one record, which needs `trajectory = true` in its scene
+Example: the speeds in two runs
+  phase plot results/quick --figure speeds --point radius=0.002,omega=8 --point radius=0.006,omega=8
+Example: the paths of the spheres in one record, which needs `trajectory = true` in its scene
   phase plot results/collisions/cradle.h5")]
 pub(crate) struct Arguments {
     /// A results folder of `phase sweep`, a folder that holds several, or a record (.h5).
@@ -25,10 +27,17 @@ pub(crate) struct Arguments {
     /// tracks of a record].
     #[arg(short, long, value_name = "NAME", value_delimiter = ',')]
     figure: Vec<String>,
+    /// A point of the grid, such as `radius=0.003,omega=6`, and if you like `seed=2`, for figures of
+    /// single runs; may be given several times.
+    #[arg(short, long = "point", value_name = "POINT", requires = "figure")]
+    points: Vec<String>,
     /// Print the names of all figures and what they show.
     #[arg(short, long)]
     list: bool,
 }
+
+/// Values by name of an axis.
+type Point = Vec<(String, f64)>;
 
 /// What is drawn if nothing else is asked for.
 const DEFAULT_FIGURES: [&str; 2] = ["phase", "settle-time"];
@@ -38,11 +47,7 @@ const TRACKS: &str = "tracks";
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     if arguments.list {
-        for (name, description) in plot::figures() {
-            console.result(format_args!("{name:<22} {description}"))?;
-        }
-        let description = "paths of the spheres, from the record of one run with its trajectory";
-        console.result(format_args!("{TRACKS:<22} {description}"))?;
+        list(console)?;
     }
     let Some(dir) = &arguments.dir else {
         return Ok(Exit::Done);
@@ -56,12 +61,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             dir.display()
         )));
     }
-    let is_known = |name: &String| plot::figures().iter().any(|(known, _)| known == name);
+    let is_known = |name: &String| plot::figures().iter().any(|known| known.name == name);
     if let Some(name) = arguments.figure.iter().find(|name| !is_known(name)) {
         return Err(Failure::refused(format_args!(
             "there is no figure `{name}`; `phase plot --list` names them all"
         )));
     }
+    let points = arguments.points.iter().map(|point| parse_point(point));
+    let points: Vec<Point> = points.collect::<Result<_, _>>().map_err(Failure::refused)?;
     for folder in Folder::find(dir).map_err(Failure::refused)? {
         let sweep = folder.read_sweep().map_err(Failure::failed)?;
         let path = folder.labels();
@@ -77,7 +84,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             draw_default_figures(&folder, &sweep, &table, console)?;
         }
         for name in &arguments.figure {
-            draw(name, &folder, &sweep, &table, console)?;
+            draw(name, &folder, &sweep, &table, &points, console)?;
         }
     }
     Ok(Exit::Done)
@@ -96,7 +103,22 @@ pub(super) fn draw_default_figures(
     }
     DEFAULT_FIGURES
         .iter()
-        .try_for_each(|name| draw(name, folder, sweep, table, console))
+        .try_for_each(|name| draw(name, folder, sweep, table, &[], console))
+}
+
+/// Prints name and description of every figure.
+fn list(console: &Console) -> Result<(), Failure> {
+    for figure in plot::figures() {
+        console.result(format_args!("{:<22} {}", figure.name, figure.description))?;
+        if let Some(runs) = figure.default_runs {
+            console.result(format_args!(
+                "{:<22} of the runs at --point, or else {runs}",
+                ""
+            ))?;
+        }
+    }
+    let description = "paths of the spheres, from the record of one run with its trajectory";
+    console.result(format_args!("{TRACKS:<22} {description}"))
 }
 
 /// Draws a figure, writes it as SVG and PNG and prints their paths.
@@ -105,9 +127,23 @@ fn draw(
     folder: &Folder,
     sweep: &Sweep,
     table: &LabelTable,
+    points: &[Point],
     console: &Console,
 ) -> Result<(), Failure> {
-    let figure = plot::draw(name, sweep, table, &Program::current()).map_err(Failure::failed)?;
+    let source = plot::Source {
+        sweep,
+        table,
+        record: &|id| store::read_record(&folder.record(id)),
+        points,
+        program: &Program::current(),
+    };
+    let figure = plot::draw(name, &source).map_err(|error| {
+        if error.is_of_request() {
+            Failure::refused(error)
+        } else {
+            Failure::failed(error)
+        }
+    })?;
     write(&figure, |extension| folder.figure(name, extension), console)
 }
 

@@ -5,6 +5,8 @@
 //! PNG, which has [`PNG_SCALE`] of them per CSS pixel: no hairlines between cells, no blur.
 
 use super::text::{FONT, SUBSCRIPT_SIZE, runs};
+use crate::render::Image;
+use base64::Engine;
 use plotters_backend::text_anchor::{HPos, VPos};
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
@@ -20,7 +22,7 @@ pub(super) const UNITS: i32 = 10;
 pub(super) const PNG_SCALE: f32 = 2.5;
 
 /// Units of the canvas per pixel of the PNG.
-const SNAP: i32 = 4;
+pub(super) const SNAP: i32 = 4;
 
 type Drawn = Result<(), DrawingErrorKind<Infallible>>;
 
@@ -248,6 +250,16 @@ pub(super) fn escape(text: &str) -> String {
         }
     }
     escaped
+}
+
+/// A picture as an element, its PNG file in it; one pixel of it is one of the PNG of the figure.
+pub(super) fn picture(image: &Image, (x, y): (i32, i32), file: &[u8]) -> String {
+    let (width, height) = (image.width * SNAP as usize, image.height * SNAP as usize);
+    let data = base64::engine::general_purpose::STANDARD.encode(file);
+    format!(
+        "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
+         href=\"data:image/png;base64,{data}\"/>\n"
+    )
 }
 
 /// The elements as an SVG document of `size` units, `head` before them.

@@ -86,7 +86,7 @@ fn of_scene(key: &str, scene: &Scene) -> Option<f64> {
 }
 
 /// Cube root of the mean of r^3, as eq. 42 sums it.
-fn radius_of_mean_volume(radii: &Radii) -> Option<f64> {
+pub(super) fn radius_of_mean_volume(radii: &Radii) -> Option<f64> {
     let weighted: Vec<(f64, f64)> = match radii {
         Radii::One(radius) => return Some(*radius),
         Radii::Shares(shares) => shares
@@ -137,7 +137,7 @@ fn clipped(points: &[(f64, f64)], low: f64, high: f64) -> Vec<Piece> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Input;
+    use super::super::Source;
     use super::*;
     use crate::classify::{Evidence, Label, OrderParameters, Sieves, Verdict};
     use crate::record::Program;
@@ -190,9 +190,11 @@ mod tests {
             axes: axes.iter().map(|(key, _)| (*key).to_owned()).collect(),
             rows: vec![row],
         };
-        let grid = Grid::new(&Input {
+        let grid = Grid::new(&Source {
             sweep: &sweep,
             table: &table,
+            record: &|id| panic!("the grid read the record {id}"),
+            points: &[],
             program: &Program::current(),
         })
         .unwrap();

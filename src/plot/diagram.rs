@@ -1,23 +1,18 @@
 //! A diagram over the axes of a sweep: coloured cells, small multiples, axes, title, legend.
 
+use super::axes::{Axes, Plot};
 use super::color_bar::ColorBar;
 use super::grid::{Grid, Panel};
 use super::layout::{Layout, TITLE_LINE};
 use super::legend::{Entry, Key};
-use super::scale::Scale;
-use super::style::{self, Drawn, LABEL, SMALL, Sheet, TICK, TITLE, frame, letters, px};
+use super::style::{self, Drawn, LABEL, SMALL, Sheet, TITLE, letters, px};
 use super::svg::Svg;
-use super::{Input, PlotError, canvas, critical};
+use super::{PlotError, Source, canvas, critical};
 use crate::sweep::Point;
-use plotters::chart::{ChartBuilder, LabelAreaPosition};
-use plotters::coord::cartesian::Cartesian2d;
-use plotters::drawing::{DrawingArea, IntoDrawingArea};
+use plotters::drawing::IntoDrawingArea;
 use plotters::element::PathElement;
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{BLACK, Color, FontTransform, RGBColor, TextStyle};
-
-/// A panel with its coordinates.
-type Plot<'a> = DrawingArea<canvas::Canvas<'a>, Cartesian2d<Scale, Scale>>;
 
 /// How a cell looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,8 +38,8 @@ pub(super) struct Diagram<'a> {
 
 impl Diagram<'_> {
     /// Draws it.
-    pub(super) fn draw(&self, input: &Input<'_>) -> Result<Svg, PlotError> {
-        let scene = &input.sweep.scene;
+    pub(super) fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
+        let scene = &source.sweep.scene;
         let curves: Vec<Vec<critical::Piece>> = self
             .grid
             .panels
@@ -52,7 +47,7 @@ impl Diagram<'_> {
             .map(|panel| critical::curve(scene, self.grid, panel))
             .collect();
         let entries = self.entries(curves.iter().any(|curve| !curve.is_empty()));
-        let title = input.sweep.title.as_deref();
+        let title = source.sweep.title.as_deref();
         let layout = Layout::new(title, self.grid, self.bar.clone(), entries);
         let size = (layout.size.0 as u32, layout.size.1 as u32);
         let mut body = String::new();
@@ -68,7 +63,7 @@ impl Diagram<'_> {
                 bar.draw(&sheet, *corner, *height)?;
             }
         }
-        Ok(Svg::new(self.name, input, size, &body))
+        Ok(Svg::new(self.name, source, size, &body))
     }
 
     fn looks(&self, panel: &Panel) -> Vec<Option<Look>> {
@@ -103,22 +98,19 @@ impl Diagram<'_> {
         curves: &[critical::Piece],
     ) -> Drawn {
         let (left, top) = layout.corner(index);
-        let (width, height) = layout.panel;
         let (first, last) = layout.outer(index);
         let ticks = (
             if first { layout.ticks.0 } else { 0 },
             if last { layout.ticks.1 } else { 0 },
         );
-        let place = (left - ticks.0, top);
-        let area = sheet
-            .clone()
-            .shrink(place, (width + ticks.0, height + ticks.1));
-        let mut chart = ChartBuilder::on(&area)
-            .set_label_area_size(LabelAreaPosition::Left, ticks.0)
-            .set_label_area_size(LabelAreaPosition::Bottom, ticks.1)
-            .build_cartesian_2d(layout.scales.0.clone(), layout.scales.1.clone())?;
-
-        let plot = chart.plotting_area();
+        let axes = Axes::new(
+            sheet,
+            (left, top),
+            layout.panel,
+            ticks,
+            layout.scales.clone(),
+        )?;
+        let plot = axes.plot();
         let looks = self.looks(panel);
         self.draw_cells(sheet, plot, &looks)?;
         self.draw_borders(sheet, plot, &looks)?;
@@ -129,16 +121,7 @@ impl Diagram<'_> {
                 .collect();
             style::curve(sheet, &pixels)?;
         }
-        style::outline(sheet, [(left, top), (left + width, top + height)], frame())?;
-
-        chart
-            .configure_mesh()
-            .disable_mesh()
-            .axis_style(frame())
-            .label_style(letters(SMALL, HPos::Center, VPos::Center))
-            .set_tick_mark_size(LabelAreaPosition::Left, TICK)
-            .set_tick_mark_size(LabelAreaPosition::Bottom, TICK)
-            .draw()
+        axes.draw()
     }
 
     /// Edges of the cells on the canvas, horizontally and vertically.

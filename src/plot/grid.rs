@@ -1,6 +1,6 @@
 //! The grid of a figure: which axes it shows where, and the point in every cell.
 
-use super::{Input, PlotError};
+use super::{PlotError, Source};
 use crate::notation::notation;
 use crate::sweep::{Axis, LabelTable, Point, Sweep};
 
@@ -150,8 +150,8 @@ pub(super) struct Grid {
 
 impl Grid {
     /// Chooses the axes as the sweep's plot settings say and sorts the table into cells.
-    pub(super) fn new(input: &Input<'_>) -> Result<Self, PlotError> {
-        let (sweep, table) = (input.sweep, input.table);
+    pub(super) fn new(source: &Source<'_>) -> Result<Self, PlotError> {
+        let (sweep, table) = (source.sweep, source.table);
         check(sweep, table)?;
         let places = places(sweep)?;
         let axis = |place: usize| places[place].map(|index| GridAxis::new(index, sweep, table));
@@ -204,7 +204,7 @@ impl Grid {
     }
 }
 
-fn check(sweep: &Sweep, table: &LabelTable) -> Result<(), PlotError> {
+pub(super) fn check(sweep: &Sweep, table: &LabelTable) -> Result<(), PlotError> {
     let names: Vec<&str> = sweep.axes.iter().map(|axis| axis.name.as_str()).collect();
     if names != table.axes {
         return Err(PlotError::OtherAxes {
@@ -226,7 +226,7 @@ fn check(sweep: &Sweep, table: &LabelTable) -> Result<(), PlotError> {
 
 /// Indices of the axes shown as x, y, columns and rows: those that the settings name, then the
 /// others in order.
-fn places(sweep: &Sweep) -> Result<[Option<usize>; 4], PlotError> {
+pub(super) fn places(sweep: &Sweep) -> Result<[Option<usize>; 4], PlotError> {
     let settings = &sweep.plot;
     let named = [&settings.x, &settings.y, &settings.panels];
     let mut places = [None; 4];

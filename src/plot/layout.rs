@@ -10,7 +10,7 @@ use super::text;
 /// Room between panels.
 const GAP: i32 = px(18);
 /// Height of the head of a panel.
-const HEAD: i32 = px(20);
+pub(super) const HEAD: i32 = px(20);
 /// Room of the head of a row of panels.
 const SIDE_HEAD: i32 = px(26);
 /// Room between panels and what stands beside them.
@@ -26,7 +26,7 @@ const STRIP_WITH_BAR: i32 = px(120);
 /// Greatest height of the colour bar.
 const LONGEST_BAR: i32 = px(480);
 /// Room of tick labels below a panel.
-const TICKS_BELOW: i32 = 2 * TICK + SMALL + px(2);
+pub(super) const TICKS_BELOW: i32 = 2 * TICK + SMALL + px(2);
 
 /// Where the parts of a diagram go, in units of the canvas.
 pub(super) struct Layout {
@@ -141,12 +141,12 @@ impl Layout {
 }
 
 /// The length, made an even number of CSS pixels: a whole number of pixels of the PNG.
-fn whole(length: i32) -> i32 {
+pub(super) fn whole(length: i32) -> i32 {
     (length + px(2) - 1) / px(2) * px(2)
 }
 
 /// Lines of the title, none without one.
-fn title_lines(title: Option<&str>) -> Vec<String> {
+pub(super) fn title_lines(title: Option<&str>) -> Vec<String> {
     let title = title.unwrap_or_default();
     let mut lines = text::wrap(title, f64::from(TITLE), f64::from(WIDTH - 2 * MARGIN));
     lines.retain(|line| !line.is_empty());
@@ -154,7 +154,7 @@ fn title_lines(title: Option<&str>) -> Vec<String> {
 }
 
 /// Lower end of the title.
-fn title_height(lines: &[String]) -> i32 {
+pub(super) fn title_height(lines: &[String]) -> i32 {
     let below = if lines.is_empty() { 0 } else { px(8) };
     MARGIN + TITLE_LINE * lines.len() as i32 + below
 }

@@ -23,6 +23,8 @@ pub(super) enum Key {
     Hatch,
     /// The curve of a theory.
     Curve,
+    /// A line of a chart.
+    Line(RGBColor),
 }
 
 /// An entry of a legend.
@@ -96,6 +98,7 @@ fn draw_key(sheet: &Sheet<'_>, key: Key, (left, middle): (i32, i32)) -> Drawn {
             }
         }
         Key::Curve => return style::curve(sheet, &[(left, middle), (right, middle)]),
+        Key::Line(color) => return style::line(sheet, &[(left, middle), (right, middle)], color),
     }
     style::outline(sheet, corners, BLACK.mix(0.6).stroke_width(4))
 }

@@ -5,7 +5,7 @@ use super::color_bar::ColorBar;
 use super::diagram::{Diagram, Look};
 use super::grid::Grid;
 use super::svg::Svg;
-use super::{Figure, Input, PlotError};
+use super::{Figure, PlotError, Source};
 use crate::classify::Verdict;
 use crate::sweep::Point;
 
@@ -71,8 +71,11 @@ const fn signed(
 
 impl Map {
     /// Mean over the seeds of a point that have a value. One that is not a number is none.
-    fn mean(&self, input: &Input<'_>, point: &Point) -> Option<f64> {
-        let verdicts = point.rows.iter().map(|&row| &input.table.rows[row].verdict);
+    fn mean(&self, source: &Source<'_>, point: &Point) -> Option<f64> {
+        let verdicts = point
+            .rows
+            .iter()
+            .map(|&row| &source.table.rows[row].verdict);
         let values: Vec<f64> = verdicts
             .filter_map(self.value)
             .filter(|value| value.is_finite())
@@ -95,13 +98,13 @@ impl Figure for Map {
         format!("map: {}{unit}", super::text::plain(self.quantity))
     }
 
-    fn draw(&self, input: &Input<'_>) -> Result<Svg, PlotError> {
-        let grid = Grid::new(input)?;
+    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
+        let grid = Grid::new(source)?;
         let points = grid
             .panels
             .iter()
             .flat_map(|panel| panel.cells.iter().flatten());
-        let values = points.filter_map(|point| self.mean(input, point));
+        let values = points.filter_map(|point| self.mean(source, point));
         let label = if self.unit.is_empty() {
             self.quantity.to_owned()
         } else {
@@ -112,7 +115,7 @@ impl Figure for Map {
             name: self.name,
             grid: &grid,
             look: &|point| {
-                self.mean(input, point).map(|value| Look {
+                self.mean(source, point).map(|value| Look {
                     color: bar.color(value),
                     group: 0,
                 })
@@ -121,7 +124,7 @@ impl Figure for Map {
             legend: Vec::new(),
             bar: Some(bar.clone()),
         }
-        .draw(input)
+        .draw(source)
     }
 }
 

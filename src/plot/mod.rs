@@ -3,19 +3,29 @@
 //! A figure is drawn with plotters on a canvas that writes SVG; resvg makes the PNG of it,
 //! with a font that is part of the program. The same input gives the same bytes.
 //!
+//! Figures read tables and records (a [`Source`]), never simulations.
+//!
 //! To add a figure: a file with an implementation of `Figure`, and a line in `all`.
 
+mod axes;
 mod canvas;
+mod chart;
+mod choice;
 mod color_bar;
 mod critical;
+mod critical_rotation;
 mod diagram;
+mod energies;
 mod grid;
 mod layout;
 mod legend;
 mod map;
+mod net_force;
 mod palette;
 mod phase;
 mod scale;
+mod speeds;
+mod states;
 mod style;
 mod svg;
 mod text;
@@ -24,16 +34,25 @@ mod tracks;
 pub use svg::Svg;
 pub use tracks::draw as draw_tracks;
 
-use crate::record::Program;
-use crate::sweep::{LabelTable, Sweep};
+use crate::record::{Program, RunRecord};
+use crate::store::StoreError;
+use crate::sweep::{LabelTable, SelectError, Sweep};
 use plotters::drawing::DrawingAreaErrorKind;
 use std::convert::Infallible;
 
-/// What figures are drawn from.
-struct Input<'a> {
-    sweep: &'a Sweep,
-    table: &'a LabelTable,
-    program: &'a Program,
+/// What figures are drawn from: tables and records, never simulations.
+pub struct Source<'a> {
+    /// The sweep.
+    pub sweep: &'a Sweep,
+    /// Labels of its runs.
+    pub table: &'a LabelTable,
+    /// Fetches the record of a run by its identity.
+    pub record: &'a dyn Fn(&str) -> Result<RunRecord, StoreError>,
+    /// Points to show in figures of single runs: values by name of an axis, and `seed`. None for
+    /// the choice of the figure.
+    pub points: &'a [Vec<(String, f64)>],
+    /// What goes into the file's metadata.
+    pub program: &'a Program,
 }
 
 /// A figure.
@@ -44,40 +63,64 @@ trait Figure: Sync {
     /// What it shows, in one line.
     fn description(&self) -> String;
 
+    /// Which runs it shows if no points are asked for; none for a figure that is not of single
+    /// runs.
+    fn default_runs(&self) -> Option<&'static str> {
+        None
+    }
+
     /// Draws it.
-    fn draw(&self, input: &Input<'_>) -> Result<Svg, PlotError>;
+    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError>;
 }
 
 /// All figures.
 fn all() -> Vec<&'static dyn Figure> {
-    let mut figures: Vec<&dyn Figure> = vec![&phase::PhaseDiagram];
+    let mut figures: Vec<&dyn Figure> = vec![
+        &phase::PhaseDiagram,
+        &states::States,
+        &speeds::Speeds,
+        &energies::ENERGIES,
+        &energies::STATE_ENERGIES,
+        &critical_rotation::CriticalRotation,
+        &net_force::NetForce,
+    ];
     figures.extend(map::MAPS.iter().map(|map| map as &dyn Figure));
     figures
 }
 
-/// Name and one line of description of every figure.
-pub fn figures() -> Vec<(&'static str, String)> {
+/// What is known of a figure without drawing it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct About {
+    /// Name, as on the command line and in file names.
+    pub name: &'static str,
+    /// What it shows, in one line.
+    pub description: String,
+    /// Which runs it shows if no points are asked for; none for a figure that is not of single
+    /// runs.
+    pub default_runs: Option<&'static str>,
+}
+
+/// All figures.
+pub fn figures() -> Vec<About> {
     let figures = all().into_iter();
     figures
-        .map(|figure| (figure.name(), figure.description()))
+        .map(|figure| About {
+            name: figure.name(),
+            description: figure.description(),
+            default_runs: figure.default_runs(),
+        })
         .collect()
 }
 
-/// Draws the figure `name` of a sweep's labels, with the axes that the sweep's plot settings
-/// choose; `program` goes into the file's metadata.
+/// Draws the figure `name`, with the axes that the sweep's plot settings choose.
 ///
 /// The table may be incomplete: cells without a row are marked.
 ///
 /// # Errors
 ///
-/// [`PlotError`] for a figure or an axis that does not exist, for a table that is empty or not of
-/// this sweep.
-pub fn draw(
-    name: &str,
-    sweep: &Sweep,
-    table: &LabelTable,
-    program: &Program,
-) -> Result<Svg, PlotError> {
+/// [`PlotError`] for a figure, an axis or a point that does not exist, for a table that is empty or
+/// not of this sweep, for a record that cannot be read.
+pub fn draw(name: &str, source: &Source<'_>) -> Result<Svg, PlotError> {
     let figures = all();
     let Some(figure) = figures.iter().find(|figure| figure.name() == name) else {
         let known: Vec<&str> = figures.iter().map(|figure| figure.name()).collect();
@@ -86,11 +129,10 @@ pub fn draw(
             known: known.join(", "),
         });
     };
-    figure.draw(&Input {
-        sweep,
-        table,
-        program,
-    })
+    if figure.default_runs().is_none() && !source.points.is_empty() {
+        return Err(PlotError::NoPoints(figure.name()));
+    }
+    figure.draw(source)
 }
 
 /// Why a figure cannot be drawn.
@@ -124,6 +166,47 @@ pub enum PlotError {
     /// There are more axes than places.
     #[error("a figure shows at most four axes: x, y, and two of small multiples")]
     TooManyAxes,
+    /// Points are asked for in a figure of all of them.
+    #[error("the figure `{0}` shows no single runs, so it takes no points")]
+    NoPoints(&'static str),
+    /// The sweep has no such point.
+    #[error(transparent)]
+    Select(#[from] SelectError),
+    /// A point asked for is more than one.
+    #[error("the point {point} leaves the axis `{name}` open; it takes {values}")]
+    OpenAxis {
+        /// The point.
+        point: String,
+        /// The axis.
+        name: String,
+        /// Its values.
+        values: String,
+    },
+    /// No run at a point has a label.
+    #[error(
+        "no run at {point} is in the table of labels; run `phase sweep` again to complete it, or \
+         choose another point or seed"
+    )]
+    NoRun {
+        /// The point.
+        point: String,
+    },
+    /// The record of a run cannot be used.
+    #[error("the run at {point}: {source}")]
+    Record {
+        /// The point.
+        point: String,
+        /// What is wrong with the record.
+        source: StoreError,
+    },
+    /// The scene lacks what a figure shows.
+    #[error("the figure `{figure}` needs a scene with {needs}")]
+    Scene {
+        /// The figure.
+        figure: &'static str,
+        /// What the scene lacks.
+        needs: &'static str,
+    },
     /// There is nothing to draw.
     #[error("the table of labels is empty: no run of this sweep has been classified yet")]
     EmptyTable,
@@ -153,6 +236,21 @@ pub enum PlotError {
     /// The PNG could not be made of the SVG.
     #[error("cannot make the PNG: {0}")]
     Png(String),
+}
+
+impl PlotError {
+    /// Whether the request is at fault: a figure, point or effect that does not exist here.
+    pub fn is_of_request(&self) -> bool {
+        matches!(
+            self,
+            Self::UnknownFigure { .. }
+                | Self::NoPoints(_)
+                | Self::Select(_)
+                | Self::OpenAxis { .. }
+                | Self::NoRun { .. }
+                | Self::Scene { .. }
+        )
+    }
 }
 
 impl From<DrawingAreaErrorKind<Infallible>> for PlotError {

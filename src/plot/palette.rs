@@ -20,6 +20,17 @@ pub(super) fn state(label: Label) -> RGBColor {
     }
 }
 
+/// Colours of lines, up to four in a panel, from dark to light.
+pub(super) const LINES: [RGBColor; 4] = [
+    rgb(0x3a_14_57),
+    rgb(0xb0_3a_2e),
+    rgb(0x2a_86_c8),
+    rgb(0xe8_a8_2c),
+];
+
+/// Lines that help the eye.
+pub(super) const GUIDE: RGBColor = RGBColor(0xb4, 0xb4, 0xb4);
+
 /// Ground of cells without a value; their hatch is [`HATCH`].
 pub(super) const EMPTY: RGBColor = RGBColor(0xf4, 0xf4, 0xf4);
 
@@ -36,6 +47,11 @@ pub(super) fn faded(color: RGBColor, agreement: f64) -> RGBColor {
         RGBColor(255, 255, 255),
         LARGEST_FADE * (1.0 - agreement),
     )
+}
+
+/// A colour with that share of white.
+pub(super) fn lightened(color: RGBColor, share: f64) -> RGBColor {
+    mix(color, RGBColor(255, 255, 255), share)
 }
 
 /// Colour at `fraction` of a map, 0 to 1.
@@ -161,6 +177,21 @@ mod tests {
         order.rotate_left(1);
         for pair in order.windows(2) {
             let step = lightness(state(pair[0])) - lightness(state(pair[1]));
+            assert!(step >= LEAST_STEP, "{pair:?}: {step:.1}");
+        }
+    }
+
+    #[test]
+    fn lines_stay_apart_for_every_vision_and_in_grey() {
+        for (name, vision) in &VISIONS {
+            for pair in LINES.windows(2) {
+                let (a, b) = (lab(pair[0], vision), lab(pair[1], vision));
+                let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
+                assert!(square.sqrt() >= LEAST_DISTANCE, "{name}: {pair:?}");
+            }
+        }
+        for pair in LINES.windows(2) {
+            let step = lightness(pair[1]) - lightness(pair[0]);
             assert!(step >= LEAST_STEP, "{pair:?}: {step:.1}");
         }
     }

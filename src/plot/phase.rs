@@ -4,7 +4,7 @@ use super::diagram::{Diagram, Look};
 use super::grid::Grid;
 use super::legend::{Entry, Key};
 use super::svg::Svg;
-use super::{Figure, Input, PlotError, palette};
+use super::{Figure, PlotError, Source, palette};
 use crate::classify::Label;
 use crate::sweep::Point;
 
@@ -20,8 +20,8 @@ impl Figure for PhaseDiagram {
         "phase diagram: the majority label at every point, paler where seeds disagree".to_owned()
     }
 
-    fn draw(&self, input: &Input<'_>) -> Result<Svg, PlotError> {
-        let grid = Grid::new(input)?;
+    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
+        let grid = Grid::new(source)?;
         let points: Vec<&Point> = grid
             .panels
             .iter()
@@ -55,6 +55,6 @@ impl Figure for PhaseDiagram {
             legend,
             bar: None,
         }
-        .draw(input)
+        .draw(source)
     }
 }

@@ -92,3 +92,13 @@ pub(super) fn curve(sheet: &Sheet<'_>, points: &[(i32, i32)]) -> Drawn {
     sheet.draw(&PathElement::new(points, WHITE.stroke_width(44)))?;
     sheet.draw(&PathElement::new(points, BLACK.stroke_width(20)))
 }
+
+/// Draws a line of a chart.
+pub(super) fn line(sheet: &Sheet<'_>, points: &[(i32, i32)], color: RGBColor) -> Drawn {
+    sheet.draw(&PathElement::new(points, color.stroke_width(15)))
+}
+
+/// Draws a straight line that helps the eye.
+pub(super) fn guide(sheet: &Sheet<'_>, ends: [(i32, i32); 2]) -> Drawn {
+    sheet.draw(&PathElement::new(ends, palette::GUIDE.stroke_width(8)))
+}

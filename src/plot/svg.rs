@@ -1,8 +1,9 @@
 //! A finished figure: its SVG, its PNG, and where it comes from.
 
-use super::canvas::{self, PNG_SCALE, escape};
-use super::{Input, PlotError, text};
+use super::canvas::{self, PNG_SCALE, UNITS, escape};
+use super::{PlotError, Source, text};
 use crate::record::RunRecord;
+use crate::render::Image;
 use resvg::{tiny_skia, usvg};
 use std::sync::Arc;
 
@@ -15,20 +16,29 @@ pub struct Svg {
     document: String,
     /// Keys and values for the file's metadata.
     metadata: Vec<(&'static str, String)>,
+    /// Pictures over everything else.
+    pictures: Vec<Placed>,
+}
+
+/// A picture, and its upper left corner in units of the canvas. Its pixels are those of the PNG.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Placed {
+    pub(super) image: Image,
+    pub(super) corner: (i32, i32),
 }
 
 impl Svg {
     /// The figure whose elements are `body`, on a canvas of `size` units.
-    pub(super) fn new(figure: &str, input: &Input<'_>, size: (u32, u32), body: &str) -> Self {
-        let program = input.program;
+    pub(super) fn new(figure: &str, source: &Source<'_>, size: (u32, u32), body: &str) -> Self {
+        let program = source.program;
         let metadata = vec![
-            ("Title", input.sweep.title.clone().unwrap_or_default()),
+            ("Title", source.sweep.title.clone().unwrap_or_default()),
             ("Software", format!("phase {}", program.version)),
             ("Commit", program.commit.clone()),
             ("Figure", figure.to_owned()),
             (
                 "Seeds",
-                ranges(input.table.rows.iter().map(|row| row.seed).collect()),
+                ranges(source.table.rows.iter().map(|row| row.seed).collect()),
             ),
         ];
         Self::with_metadata(metadata, size, body)
@@ -66,7 +76,23 @@ impl Svg {
         Self {
             document: canvas::document(size, &head, body),
             metadata,
+            pictures: Vec::new(),
         }
+    }
+
+    /// The figure with pictures over it.
+    pub(super) fn with_pictures(mut self, pictures: Vec<Placed>) -> Result<Self, PlotError> {
+        let mut elements = String::new();
+        for picture in &pictures {
+            let file = picture.image.to_png(&[]);
+            let file = file.map_err(|error| PlotError::Png(error.to_string()))?;
+            elements.push_str(&canvas::picture(&picture.image, picture.corner, &file));
+        }
+        if let Some(end) = self.document.rfind("</svg>") {
+            self.document.insert_str(end, &elements);
+        }
+        self.pictures = pictures;
+        Ok(self)
     }
 
     /// The SVG file. Its text is text; where the font is missing a browser takes another sans
@@ -102,6 +128,10 @@ impl Svg {
             tiny_skia::Transform::from_scale(scale, scale),
             &mut pixels.as_mut(),
         );
+        // usvg is built without formats of pictures, so they are not in its tree.
+        for picture in &self.pictures {
+            paste(picture, &mut pixels, scale).ok_or_else(|| failed(&"an empty picture"))?;
+        }
         self.encode(&pixels, scale).map_err(|e| failed(&e))
     }
 
@@ -141,6 +171,36 @@ impl Svg {
         writer.finish()?;
         Ok(file)
     }
+}
+
+/// Puts a picture where it belongs in a figure of `scale` pixels per CSS pixel; `None` if it is
+/// empty.
+fn paste(picture: &Placed, pixels: &mut tiny_skia::Pixmap, scale: f32) -> Option<()> {
+    let Image {
+        width,
+        height,
+        rgba,
+    } = &picture.image;
+    let size =
+        tiny_skia::IntSize::from_wh(u32::try_from(*width).ok()?, u32::try_from(*height).ok()?)?;
+    // Pictures are opaque, so their colours are premultiplied already.
+    let image = tiny_skia::Pixmap::from_vec(rgba.clone(), size)?;
+    let place = |units: i32| units as f32 / UNITS as f32 * scale;
+    let shrink = scale / PNG_SCALE;
+    let transform = tiny_skia::Transform::from_row(
+        shrink,
+        0.0,
+        0.0,
+        shrink,
+        place(picture.corner.0),
+        place(picture.corner.1),
+    );
+    let paint = tiny_skia::PixmapPaint {
+        quality: tiny_skia::FilterQuality::Bilinear,
+        ..tiny_skia::PixmapPaint::default()
+    };
+    pixels.draw_pixmap(0, 0, image.as_ref(), &paint, transform, None);
+    Some(())
 }
 
 /// Seeds in order, runs of neighbours drawn together: `1-3, 7`.

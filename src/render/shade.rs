@@ -29,7 +29,7 @@ const LAMP: f64 = 0.66;
 /// Share of the lamp's light that is mirrored.
 const GLOSS: f64 = 0.18;
 /// How much of their colour the farthest things lose to the paper.
-const HAZE: f64 = 0.35;
+const HAZE: f64 = 0.28;
 const FLOOR: Rgb = [232, 234, 238];
 const GLASS: Rgb = [246, 247, 249];
 const OUTLINE: Rgb = [88, 92, 100];
@@ -68,6 +68,7 @@ pub(super) fn render(
         half: unit(light + camera.viewer),
         depths: depths(spheres, camera),
         reach: largest,
+        places: (0..SAMPLES * SAMPLES).map(places_around).collect(),
         view: &view,
     };
     let mut samples: Vec<[f32; 3]> = Vec::with_capacity(view.rays.width * view.rays.height);
@@ -94,6 +95,8 @@ struct Shader<'a> {
     depths: [f64; 2],
     /// How far neighbours darken a place (m).
     reach: f64,
+    /// Where each ray of a pixel looks for neighbours, over that reach.
+    places: Vec<Vec<[f64; 2]>>,
 }
 
 impl Shader<'_> {
@@ -154,23 +157,10 @@ impl Shader<'_> {
 
     /// Share of the light from everywhere that nearer neighbours in the view hide.
     fn occlusion(&self, column: usize, row: usize, (depth, hit): (f64, Hit)) -> f64 {
-        /// Places around, over the reach: twelve directions, near and far in turn.
-        const AROUND: [[f64; 2]; 12] = [
-            [1.0, 0.0],
-            [0.43, 0.25],
-            [0.5, 0.87],
-            [0.0, 0.5],
-            [-0.5, 0.87],
-            [-0.43, 0.25],
-            [-1.0, 0.0],
-            [-0.43, -0.25],
-            [-0.5, -0.87],
-            [0.0, -0.5],
-            [0.5, -0.87],
-            [0.43, -0.25],
-        ];
         let reach = self.reach * self.view.rays.scale;
-        let hidden: f64 = AROUND
+        // The rays of a pixel look at different places, so that their mean is smooth.
+        let places = &self.places[column % SAMPLES + SAMPLES * (row % SAMPLES)];
+        let hidden: f64 = places
             .iter()
             .filter_map(|[across, down]| {
                 let column = column as f64 + 0.5 + across * reach;
@@ -184,7 +174,7 @@ impl Shader<'_> {
                 Some(rise.clamp(0.0, 1.0) * (2.0 - 0.25 * rise).clamp(0.0, 1.0))
             })
             .sum();
-        (1.3 * hidden / AROUND.len() as f64).min(0.85)
+        (1.3 * hidden / places.len() as f64).min(0.85)
     }
 
     /// What is behind everything: the inside of the tank, or paper.
@@ -208,6 +198,22 @@ impl Shader<'_> {
         };
         if inside { GLASS } else { PAPER }
     }
+}
+
+/// Places in the unit disc, in twelve directions and at twelve distances, turned from ray to ray.
+fn places_around(ray: usize) -> Vec<[f64; 2]> {
+    const DIRECTIONS: usize = 12;
+    let rays = (SAMPLES * SAMPLES) as f64;
+    (0..DIRECTIONS)
+        .map(|index| {
+            let turn = (index as f64 + ray as f64 / rays) / DIRECTIONS as f64;
+            let (sine, cosine) = libm::sincos(std::f64::consts::TAU * turn);
+            // Every distance once, in an order that differs between rays; evenly over the area.
+            let ring = (7 * index + 5 * ray) % DIRECTIONS;
+            let distance = ((ring as f64 + 0.5) / DIRECTIONS as f64).sqrt();
+            [distance * cosine, distance * sine]
+        })
+        .collect()
 }
 
 /// What the light meets first.

@@ -1,0 +1,63 @@
+//! The frame of a panel with the ticks of its scales.
+
+use super::canvas::Canvas;
+use super::scale::Scale;
+use super::style::{self, Drawn, SMALL, Sheet, TICK, frame, letters};
+use plotters::chart::{ChartBuilder, ChartContext, LabelAreaPosition};
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::drawing::{DrawingArea, DrawingAreaErrorKind};
+use plotters::style::text_anchor::{HPos, VPos};
+use std::convert::Infallible;
+
+/// A panel with its coordinates.
+pub(super) type Plot<'a> = DrawingArea<Canvas<'a>, Cartesian2d<Scale, Scale>>;
+
+/// The frame of a panel with the ticks of its scales.
+pub(super) struct Axes<'s, 'c> {
+    sheet: &'s Sheet<'c>,
+    chart: ChartContext<'s, Canvas<'c>, Cartesian2d<Scale, Scale>>,
+    corners: style::Corners,
+}
+
+impl<'s, 'c> Axes<'s, 'c> {
+    /// A panel with its upper left corner at `corner`, `ticks` being the room for tick labels left
+    /// of it and below; none where that is zero.
+    pub(super) fn new(
+        sheet: &'s Sheet<'c>,
+        (left, top): (i32, i32),
+        (width, height): (i32, i32),
+        ticks: (i32, i32),
+        scales: (Scale, Scale),
+    ) -> Result<Self, DrawingAreaErrorKind<Infallible>> {
+        let area = sheet
+            .clone()
+            .shrink((left - ticks.0, top), (width + ticks.0, height + ticks.1));
+        let chart = ChartBuilder::on(&area)
+            .set_label_area_size(LabelAreaPosition::Left, ticks.0)
+            .set_label_area_size(LabelAreaPosition::Bottom, ticks.1)
+            .build_cartesian_2d(scales.0, scales.1)?;
+        Ok(Self {
+            sheet,
+            chart,
+            corners: [(left, top), (left + width, top + height)],
+        })
+    }
+
+    /// The inside of the frame, to draw on before the frame is drawn.
+    pub(super) fn plot(&self) -> &Plot<'c> {
+        self.chart.plotting_area()
+    }
+
+    /// Draws frame and ticks.
+    pub(super) fn draw(mut self) -> Drawn {
+        style::outline(self.sheet, self.corners, frame())?;
+        self.chart
+            .configure_mesh()
+            .disable_mesh()
+            .axis_style(frame())
+            .label_style(letters(SMALL, HPos::Center, VPos::Center))
+            .set_tick_mark_size(LabelAreaPosition::Left, TICK)
+            .set_tick_mark_size(LabelAreaPosition::Bottom, TICK)
+            .draw()
+    }
+}

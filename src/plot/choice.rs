@@ -1,0 +1,214 @@
+//! Which runs a figure of single runs shows.
+
+use super::{PlotError, Source, grid};
+use crate::classify::Label;
+use crate::notation::notation;
+use crate::record::RunRecord;
+use crate::sweep::{LabelRow, Point};
+
+/// A run of the table of labels, chosen to be shown.
+#[derive(Clone, Copy)]
+pub(super) struct Run<'a> {
+    source: &'a Source<'a>,
+    pub(super) row: &'a LabelRow,
+}
+
+/// The name that stands for the seed in a point.
+const SEED: &str = "seed";
+
+/// The runs at the points asked for, or else those of `choice`, as indices of rows.
+pub(super) fn runs<'a>(
+    source: &'a Source<'a>,
+    choice: impl FnOnce(&Source<'_>) -> Result<Vec<usize>, PlotError>,
+) -> Result<Vec<Run<'a>>, PlotError> {
+    grid::check(source.sweep, source.table)?;
+    let rows = if source.points.is_empty() {
+        choice(source)?
+    } else {
+        let points = source.points.iter();
+        points
+            .map(|point| row_at(source, point))
+            .collect::<Result<_, _>>()?
+    };
+    let run = |row: usize| Run {
+        source,
+        row: &source.table.rows[row],
+    };
+    Ok(rows.into_iter().map(run).collect())
+}
+
+/// The row at a point: of the seed it names, or the first.
+fn row_at(source: &Source<'_>, point: &[(String, f64)]) -> Result<usize, PlotError> {
+    let (seeds, values): (Vec<_>, Vec<_>) = point.iter().cloned().partition(|(n, _)| n == SEED);
+    let chosen = source.sweep.select(&values)?;
+    let written: Vec<String> = point.iter().map(|(n, v)| format!("{n} = {v}")).collect();
+    let written = written.join(", ");
+    if let Some(open) = chosen.axes.iter().find(|axis| axis.values.len() > 1) {
+        let known: Vec<String> = open.values.iter().map(f64::to_string).collect();
+        return Err(PlotError::OpenAxis {
+            point: written,
+            name: open.name.clone(),
+            values: known.join(", "),
+        });
+    }
+    let place: Vec<f64> = chosen.axes.iter().map(|axis| axis.values[0]).collect();
+    let is_there = |row: &LabelRow| {
+        row.values == place && seeds.iter().all(|(_, seed)| row.seed as f64 == *seed)
+    };
+    let found = source.table.rows.iter().position(is_there);
+    found.ok_or(PlotError::NoRun { point: written })
+}
+
+/// The first run at both ends of the horizontal axis with the least value other than zero, the
+/// middle one and the largest of the vertical axis; at the first value of every other axis.
+pub(super) fn corners(source: &Source<'_>) -> Result<Vec<usize>, PlotError> {
+    let table = source.table;
+    let [x, y, ..] = grid::places(source.sweep)?;
+    let values = |axis: usize| {
+        let mut values: Vec<f64> = table.rows.iter().map(|row| row.values[axis]).collect();
+        values.sort_by(f64::total_cmp);
+        values.dedup();
+        values
+    };
+    let ends = |axis: usize| {
+        let values = values(axis);
+        let mut ends = vec![values[0], values[values.len() - 1]];
+        ends.dedup();
+        ends
+    };
+    let three = |axis: usize| {
+        let mut values = values(axis);
+        if values.len() > 3 {
+            values.retain(|&value| value != 0.0);
+        }
+        let mut three = vec![
+            values[0],
+            values[values.len() / 2],
+            values[values.len() - 1],
+        ];
+        three.dedup();
+        three
+    };
+    let (first, second) = match (x, y) {
+        (Some(x), Some(y)) => (ends(x), three(y)),
+        (Some(x), None) => (three(x), vec![f64::NAN]),
+        _ => (vec![f64::NAN], vec![f64::NAN]),
+    };
+    let others = &table.rows[0].values;
+    let mut chosen = Vec::new();
+    for at_x in first {
+        for &at_y in &second {
+            let matches = |row: &LabelRow| {
+                row.values.iter().enumerate().all(|(axis, &value)| {
+                    value
+                        == match axis {
+                            _ if Some(axis) == x => at_x,
+                            _ if Some(axis) == y => at_y,
+                            _ => others[axis],
+                        }
+                })
+            };
+            chosen.extend(table.rows.iter().position(matches));
+        }
+    }
+    Ok(chosen)
+}
+
+/// One run of every state that occurs, in the order of the labels: at the point nearest to the
+/// middle of those where all seeds have it, or else the majority, or else any.
+pub(super) fn states(source: &Source<'_>) -> Result<Vec<usize>, PlotError> {
+    let points = source.table.points();
+    let has = |row: usize, label: Label| source.table.rows[row].verdict.label == label;
+    let typical = |label: Label| {
+        let degrees: [&dyn Fn(&Point) -> bool; 3] = [
+            &|point| point.label == label && point.agreement == 1.0,
+            &|point| point.label == label,
+            &|point| point.rows.iter().any(|&row| has(row, label)),
+        ];
+        let candidates = degrees
+            .iter()
+            .map(|degree| points.iter().filter(|point| degree(point)).collect())
+            .find(|candidates: &Vec<&Point>| !candidates.is_empty())?;
+        let point = nearest_to_middle(source, &candidates)?;
+        point.rows.iter().copied().find(|&row| has(row, label))
+    };
+    Ok(Label::ALL
+        .into_iter()
+        .filter(|label| *label != Label::Unstable)
+        .filter_map(typical)
+        .collect())
+}
+
+/// The point nearest to the mean of all, counted in places along the axes.
+fn nearest_to_middle<'p>(source: &Source<'_>, points: &[&'p Point]) -> Option<&'p Point> {
+    let place = |point: &Point| -> Vec<f64> {
+        let axes = source.sweep.axes.iter().zip(&point.values);
+        axes.map(|(axis, value)| {
+            let index = axis.values.iter().position(|other| other == value);
+            index.unwrap_or(0) as f64 / axis.values.len() as f64
+        })
+        .collect()
+    };
+    let places: Vec<Vec<f64>> = points.iter().map(|point| place(point)).collect();
+    let middle = |axis: usize| places.iter().map(|p| p[axis]).sum::<f64>() / places.len() as f64;
+    let middle: Vec<f64> = (0..source.sweep.axes.len()).map(middle).collect();
+    let distance = |place: &[f64]| -> f64 {
+        let pairs = place.iter().zip(&middle);
+        pairs.map(|(a, b)| (a - b) * (a - b)).sum()
+    };
+    let distances = places.iter().map(|place| distance(place));
+    let nearest = distances
+        .enumerate()
+        .min_by(|(_, one), (_, other)| one.total_cmp(other))?
+        .0;
+    Some(points[nearest])
+}
+
+impl Run<'_> {
+    /// Its record.
+    pub(super) fn record(&self) -> Result<RunRecord, PlotError> {
+        (self.source.record)(&self.row.id).map_err(|source| PlotError::Record {
+            point: self.plainly(),
+            source,
+        })
+    }
+
+    /// Its place in the sweep, with markup: `$r$ = 4 mm, $Ω$ = 8 rad/s`. The seed is named only if
+    /// a point asks for one.
+    pub(super) fn head(&self) -> String {
+        let axes = self.source.sweep.axes.iter().zip(&self.row.values);
+        let mut parts: Vec<String> = axes
+            .map(|(axis, &value)| quantity(self.source, &axis.key, &axis.name, value))
+            .collect();
+        let mut names = self.source.points.iter().flatten();
+        if names.any(|(name, _)| name == SEED) {
+            parts.push(format!("seed {}", self.row.seed));
+        }
+        parts.join(", ")
+    }
+
+    /// The same as one would write it on the command line.
+    fn plainly(&self) -> String {
+        let axes = self.source.sweep.axes.iter().zip(&self.row.values);
+        let values = axes.map(|(axis, value)| format!("{} = {value}", axis.name));
+        let seed = [format!("seed = {}", self.row.seed)];
+        values.chain(seed).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// `symbol = value unit`; small lengths in millimetres.
+pub(super) fn quantity(source: &Source<'_>, key: &str, name: &str, value: f64) -> String {
+    let Some(notation) = notation(key) else {
+        return format!("{name} = {}", super::scale::number(value));
+    };
+    let (value, unit) = match notation.unit_in(&source.sweep.scene) {
+        "m" if value.abs() < 0.1 => (value * 1e3, "mm"),
+        unit => (value, unit),
+    };
+    let text = format!(
+        "${}$ = {} {unit}",
+        notation.symbol,
+        super::scale::number(value)
+    );
+    text.trim_end().to_owned()
+}

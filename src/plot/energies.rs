@@ -1,0 +1,177 @@
+//! Energies over time, per sphere (Rice, 2012, figures 12 and 15): the whole run, and its begin.
+
+use super::chart::{self, Chart, Line, Panel, prefixed};
+use super::choice::{self, Run};
+use super::style::px;
+use super::svg::Svg;
+use super::{Figure, PlotError, Source, palette, scale};
+use crate::record::RunRecord;
+
+/// Energies over time.
+pub(super) struct Energies {
+    name: &'static str,
+    description: &'static str,
+    default_runs: &'static str,
+    choice: fn(&Source<'_>) -> Result<Vec<usize>, PlotError>,
+    /// Whether the heads name the states.
+    with_states: bool,
+}
+
+/// Energies over the grid (figure 15).
+pub(super) static ENERGIES: Energies = Energies {
+    name: "energies",
+    description: "mean energies of a sphere over time: the whole run and its first second",
+    default_runs: "the corners of the grid and between them",
+    choice: choice::corners,
+    with_states: false,
+};
+
+/// Energies of every state (figure 12).
+pub(super) static STATE_ENERGIES: Energies = Energies {
+    name: "state-energies",
+    description: "the same, one run of every state",
+    default_runs: "a typical run of every state",
+    choice: choice::states,
+    with_states: true,
+};
+
+/// The part of a run that is shown larger (s).
+const BEGIN: f64 = 1.0;
+
+/// The end of a run that stands for its rest if it never settles, as a share.
+const END: f64 = 0.1;
+
+/// Kinds of energy, in the order of [`palette::LINES`].
+const KINDS: [&str; 3] = [
+    "kinetic",
+    "rotational",
+    "potential, zero at the settled height",
+];
+
+impl Figure for Energies {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn description(&self) -> String {
+        self.description.to_owned()
+    }
+
+    fn default_runs(&self) -> Option<&'static str> {
+        Some(self.default_runs)
+    }
+
+    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
+        let runs = choice::runs(source, self.choice)?;
+        let energies = runs
+            .iter()
+            .map(|run| Ok(energies(run, &run.record()?)))
+            .collect::<Result<Vec<_>, PlotError>>()?;
+        let all = energies.iter().flat_map(|run| run.lines.iter().flatten());
+        let largest = all.fold(0.0, |most: f64, point| most.max(point.1.abs()));
+        let (unit, factor) = prefixed("J", largest);
+        let panels = runs.iter().zip(&energies).flat_map(|(run, energies)| {
+            let state = run.row.verdict.label.name().replace('-', " ");
+            let head = match run.head() {
+                place if !self.with_states => place,
+                place if place.is_empty() => state,
+                place => format!("{state}: {place}"),
+            };
+            panels(head, energies, factor)
+        });
+        Chart {
+            name: self.name,
+            panels: panels.collect(),
+            columns: 2,
+            height: if runs.len() == 1 { px(240) } else { px(130) },
+            x_label: "time (s)".to_owned(),
+            y_label: format!("mean energy of a sphere ({unit})"),
+            legend: palette::LINES
+                .into_iter()
+                .zip(KINDS.map(str::to_owned))
+                .collect(),
+        }
+        .draw(source)
+    }
+}
+
+/// The mean energies of a sphere over time (s, J), one line per kind.
+struct Lines {
+    duration: f64,
+    lines: [Vec<(f64, f64)>; 3],
+}
+
+fn energies(run: &Run<'_>, record: &RunRecord) -> Lines {
+    let observations = &record.observations;
+    let spheres = record.radius.len().max(1) as f64;
+    let line = |values: &[f32], zero: f64| -> Vec<(f64, f64)> {
+        let pairs = observations.time.iter().zip(values);
+        pairs
+            .map(|(&time, &value)| (time, (f64::from(value) - zero) / spheres))
+            .collect()
+    };
+    let duration = record.scene.time.duration;
+    let settled = run.row.verdict.settle_time;
+    let zero = mean_after(
+        &observations.time,
+        &observations.gravitational,
+        settled.unwrap_or((1.0 - END) * duration),
+    );
+    Lines {
+        duration,
+        lines: [
+            line(&observations.kinetic, 0.0),
+            line(&observations.rotational, 0.0),
+            line(&observations.gravitational, zero),
+        ],
+    }
+}
+
+/// Mean of the values from a time on; the last value if there are none.
+fn mean_after(time: &[f64], values: &[f32], from: f64) -> f64 {
+    let later: Vec<f64> = time
+        .iter()
+        .zip(values)
+        .filter(|(time, _)| **time >= from)
+        .map(|(_, value)| f64::from(*value))
+        .collect();
+    match values.last() {
+        _ if !later.is_empty() => later.iter().sum::<f64>() / later.len() as f64,
+        Some(last) => f64::from(*last),
+        None => 0.0,
+    }
+}
+
+/// The whole run, and its begin.
+fn panels(head: String, energies: &Lines, factor: f64) -> [Panel; 2] {
+    let scaled = |points: &[(f64, f64)]| points.iter().map(|(t, e)| (*t, e * factor)).collect();
+    let lines: Vec<Line> = energies
+        .lines
+        .iter()
+        .zip(palette::LINES)
+        .map(|(points, color)| Line {
+            points: scaled(points),
+            color,
+        })
+        .collect();
+    let values = lines
+        .iter()
+        .flat_map(|line| &line.points)
+        .map(|point| point.1);
+    let y = chart::range(values).unwrap_or((0.0, 1.0));
+    let begin = if energies.duration > BEGIN {
+        BEGIN
+    } else {
+        0.2 * energies.duration
+    };
+    let larger = match begin {
+        1.0 => "first second".to_owned(),
+        _ => format!("first {} s", scale::number(begin)),
+    };
+    [(head, energies.duration), (larger, begin)].map(|(head, end)| Panel {
+        head,
+        x: (0.0, end),
+        y,
+        lines: lines.clone(),
+    })
+}

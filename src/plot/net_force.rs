@@ -1,0 +1,92 @@
+//! The net vertical force on a sphere that has just entered the single layer in the middle of the
+//! tank, over its radius (Rice, 2012, eq. 46 and figure 21).
+//!
+//! The thesis leaves the factor of its eq. 44 open, a lift proportional to Omega^2. Here it is such
+//! that the lift at the scene's own Omega is the scene's updraught.
+
+use super::chart::{self, Chart, Line, Panel};
+use super::critical_rotation::{radii, samples, volume};
+use super::style::px;
+use super::svg::Svg;
+use super::{Figure, PlotError, Source, palette, scale};
+use crate::scene::Scene;
+use crate::theory::unshielded_lift;
+
+/// The net vertical force over the radius.
+pub(super) struct NetForce;
+
+/// Rotations that are shown, over that of the scene.
+const ROTATIONS: [f64; 3] = [0.5, 0.75, 1.0];
+
+impl Figure for NetForce {
+    fn name(&self) -> &'static str {
+        "net-force"
+    }
+
+    fn description(&self) -> String {
+        "theory: net vertical force in a single layer over the radius, three rotations (eq. 46)"
+            .to_owned()
+    }
+
+    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
+        let scene = &source.sweep.scene;
+        let largest = radii(source).1;
+        let mut curves = Vec::new();
+        for (share, color) in ROTATIONS.into_iter().zip(palette::LINES) {
+            let point = |radius: f64| Some((radius * 1e3, net_force(scene, radius, share)?));
+            let points: Option<Vec<_>> = samples(0.0, largest).map(point).collect();
+            curves.push((share, color, points.ok_or(NEEDS)?));
+        }
+        let values = || curves.iter().flat_map(|(.., points)| points).map(|p| p.1);
+        let most = values().fold(0.0, |most: f64, force| most.max(force.abs()));
+        let (unit, factor) = chart::prefixed("N", most);
+        let omega = scene.swirl.as_ref().ok_or(NEEDS)?.omega;
+        let name = |share: f64| {
+            let own = if share == 1.0 {
+                ", as in the scene"
+            } else {
+                ""
+            };
+            format!("$Ω$ = {} rad/s{own}", scale::number(share * omega))
+        };
+        Chart {
+            name: self.name(),
+            legend: curves
+                .iter()
+                .map(|(share, color, _)| (*color, name(*share)))
+                .collect(),
+            panels: vec![Panel {
+                head: String::new(),
+                x: (0.0, largest * 1e3),
+                y: chart::range(values().map(|force| force * factor)).unwrap_or((0.0, 1.0)),
+                lines: curves
+                    .into_iter()
+                    .map(|(_, color, points)| Line {
+                        points: points.into_iter().map(|(r, f)| (r, f * factor)).collect(),
+                        color,
+                    })
+                    .collect(),
+            }],
+            columns: 1,
+            height: px(400),
+            x_label: "radius of the sphere $r$ (mm)".to_owned(),
+            y_label: format!("net vertical force $F_z$ ({unit})"),
+        }
+        .draw(source)
+    }
+}
+
+const NEEDS: PlotError = PlotError::Scene {
+    figure: "net-force",
+    needs: "gravity, drag, swirl and updraught",
+};
+
+/// Lift at `share` of the scene's rotation less weight (N), of a sphere at rest on the floor.
+fn net_force(scene: &Scene, radius: f64, share: f64) -> Option<f64> {
+    let updraught = scene.updraught.as_ref()?;
+    let floor = scene.tank.as_ref().and_then(|tank| tank.floor);
+    let height = floor.unwrap_or(updraught.origin) + radius;
+    let lift = unshielded_lift(updraught, scene.drag.as_ref()?, radius, height);
+    let mass = scene.spheres.density * volume(radius);
+    Some(share * share * lift - mass * scene.gravity.as_ref()?.acceleration)
+}

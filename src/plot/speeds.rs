@@ -1,0 +1,75 @@
+//! Speeds of air and spheres over time (Rice, 2012, figure 4).
+
+use super::chart::{self, Chart, Line, Panel, columns};
+use super::style::px;
+use super::svg::Svg;
+use super::{Figure, PlotError, Source, choice, palette};
+use crate::record::RunRecord;
+
+/// Speeds of air and spheres over time.
+pub(super) struct Speeds;
+
+impl Figure for Speeds {
+    fn name(&self) -> &'static str {
+        "speeds"
+    }
+
+    fn description(&self) -> String {
+        "mean speeds of the spheres, and of the swirling air where they are, over time".to_owned()
+    }
+
+    fn default_runs(&self) -> Option<&'static str> {
+        Some("the corners of the grid and between them")
+    }
+
+    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
+        let runs = choice::runs(source, choice::corners)?;
+        let panels = runs
+            .iter()
+            .map(|run| Ok(panel(run.head(), &run.record()?)))
+            .collect::<Result<Vec<_>, PlotError>>()?;
+        Chart {
+            name: self.name(),
+            columns: columns(panels.len()),
+            height: if panels.len() == 1 { px(360) } else { px(190) },
+            panels,
+            x_label: "time (s)".to_owned(),
+            y_label: "mean speed (m/s)".to_owned(),
+            legend: vec![
+                (AIR, "air at the spheres".to_owned()),
+                (SPHERES, "spheres".to_owned()),
+            ],
+        }
+        .draw(source)
+    }
+}
+
+const AIR: plotters::style::RGBColor = palette::LINES[2];
+const SPHERES: plotters::style::RGBColor = palette::LINES[0];
+
+fn panel(head: String, record: &RunRecord) -> Panel {
+    let observations = &record.observations;
+    let line = |values: &[f32], color| Line {
+        points: observations
+            .time
+            .iter()
+            .zip(values)
+            .map(|(&time, &value)| (time, f64::from(value)))
+            .collect(),
+        color,
+    };
+    let lines = vec![
+        line(&observations.air_speed_mean, AIR),
+        line(&observations.speed_mean, SPHERES),
+    ];
+    let speeds = lines
+        .iter()
+        .flat_map(|line| &line.points)
+        .map(|point| point.1);
+    Panel {
+        head,
+        x: (0.0, record.scene.time.duration),
+        y: (0.0, chart::range(speeds).map_or(1.0, |(_, high)| high)),
+        lines,
+    }
+}
