@@ -21,10 +21,26 @@ impl Notation {
     /// The unit in this scene: that of a drag coefficient depends on the drag law.
     pub fn unit_in(&self, scene: &Scene) -> &'static str {
         let law = scene.drag.as_ref().map(|drag| drag.law);
+        law.map_or(self.unit, |law| self.unit_with(law))
+    }
+
+    /// The units that this quantity has with one drag law or another, `unit` first.
+    pub fn units(&self) -> Vec<&'static str> {
+        let mut units = vec![self.unit];
+        for law in [DragLaw::CrossSection, DragLaw::Diameter, DragLaw::Constant] {
+            let unit = self.unit_with(law);
+            if !units.contains(&unit) {
+                units.push(unit);
+            }
+        }
+        units
+    }
+
+    fn unit_with(&self, law: DragLaw) -> &'static str {
         match (self.key, law) {
-            ("drag.linear", Some(DragLaw::Diameter)) => "kg/(m s)",
-            ("drag.linear", Some(DragLaw::Constant)) => "kg/s",
-            ("drag.quadratic", Some(DragLaw::Constant)) => "kg/m",
+            ("drag.linear", DragLaw::Diameter) => "kg/(m s)",
+            ("drag.linear", DragLaw::Constant) => "kg/s",
+            ("drag.quadratic", DragLaw::Constant) => "kg/m",
             _ => self.unit,
         }
     }
@@ -92,6 +108,48 @@ pub const SCENE_KEYS: &[Notation] = &[
     row("output.snapshot_interval", "Δt_{snapshot}", "s", "time between snapshots"),
     row("output.profile_bins", "n_{bins}", "", "radial bins of the surface profile"),
 ];
+
+/// Units of the numbers in files that are no numeric keys of a scene: entries of lists (`[]`), axes,
+/// and thresholds of the sieves. Empty for a pure number.
+#[rustfmt::skip]
+pub const OTHER_UNITS: &[(&str, &str)] = &[
+    ("spheres.radius[].radius", "m"),
+    ("spheres.radius[].share", ""),
+    ("start.spheres[].position", "m"),
+    ("start.spheres[].velocity", "m/s"),
+    ("start.spheres[].spin", "rad/s"),
+    ("start.spheres[].radius", "m"),
+    ("output.rise_speeds", "1/s"),
+    ("output.rise_radii", ""),
+    ("axis[].values", "of the key"),
+    ("axis[].from", "of the key"),
+    ("axis[].to", "of the key"),
+    ("axis[].step", "of the key"),
+    ("sieves.settle.window", "s"),
+    ("sieves.settle.height", "m"),
+    ("sieves.settle.tolerance", ""),
+    ("sieves.fluid.window", "s"),
+    ("sieves.fluid.rise", ""),
+    ("sieves.fluid.share", ""),
+    ("sieves.pinned.window", "s"),
+    ("sieves.pinned.hole", ""),
+    ("sieves.pinned.share", ""),
+    ("sieves.spout.window", "s"),
+    ("sieves.spout.rise_speed", "1/s"),
+    ("sieves.spout.radius", ""),
+    ("sieves.spout.small", ""),
+    ("sieves.spout.large", ""),
+];
+
+/// The unit of a number in a scene or sweep file, if it is known; empty for a pure number. That of
+/// a drag coefficient names the units of all drag laws.
+pub fn unit(key: &str) -> Option<String> {
+    if let Some(notation) = notation(key) {
+        return Some(notation.units().join(", "));
+    }
+    let other = OTHER_UNITS.iter().find(|(other, _)| *other == key);
+    other.map(|(_, unit)| (*unit).to_owned())
+}
 
 #[cfg(test)]
 mod tests {

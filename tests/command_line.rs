@@ -468,7 +468,19 @@ fn every_command_has_an_example() {
         .says("Exit codes:")
         .says("130")
         .says("Example");
-    for command in ["sweep", "classify", "plot", "run", "check", "status"] {
+    for command in [
+        "sweep",
+        "classify",
+        "plot",
+        "run",
+        "check",
+        "status",
+        "new",
+        "schema",
+        "reference",
+        "completions",
+        "man",
+    ] {
         place
             .phase(&[command, "--help"])
             .code(0)

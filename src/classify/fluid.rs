@@ -2,6 +2,7 @@
 
 use super::run::Run;
 use super::{ClassifyError, window};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Thresholds of the fluid sieve (Rice, 2012, section 3.2).
@@ -10,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// than the next inner one by at least `rise` radii. An empty bin is lower than any other, and of
 /// two empty neighbours none is higher. With no more comparisons than `failures`, every surface
 /// would pass: the sieve does not act there.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FluidSieve {
     /// Window (s).

@@ -27,11 +27,12 @@ pub use spout::SpoutSieve;
 use crate::record::{Outcome, RunRecord};
 use crate::scene::Scene;
 use run::Run;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use spout::Spout;
 
 /// Thresholds of all sieves; every default is that of the thesis's listing.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sieves {
     /// When a run counts as steady.

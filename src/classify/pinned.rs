@@ -2,11 +2,12 @@
 
 use super::run::Run;
 use super::{ClassifyError, window};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Thresholds of the pinned sieve (Rice, 2012, listing 7.3, whose central hole is meant, not the
 /// text's two layers at the wall).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PinnedSieve {
     /// Window (s).

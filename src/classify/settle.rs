@@ -2,6 +2,7 @@
 
 use super::run::Run;
 use super::{ClassifyError, window};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Thresholds of the settle sieve (Rice, 2012, section 3.1).
@@ -10,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// spheres (kinetic, rotational and gravitational) changes little: its change from frame to frame,
 /// per millisecond and sphere, is at most `tolerance` m g R on average. The other sieves act on
 /// what follows the middle of the first such window.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SettleSieve {
     /// Window (s).

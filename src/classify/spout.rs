@@ -3,6 +3,7 @@
 use super::run::Run;
 use super::{ClassifyError, window};
 use crate::scene::Output;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Thresholds of the spout sieve (Rice, 2012, section 3.4).
@@ -10,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// The earliest window decides in every frame of which at least `least` spheres rise, and fewer
 /// than the share `large` of all: for a small spout if they are fewer than the share `small` in
 /// every frame, else for a large one.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SpoutSieve {
     /// Window (s).

@@ -2,11 +2,13 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
-use super::{classify, format};
+use super::{classify, format, job};
 use phase::classify::Sieves;
 use phase::dem::timestep::{self, Limit};
 use phase::scene::{Friction, Scene};
-use phase::sweep::{Axis, Job, PlotSettings, Sweep, describe, forecast, work};
+use phase::sweep::{Axis, Forecast, Job, PlotSettings, Sweep, describe, forecast, work};
+use serde::Serialize;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -26,6 +28,9 @@ pub(crate) struct Arguments {
     /// Only validate: no trial, no forecast.
     #[arg(long)]
     no_trial: bool,
+    /// Print the result as one JSON object (docs/json.md) instead of text.
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
@@ -43,12 +48,35 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     console.result(describe_sweep(&sweep, jobs.len()))?;
     console.result(line("effects", effects(&sweep.scene).join(", ")))?;
     console.result(line("duration", describe_time(&sweep.scene)))?;
-    for text in describe_time_step(&jobs, &sweep.axes, console.is_verbose()) {
+    let tightest = tightest_limits(&jobs);
+    for text in describe_time_step(&tightest, &sweep.axes, console.is_verbose()) {
         console.result(line("time step", text))?;
     }
+    let mut forecast = None;
     if !arguments.no_trial {
-        print_forecast(&jobs, workers, console)?;
+        forecast = Some(print_forecast(&jobs, workers, console)?);
     }
+    let scene = &sweep.scene;
+    let (steps_per_frame, frames) = phase::run::frames(scene);
+    console.answer(&Answer {
+        file: &arguments.file,
+        kind: if is_sweep { "sweep" } else { "scene" },
+        title: sweep.title.as_deref().or(scene.title.as_deref()),
+        jobs: jobs.len(),
+        axes: &sweep.axes,
+        seeds: &sweep.seeds,
+        spheres: scene.spheres.count,
+        effects: effects(scene),
+        duration: scene.time.duration,
+        frames,
+        steps_per_frame,
+        dt: scene.time.dt,
+        limits: tightest
+            .iter()
+            .map(|limit| limit.answer(&sweep.axes))
+            .collect(),
+        forecast: forecast.map(|forecast| ForecastAnswer::new(&forecast, workers)),
+    })?;
     Ok(Exit::Done)
 }
 
@@ -128,9 +156,9 @@ fn describe_time(scene: &Scene) -> String {
     )
 }
 
-/// The time step over the limit it must not exceed, and over those it had better not; with
-/// `all`, over every limit, explained.
-fn describe_time_step(jobs: &[Job], axes: &[Axis], all: bool) -> Vec<String> {
+/// Every limit of the time step with the job that comes closest to it: those that must not be
+/// exceeded first, then the tightest.
+fn tightest_limits(jobs: &[Job]) -> Vec<Tightest<'_>> {
     let mut tightest: Vec<Tightest<'_>> = Vec::new();
     for job in jobs {
         for limit in timestep::limits(&job.scene) {
@@ -153,6 +181,12 @@ fn describe_time_step(jobs: &[Job], axes: &[Axis], all: bool) -> Vec<String> {
         let order = b.limit.decisive.cmp(&a.limit.decisive);
         order.then(b.ratio.total_cmp(&a.ratio))
     });
+    tightest
+}
+
+/// The time step over the limit it must not exceed, and over those it had better not; with
+/// `all`, over every limit, explained.
+fn describe_time_step(tightest: &[Tightest<'_>], axes: &[Axis], all: bool) -> Vec<String> {
     let is_told =
         |(index, tightest): &(usize, &Tightest<'_>)| all || *index == 0 || tightest.ratio > 1.0;
     let told = tightest.iter().enumerate().filter(is_told);
@@ -168,6 +202,17 @@ struct Tightest<'a> {
 }
 
 impl Tightest<'_> {
+    fn answer(&self, axes: &[Axis]) -> LimitAnswer {
+        LimitAnswer {
+            name: self.limit.name,
+            seconds: self.limit.seconds,
+            decisive: self.limit.decisive,
+            ratio: self.ratio,
+            point: job::point(axes, &self.job.values),
+            seed: self.job.seed,
+        }
+    }
+
     fn describe(&self, axes: &[Axis], explain: bool) -> String {
         let Limit {
             name,
@@ -188,7 +233,7 @@ impl Tightest<'_> {
     }
 }
 
-fn print_forecast(jobs: &[Job], workers: usize, console: &Console) -> Result<(), Failure> {
+fn print_forecast(jobs: &[Job], workers: usize, console: &Console) -> Result<Forecast, Failure> {
     console.note("running the first part of a few jobs ...");
     let forecast = forecast(jobs, workers, TRIAL_TIME).map_err(Failure::failed)?;
     console.result(line(
@@ -209,7 +254,72 @@ fn print_forecast(jobs: &[Job], workers: usize, console: &Console) -> Result<(),
     console.result(line(
         "  disk",
         format_args!("about {}", format::bytes(forecast.disk)),
-    ))
+    ))?;
+    Ok(forecast)
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Answer<'a> {
+    file: &'a Path,
+    kind: &'static str,
+    title: Option<&'a str>,
+    jobs: usize,
+    axes: &'a [Axis],
+    seeds: &'a [u64],
+    spheres: usize,
+    effects: Vec<&'static str>,
+    duration: f64,
+    frames: u64,
+    steps_per_frame: u64,
+    dt: f64,
+    limits: Vec<LimitAnswer>,
+    forecast: Option<ForecastAnswer>,
+}
+
+/// A limit of the time step, and the job that comes closest to it.
+#[derive(Serialize)]
+struct LimitAnswer {
+    name: &'static str,
+    seconds: f64,
+    decisive: bool,
+    ratio: f64,
+    point: BTreeMap<String, f64>,
+    seed: u64,
+}
+
+/// What the sweep will cost.
+#[derive(Serialize)]
+struct ForecastAnswer {
+    tried: usize,
+    workers: usize,
+    sphere_steps: u64,
+    rate: f64,
+    seconds: f64,
+    memory: f64,
+    disk: f64,
+}
+
+impl ForecastAnswer {
+    fn new(forecast: &Forecast, workers: usize) -> Self {
+        let Forecast {
+            tried,
+            sphere_steps,
+            rate,
+            seconds,
+            memory,
+            disk,
+        } = *forecast;
+        Self {
+            tried,
+            workers,
+            sphere_steps,
+            rate,
+            seconds,
+            memory,
+            disk,
+        }
+    }
 }
 
 /// Time for the trial, about.

@@ -12,7 +12,9 @@ use phase::store;
 use phase::sweep::{
     Folder, Job, LabelTable, Labelling, PlotSettings, Sweep, changes, differing_keys, work,
 };
-use std::path::PathBuf;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 /// Label the runs of a results folder from their records, without any new simulation.
 ///
@@ -42,6 +44,9 @@ pub(crate) struct Arguments {
     /// Records to read at the same time [default: all cores].
     #[arg(short, long, value_name = "N", value_parser = super::sweep::at_least_one)]
     jobs: Option<usize>,
+    /// Print the result as one JSON object (docs/json.md) instead of text.
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
@@ -50,18 +55,37 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         Some(file) => Some(phase::sweep::load(file).map_err(Failure::refused)?),
         None => None,
     };
-    if let Some(scene) = &arguments.scene {
-        let sieves = edited.map(|sweep| sweep.sieves).unwrap_or_default();
-        return dumps::label(&arguments.dir, scene, &sieves, workers, console);
-    }
-    let mut exit = Exit::Done;
-    let folders =
-        Folder::find(&arguments.dir).map_err(|error| dumps::hint(&arguments.dir, &error))?;
-    for folder in folders {
+    let folders = match &arguments.scene {
+        Some(scene) => {
+            let sieves = edited.map(|sweep| sweep.sieves).unwrap_or_default();
+            vec![dumps::label(&arguments.dir, scene, &sieves, workers, console)?.summary]
+        }
+        None => label_folders(&arguments.dir, edited.as_ref(), workers, console)?,
+    };
+    let exit = match folders.iter().all(|folder| folder.problems.is_empty()) {
+        true => Exit::Done,
+        false => Exit::Failed,
+    };
+    console.answer(&Answer {
+        folders,
+        files: console.files(),
+    })?;
+    Ok(exit)
+}
+
+/// Labels the runs of every results folder at `dir`.
+fn label_folders(
+    dir: &Path,
+    edited: Option<&Sweep>,
+    workers: usize,
+    console: &Console,
+) -> Result<Vec<Summary>, Failure> {
+    let mut folders = Vec::new();
+    for folder in Folder::find(dir).map_err(|error| dumps::hint(dir, &error))? {
         let mut sweep = folder.read_sweep().map_err(Failure::failed)?;
         // The sweep is kept with its new thresholds, so that the labels are always those it says.
         let mut lock = None;
-        if let Some(edited) = &edited {
+        if let Some(edited) = edited {
             refuse_other_runs(&folder, &sweep, edited)?;
             lock = Some(folder.lock().map_err(Failure::refused)?);
             sweep = edited.clone();
@@ -72,11 +96,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         if lock.is_some() {
             folder.write_sweep(&sweep).map_err(Failure::failed)?;
         }
-        if labelled.problems > 0 {
-            exit = Exit::Failed;
-        }
+        folders.push(labelled.summary);
     }
-    Ok(exit)
+    Ok(folders)
 }
 
 /// Refuses an edited sweep whose runs are not those of the folder.
@@ -116,8 +138,39 @@ pub(super) fn check_sieves(sweep: &Sweep, jobs: &[Job]) -> Result<(), Failure> {
 /// The labels of a folder.
 pub(super) struct Labelled {
     pub(super) table: LabelTable,
-    /// Number of records that could not be labelled.
-    pub(super) problems: usize,
+    pub(super) summary: Summary,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Answer {
+    folders: Vec<Summary>,
+    /// The files written.
+    files: Vec<PathBuf>,
+}
+
+/// The labels of a folder in numbers.
+#[derive(Serialize)]
+pub(super) struct Summary {
+    folder: PathBuf,
+    /// Runs that have a label.
+    labelled: usize,
+    /// Runs by label; all labels are there.
+    labels: BTreeMap<&'static str, usize>,
+    /// Jobs without a record.
+    not_run: usize,
+    /// Records that could not be labelled, and why.
+    pub(super) problems: Vec<String>,
+    /// Labels other than before; none if there were no labels before.
+    changes: Option<Vec<Change>>,
+}
+
+/// Labels that changed.
+#[derive(Serialize)]
+struct Change {
+    from: &'static str,
+    to: &'static str,
+    runs: usize,
 }
 
 /// Labels the runs of a folder, writes the tables and prints what they say.
@@ -129,7 +182,6 @@ pub(super) fn label_folder(
     console: &Console,
 ) -> Result<Labelled, Failure> {
     let labelling = Labelling::new(folder, sweep, jobs, workers).map_err(Failure::failed)?;
-    let problems = labelling.problems.len();
     if labelling.missing > 0 {
         console.note(format_args!(
             "{}: {} of {} not yet run, and without a label",
@@ -138,10 +190,7 @@ pub(super) fn label_folder(
             format::count(jobs.len(), "job")
         ));
     }
-    Ok(Labelled {
-        table: write_tables(labelling, folder, console)?,
-        problems,
-    })
+    write_tables(labelling, folder, console)
 }
 
 /// Writes labels.csv and points.csv of a folder and prints what they say.
@@ -149,23 +198,38 @@ fn write_tables(
     labelling: Labelling,
     folder: &Folder,
     console: &Console,
-) -> Result<LabelTable, Failure> {
+) -> Result<Labelled, Failure> {
     let before = read_labels_before(folder, console);
     let Labelling {
-        table, problems, ..
+        table,
+        problems,
+        missing,
     } = labelling;
     name_first(&problems, |problem| {
         console.error(format_args!("no label: {problem}"))
     });
     store::write_labels(&table, &folder.labels()).map_err(Failure::failed)?;
     store::write_points(&table, &folder.points()).map_err(Failure::failed)?;
-    console.result(counts(&table))?;
-    if let Some(before) = before {
-        console.result(describe_changes(&before, &table))?;
+    let labels = counts(&table);
+    console.result(describe_counts(&labels, table.rows.len()))?;
+    let changes = before.map(|before| changes_since(&before, &table));
+    if let Some(changes) = &changes {
+        console.result(describe_changes(changes, table.rows.len()))?;
     }
-    console.result(folder.labels().display())?;
-    console.result(folder.points().display())?;
-    Ok(table)
+    console.file(&folder.labels())?;
+    console.file(&folder.points())?;
+    let summary = Summary {
+        folder: folder.root().to_owned(),
+        labelled: table.rows.len(),
+        labels: labels
+            .into_iter()
+            .map(|(label, runs)| (label.name(), runs))
+            .collect(),
+        not_run: missing,
+        problems,
+        changes,
+    };
+    Ok(Labelled { table, summary })
 }
 
 fn read_labels_before(folder: &Folder, console: &Console) -> Option<LabelTable> {
@@ -183,33 +247,44 @@ fn read_labels_before(folder: &Folder, console: &Console) -> Option<LabelTable> 
 }
 
 /// How many runs have each label.
-fn counts(table: &LabelTable) -> String {
-    let mut text = format!("{} labelled", format::count(table.rows.len(), "run"));
-    for label in Label::ALL {
-        let number = table
-            .rows
-            .iter()
-            .filter(|row| row.verdict.label == label)
-            .count();
-        if number > 0 {
-            let share = format::percent(number, table.rows.len());
-            text += &format!("\n  {:<12} {number:>6} {share:>6}", label.name());
-        }
+fn counts(table: &LabelTable) -> Vec<(Label, usize)> {
+    let labels = table.rows.iter().map(|row| row.verdict.label);
+    let count = |label| {
+        (
+            label,
+            labels.clone().filter(|&other| other == label).count(),
+        )
+    };
+    Label::ALL.into_iter().map(count).collect()
+}
+
+fn describe_counts(counts: &[(Label, usize)], runs: usize) -> String {
+    let mut text = format!("{} labelled", format::count(runs, "run"));
+    for (label, number) in counts.iter().filter(|(_, number)| *number > 0) {
+        let share = format::percent(*number, runs);
+        text += &format!("\n  {:<12} {number:>6} {share:>6}", label.name());
     }
     text
 }
 
+fn changes_since(before: &LabelTable, after: &LabelTable) -> Vec<Change> {
+    let changes = changes(before, after).into_iter();
+    changes
+        .map(|((from, to), runs)| Change {
+            from: from.name(),
+            to: to.name(),
+            runs,
+        })
+        .collect()
+}
+
 /// How many labels changed, and from what to what.
-fn describe_changes(before: &LabelTable, after: &LabelTable) -> String {
-    let changes = changes(before, after);
-    let changed: usize = changes.values().sum();
-    let mut text = format!(
-        "{changed} of {} changed",
-        format::count(after.rows.len(), "label")
-    );
-    for ((from, to), number) in changes {
-        let arrow = format!("{} -> {}", from.name(), to.name());
-        text += &format!("\n  {arrow:<26} {number:>6}");
+fn describe_changes(changes: &[Change], runs: usize) -> String {
+    let changed: usize = changes.iter().map(|change| change.runs).sum();
+    let mut text = format!("{changed} of {} changed", format::count(runs, "label"));
+    for Change { from, to, runs } in changes {
+        let arrow = format!("{from} -> {to}");
+        text += &format!("\n  {arrow:<26} {runs:>6}");
     }
     text
 }

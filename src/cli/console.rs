@@ -1,18 +1,30 @@
 //! What the program says: results to the standard output, everything else to the standard error.
 
 use super::exit::Failure;
+use serde::Serialize;
 use std::fmt::Display;
 use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Where the program speaks, and how much.
 pub(crate) struct Console {
     quiet: bool,
     verbose: bool,
+    /// Whether the result is what [`answer`](Console::answer) is told, and nothing else.
+    json: bool,
+    /// Files written so far.
+    files: Mutex<Vec<PathBuf>>,
 }
 
 impl Console {
-    pub(crate) fn new(quiet: bool, verbose: bool) -> Self {
-        Self { quiet, verbose }
+    pub(crate) fn new(quiet: bool, verbose: bool, json: bool) -> Self {
+        Self {
+            quiet,
+            verbose,
+            json,
+            files: Mutex::default(),
+        }
     }
 
     /// Whether nothing but errors is wanted.
@@ -25,18 +37,45 @@ impl Console {
         self.verbose
     }
 
-    /// Prints a result. A reader that has gone away, such as `head`, is no fault.
+    /// Prints a result for people.
     pub(crate) fn result(&self, text: impl Display) -> Result<(), Failure> {
-        if self.quiet {
+        if self.quiet || self.json {
             return Ok(());
         }
-        let mut output = io::stdout().lock();
-        match writeln!(output, "{text}").and_then(|()| output.flush()) {
-            Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-                Err(Failure::failed(format!("cannot write the result: {error}")))
-            }
-            _ => Ok(()),
+        print(text)
+    }
+
+    /// A file was written: prints its path.
+    pub(crate) fn file(&self, path: &Path) -> Result<(), Failure> {
+        self.locked_files().push(path.to_owned());
+        self.result(path.display())
+    }
+
+    /// The files written so far.
+    pub(crate) fn files(&self) -> Vec<PathBuf> {
+        self.locked_files().clone()
+    }
+
+    fn locked_files(&self) -> MutexGuard<'_, Vec<PathBuf>> {
+        self.files.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Prints the result as one JSON object, if that was asked for; `docs/json.md` describes it.
+    pub(crate) fn answer(&self, answer: &impl Serialize) -> Result<(), Failure> {
+        if !self.json {
+            return Ok(());
         }
+        print(serde_json::to_string(answer).map_err(Failure::failed)?)
+    }
+
+    /// Prints the files written as one JSON object, if that was asked for.
+    pub(crate) fn answer_files(&self) -> Result<(), Failure> {
+        #[derive(Serialize)]
+        struct Answer {
+            files: Vec<PathBuf>,
+        }
+        let files = self.files();
+        self.answer(&Answer { files })
     }
 
     /// Says something on the way.
@@ -56,6 +95,17 @@ impl Console {
     /// Says what is wrong.
     pub(crate) fn error(&self, text: impl Display) {
         complain(format_args!("error: {text}"));
+    }
+}
+
+/// Prints to the standard output. A reader that has gone away, such as `head`, is no fault.
+fn print(text: impl Display) -> Result<(), Failure> {
+    let mut output = io::stdout().lock();
+    match writeln!(output, "{text}").and_then(|()| output.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::failed(format!("cannot write the result: {error}")))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
-use super::format;
+use super::{folders, format};
 use phase::observe::Snapshot;
 use phase::record::{RunRecord, States};
 use phase::store::{self, DumpName, StoreError};
@@ -42,6 +42,9 @@ pub(crate) struct Arguments {
     /// Write one state in N, from the first on.
     #[arg(long, value_name = "N", value_parser = super::sweep::at_least_one)]
     every: Option<usize>,
+    /// Print the files written as one JSON object (docs/json.md) instead of text.
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 /// A format to write.
@@ -93,6 +96,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         }
         export(&record, path, &target, arguments, console)?;
     }
+    console.answer_files()?;
     Ok(Exit::Done)
 }
 
@@ -146,10 +150,7 @@ fn export(
              `phase run --trajectory`",
         );
     }
-    if let Some(folder) = target.parent() {
-        std::fs::create_dir_all(folder)
-            .map_err(|error| Failure::failed(format_args!("{}: {error}", folder.display())))?;
-    }
+    folders::make_for(target)?;
     let observations = target.with_file_name(format!(
         "{}-observations.csv",
         target.file_stem().unwrap_or_default().to_string_lossy()
@@ -163,9 +164,9 @@ fn export(
         Format::Dump => store::write_dump(record, &chosen, target),
     };
     result.map_err(Failure::failed)?;
-    console.result(target.display())?;
+    console.file(target)?;
     if arguments.to == Format::Csv {
-        console.result(observations.display())?;
+        console.file(&observations)?;
     }
     Ok(())
 }

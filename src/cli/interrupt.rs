@@ -11,7 +11,7 @@ static STOP: AtomicBool = AtomicBool::new(false);
 /// From now on the first signal sets the flag that is returned; the second ends the program at
 /// once.
 pub(crate) fn stop_on_signal(console: &Console) -> Result<&'static AtomicBool, Failure> {
-    let speaker = Console::new(console.is_quiet(), console.is_verbose());
+    let speaker = Console::new(console.is_quiet(), console.is_verbose(), false);
     ctrlc::set_handler(move || {
         if STOP.swap(true, Ordering::Relaxed) {
             std::process::exit(Exit::Interrupted as i32);

@@ -2,14 +2,21 @@
 
 mod check;
 mod classify;
+mod completions;
 mod console;
 mod exit;
 mod export;
+mod folders;
 mod format;
 mod interrupt;
+mod job;
+mod man;
+mod new;
 mod plot;
 mod progress;
+mod reference;
 mod run;
+mod schema;
 mod status;
 mod sweep;
 mod view;
@@ -48,7 +55,7 @@ struct CommandLine {
 
 #[derive(Args)]
 struct Verbosity {
-    /// Print nothing but errors.
+    /// Print nothing but errors, and what `--json` asks for.
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     quiet: bool,
     /// Print more: every job as it ends, every record that is run again.
@@ -66,12 +73,34 @@ enum Command {
     View(view::Arguments),
     Check(check::Arguments),
     Status(status::Arguments),
+    New(new::Arguments),
+    Schema(schema::Arguments),
+    Reference(reference::Arguments),
+    Completions(completions::Arguments),
+    Man(man::Arguments),
+}
+
+impl Command {
+    /// Whether the result is for a program.
+    fn wants_json(&self) -> bool {
+        match self {
+            Self::Sweep(arguments) => arguments.json,
+            Self::Classify(arguments) => arguments.json,
+            Self::Plot(arguments) => arguments.json,
+            Self::Run(arguments) => arguments.json,
+            Self::Export(arguments) => arguments.json,
+            Self::View(arguments) => arguments.json,
+            Self::Check(arguments) => arguments.json,
+            Self::Status(arguments) => arguments.json,
+            _ => false,
+        }
+    }
 }
 
 /// Parses the command line and does what it says.
 pub(crate) fn main() -> ExitCode {
     let CommandLine { verbosity, command } = CommandLine::parse();
-    let console = Console::new(verbosity.quiet, verbosity.verbose);
+    let console = Console::new(verbosity.quiet, verbosity.verbose, command.wants_json());
     let result = match command {
         Command::Sweep(arguments) => sweep::main(&arguments, &console),
         Command::Classify(arguments) => classify::main(&arguments, &console),
@@ -81,6 +110,11 @@ pub(crate) fn main() -> ExitCode {
         Command::View(arguments) => view::main(&arguments, &console),
         Command::Check(arguments) => check::main(&arguments, &console),
         Command::Status(arguments) => status::main(&arguments, &console),
+        Command::New(arguments) => new::main(&arguments, &console),
+        Command::Schema(arguments) => schema::main(&arguments, &console),
+        Command::Reference(arguments) => reference::main(&arguments, &console),
+        Command::Completions(arguments) => completions::main(&arguments, &console),
+        Command::Man(arguments) => man::main(&arguments, &console),
     };
     match result {
         Ok(exit) => exit.into(),

@@ -6,6 +6,7 @@ use phase::plot::{self, Svg};
 use phase::record::Program;
 use phase::store;
 use phase::sweep::{Folder, LabelTable, Sweep, parse_point};
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// Draw the figures of a results folder, as SVG and PNG, from its labels.csv and records, or the
@@ -34,6 +35,9 @@ pub(crate) struct Arguments {
     /// Print the names of all figures and what they show.
     #[arg(short, long)]
     list: bool,
+    /// Print the result as one JSON object (docs/json.md) instead of text.
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 /// Values by name of an axis.
@@ -46,15 +50,70 @@ const DEFAULT_FIGURES: [&str; 2] = ["phase", "settle-time"];
 const TRACKS: &str = "tracks";
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    if arguments.list {
-        list(console)?;
-    }
-    let Some(dir) = &arguments.dir else {
-        return Ok(Exit::Done);
+    let figures = match arguments.list {
+        true => list(console)?,
+        false => Vec::new(),
     };
-    if dir.is_file() {
-        return draw_record(dir, &arguments.figure, console);
+    match &arguments.dir {
+        Some(path) if path.is_file() => draw_record(path, &arguments.figure, console)?,
+        Some(dir) => draw_folders(dir, arguments, console)?,
+        None => {}
     }
+    console.answer(&Answer {
+        figures,
+        files: console.files(),
+    })?;
+    Ok(Exit::Done)
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Answer {
+    /// All figures, if they were asked for.
+    figures: Vec<Entry>,
+    /// The files written.
+    files: Vec<PathBuf>,
+}
+
+/// A figure that can be drawn.
+#[derive(Serialize)]
+struct Entry {
+    name: &'static str,
+    description: String,
+    /// The runs that a figure of single runs shows without --point.
+    default_runs: Option<&'static str>,
+}
+
+/// Prints name and description of every figure.
+fn list(console: &Console) -> Result<Vec<Entry>, Failure> {
+    let mut entries: Vec<Entry> = plot::figures()
+        .into_iter()
+        .map(|figure| Entry {
+            name: figure.name,
+            description: figure.description,
+            default_runs: figure.default_runs,
+        })
+        .collect();
+    entries.push(Entry {
+        name: TRACKS,
+        description: "paths of the spheres, from the record of one run with its trajectory"
+            .to_owned(),
+        default_runs: None,
+    });
+    for entry in &entries {
+        console.result(format_args!("{:<22} {}", entry.name, entry.description))?;
+        if let Some(runs) = entry.default_runs {
+            console.result(format_args!(
+                "{:<22} of the runs at --point, or else {runs}",
+                ""
+            ))?;
+        }
+    }
+    Ok(entries)
+}
+
+/// Draws the figures of every results folder at `dir`.
+fn draw_folders(dir: &Path, arguments: &Arguments, console: &Console) -> Result<(), Failure> {
     if arguments.figure.iter().any(|name| name == TRACKS) {
         return Err(Failure::refused(format_args!(
             "`{TRACKS}` is drawn from the record of one run; name its .h5 file instead of {}",
@@ -87,7 +146,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             draw(name, &folder, &sweep, &table, &points, console)?;
         }
     }
-    Ok(Exit::Done)
+    Ok(())
 }
 
 /// Draws what is drawn if nothing else is asked for.
@@ -104,21 +163,6 @@ pub(super) fn draw_default_figures(
     DEFAULT_FIGURES
         .iter()
         .try_for_each(|name| draw(name, folder, sweep, table, &[], console))
-}
-
-/// Prints name and description of every figure.
-fn list(console: &Console) -> Result<(), Failure> {
-    for figure in plot::figures() {
-        console.result(format_args!("{:<22} {}", figure.name, figure.description))?;
-        if let Some(runs) = figure.default_runs {
-            console.result(format_args!(
-                "{:<22} of the runs at --point, or else {runs}",
-                ""
-            ))?;
-        }
-    }
-    let description = "paths of the spheres, from the record of one run with its trajectory";
-    console.result(format_args!("{TRACKS:<22} {description}"))
 }
 
 /// Draws a figure, writes it as SVG and PNG and prints their paths.
@@ -148,7 +192,7 @@ fn draw(
 }
 
 /// Draws the tracks of a record beside it: NAME.h5 gives NAME-tracks.svg and .png.
-fn draw_record(path: &Path, figures: &[String], console: &Console) -> Result<Exit, Failure> {
+fn draw_record(path: &Path, figures: &[String], console: &Console) -> Result<(), Failure> {
     if let Some(name) = figures.iter().find(|name| *name != TRACKS) {
         return Err(Failure::refused(format_args!(
             "`{name}` is no figure of a single record; `{TRACKS}` is"
@@ -160,8 +204,7 @@ fn draw_record(path: &Path, figures: &[String], console: &Console) -> Result<Exi
     let mut stem = path.file_stem().unwrap_or_default().to_owned();
     stem.push("-tracks");
     let place = |extension: &str| path.with_file_name(&stem).with_added_extension(extension);
-    write(&figure, place, console)?;
-    Ok(Exit::Done)
+    write(&figure, place, console)
 }
 
 /// Writes a figure as SVG and PNG and prints their paths.
@@ -173,7 +216,7 @@ fn write(figure: &Svg, place: impl Fn(&str) -> PathBuf, console: &Console) -> Re
     for (extension, bytes) in images {
         let path = place(extension);
         store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
-        console.result(path.display())?;
+        console.file(&path)?;
     }
     Ok(())
 }

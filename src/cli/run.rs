@@ -5,7 +5,7 @@ mod again;
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::progress::{Progress, Work};
-use super::{format, interrupt};
+use super::{folders, format, interrupt};
 use again::Original;
 use phase::document::Problem;
 use phase::record::{Outcome, RunRecord};
@@ -13,6 +13,8 @@ use phase::run::RunError;
 use phase::scene::Scene;
 use phase::store;
 use phase::sweep::work;
+use serde::Serialize;
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -52,6 +54,9 @@ pub(crate) struct Arguments {
     /// Time between snapshots of all spheres (s); 0 for none but the last.
     #[arg(long, value_name = "SECONDS")]
     snapshot_interval: Option<f64>,
+    /// Print the result as one JSON object (docs/json.md) instead of text.
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
@@ -75,18 +80,20 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if let Some(original) = &original {
         original.refuse_to_replace(&path)?;
     }
-    make_folder_of(&path)?;
+    folders::make_for(&path)?;
     let Some((record, seconds)) = run(&scene, console)? else {
         console.note("interrupted; nothing was stored");
         return Ok(Exit::Interrupted);
     };
     store::write_record(&record, &path).map_err(Failure::failed)?;
     console.result(summary(&record, seconds))?;
-    console.result(path.display())?;
-    match original {
-        Some(original) => original.compare(&record, console),
-        None => Ok(Exit::Done),
-    }
+    console.file(&path)?;
+    let same_bits = match &original {
+        Some(original) => original.compare(&record, console)?,
+        None => None,
+    };
+    console.answer(&Answer::new(&record, seconds, &path, same_bits))?;
+    Ok(Exit::Done)
 }
 
 /// Puts what the command line says of the output into the scene.
@@ -148,10 +155,66 @@ fn default_record(file: &Path) -> PathBuf {
         .with_added_extension("h5")
 }
 
-fn make_folder_of(path: &Path) -> Result<(), Failure> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::failed(format_args!("{}: {error}", folder.display())))
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Answer<'a> {
+    record: &'a Path,
+    seed: u64,
+    outcome: &'static str,
+    /// What ended an unstable run.
+    instability: Option<Broken>,
+    seconds: f64,
+    cpu_seconds: f64,
+    sphere_steps: u64,
+    frames: usize,
+    /// Time (s) and every scalar observable of the last frame, in the units of the record.
+    last_frame: BTreeMap<&'static str, f64>,
+    /// Whether a job that was run again gave the bits of the sweep's record; none without one.
+    same_bits: Option<bool>,
+}
+
+/// The guard that ended a run.
+#[derive(Serialize)]
+struct Broken {
+    guard: &'static str,
+    step: u64,
+    time: f64,
+    sphere: usize,
+    detail: String,
+}
+
+impl<'a> Answer<'a> {
+    fn new(record: &RunRecord, seconds: f64, path: &'a Path, same_bits: Option<bool>) -> Self {
+        let observations = &record.observations;
+        let mut last_frame = BTreeMap::new();
+        last_frame.extend(observations.time.last().map(|time| ("time", *time)));
+        for series in observations.scalars() {
+            let last = series.values.last();
+            last_frame.extend(last.map(|value| (series.name, f64::from(*value))));
+        }
+        let (outcome, instability) = match &record.outcome {
+            Outcome::Completed => ("completed", None),
+            Outcome::Unstable(instability) => ("unstable", Some(instability)),
+        };
+        Self {
+            record: path,
+            seed: record.scene.seed,
+            outcome,
+            instability: instability.map(|instability| Broken {
+                guard: instability.guard.name(),
+                step: instability.step,
+                time: instability.time,
+                sphere: instability.sphere,
+                detail: instability.detail.clone(),
+            }),
+            seconds,
+            cpu_seconds: record.cpu_seconds,
+            sphere_steps: work::sphere_steps_run(&record.scene, &record.outcome),
+            frames: observations.frames(),
+            last_frame,
+            same_bits,
+        }
+    }
 }
 
 /// How the run ended, and the state of its last frame.

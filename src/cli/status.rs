@@ -3,7 +3,9 @@
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::format;
+use super::job::NamedJob;
 use phase::sweep::{Axis, Folder, Plan, Status, describe, work};
+use serde::Serialize;
 use std::path::PathBuf;
 
 /// Say how far a sweep is: jobs done, failed and left, and the time left.
@@ -17,10 +19,14 @@ pub(crate) struct Arguments {
     /// Simulations at the same time, to tell the time left [default: all cores].
     #[arg(short, long, value_name = "N", value_parser = super::sweep::at_least_one)]
     jobs: Option<usize>,
+    /// Print the result as one JSON object (docs/json.md) instead of text.
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
+    let mut folders = Vec::new();
     for folder in Folder::find(&arguments.dir).map_err(Failure::refused)? {
         let sweep = folder.read_sweep().map_err(Failure::failed)?;
         let jobs = sweep.jobs().map_err(Failure::failed)?;
@@ -31,8 +37,51 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             folder.root().display(),
             text(&status, &sweep.axes, workers)
         ))?;
+        folders.push(FolderAnswer {
+            folder: folder.root().to_owned(),
+            jobs: status.jobs,
+            done: status.done,
+            unstable: status.unstable,
+            failed: NamedJob::all(&sweep.axes, &status.failures),
+            to_redo: status.bad,
+            left: status.left,
+            workers: workers.min(status.left.max(1)),
+            seconds_left: seconds_left(&status, workers),
+            running: status.running,
+        });
     }
+    console.answer(&Answer { folders })?;
     Ok(Exit::Done)
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Answer {
+    folders: Vec<FolderAnswer>,
+}
+
+/// How far the sweep of one folder is.
+#[derive(Serialize)]
+struct FolderAnswer {
+    folder: PathBuf,
+    jobs: usize,
+    done: usize,
+    unstable: usize,
+    failed: Vec<NamedJob>,
+    to_redo: usize,
+    left: usize,
+    workers: usize,
+    seconds_left: Option<f64>,
+    running: bool,
+}
+
+/// Time for the jobs left with that many workers (s), if any job is done to judge by.
+fn seconds_left(status: &Status, workers: usize) -> Option<f64> {
+    // More workers than jobs are of no use.
+    let workers = workers.min(status.left.max(1));
+    status
+        .cpu_seconds_left
+        .map(|seconds| seconds / workers as f64)
 }
 
 fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
@@ -43,8 +92,8 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
         failures,
         bad,
         left,
-        cpu_seconds_left,
         running,
+        ..
     } = status;
     let mut text = format!(
         "{}, {done} done, {} failed, {left} left",
@@ -61,13 +110,11 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
         );
     }
     if *left > 0 {
-        // More workers than jobs are of no use.
-        let workers = workers.min(*left);
-        let time = match cpu_seconds_left {
+        let time = match seconds_left(status, workers) {
             Some(seconds) => format!(
                 "about {} with {}",
-                format::duration(seconds / workers as f64),
-                format::count(workers, "worker")
+                format::duration(seconds),
+                format::count(workers.min(*left), "worker")
             ),
             None => "not known before a job is done; `phase check` forecasts it".to_owned(),
         };

@@ -2,13 +2,15 @@
 
 use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
+use super::job::NamedJob;
 use super::progress::{Progress, Work};
 use super::{classify, format, interrupt, plot};
 use phase::record::Outcome;
 use phase::sweep::{
-    Event, Folder, FolderError, Job, Plan, Pool, PoolError, Report, Standing, Sweep, describe,
-    differing_keys, work,
+    Event, Failure as JobFailure, Folder, FolderError, Job, Plan, Pool, PoolError, Report,
+    Standing, Sweep, describe, differing_keys, work,
 };
+use serde::Serialize;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -47,6 +49,9 @@ pub(crate) struct Arguments {
     /// Draw no figures.
     #[arg(long)]
     no_plot: bool,
+    /// Print the result as one JSON object (docs/json.md) instead of text.
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 /// Parses a number of workers.
@@ -89,12 +94,15 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     tell_of_plan(&plan, console);
     let run = run(&plan, &sweep, &folder, workers, stop, console)?;
     run.print(&plan, &sweep, console)?;
+    let mut answer = Answer::new(&folder, &plan, &sweep, &run);
 
     if stop.load(Ordering::Relaxed) {
         console.note(format_args!(
             "interrupted; {} left. Go on with the same command",
             format::count(run.report.left, "job")
         ));
+        answer.interrupted = true;
+        console.answer(&answer)?;
         return Ok(Exit::Interrupted);
     }
     if let Some(error) = &run.report.halted {
@@ -103,11 +111,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let mut failed = !run.report.failures.is_empty();
     if !arguments.no_classify {
         let labelled = classify::label_folder(&folder, &sweep, &jobs, workers, console)?;
-        failed |= labelled.problems > 0;
+        failed |= !labelled.summary.problems.is_empty();
         if !arguments.no_plot {
             plot::draw_default_figures(&folder, &sweep, &labelled.table, console)?;
         }
+        answer.labels = Some(labelled.summary);
     }
+    answer.files = console.files();
+    console.answer(&answer)?;
     Ok(if failed { Exit::Failed } else { Exit::Done })
 }
 
@@ -161,8 +172,49 @@ struct Run {
     report: Report,
     seconds: f64,
     workers: usize,
-    /// Runs that a guard ended, by name.
-    unstable: Vec<String>,
+    /// Runs that a guard ended, and which.
+    unstable: Vec<JobFailure>,
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Answer {
+    folder: PathBuf,
+    jobs: usize,
+    done_before: usize,
+    run_now: usize,
+    left: usize,
+    unstable: Vec<NamedJob>,
+    failed: Vec<NamedJob>,
+    interrupted: bool,
+    workers: usize,
+    seconds: f64,
+    cpu_seconds: f64,
+    sphere_steps: u64,
+    labels: Option<classify::Summary>,
+    /// The files written, but for the records.
+    files: Vec<PathBuf>,
+}
+
+impl Answer {
+    fn new(folder: &Folder, plan: &Plan, sweep: &Sweep, run: &Run) -> Self {
+        Self {
+            folder: folder.root().to_owned(),
+            jobs: plan.jobs.len(),
+            done_before: plan.done().count(),
+            run_now: run.report.finished,
+            left: run.report.left,
+            unstable: NamedJob::all(&sweep.axes, &run.unstable),
+            failed: NamedJob::all(&sweep.axes, &run.report.failures),
+            interrupted: false,
+            workers: run.workers,
+            seconds: run.seconds,
+            cpu_seconds: run.report.cpu_seconds,
+            sphere_steps: run.report.sphere_steps,
+            labels: None,
+            files: Vec::new(),
+        }
+    }
 }
 
 fn run(
@@ -187,8 +239,8 @@ fn run(
     let unstable = Mutex::new(HashMap::new());
     let note_unstable = |job: &Job, outcome: &Outcome| {
         if let (Outcome::Unstable(instability), Ok(mut unstable)) = (outcome, unstable.lock()) {
-            let text = format!("{} (job {}): {instability}", name(job), job.id);
-            unstable.insert(job.id.clone(), text);
+            let unstable_job = JobFailure::new(job, instability.to_string());
+            unstable.insert(job.id.clone(), unstable_job);
         }
     };
     for (job, done) in plan.done() {
@@ -280,17 +332,17 @@ impl Run {
             );
         }
         console.result(text)?;
-        let failed: Vec<String> = failures
-            .iter()
-            .map(|failure| {
-                let name = describe(&sweep.axes, &failure.values, failure.seed);
-                format!("{name} (job {}): {}", failure.id, failure.reason)
-            })
-            .collect();
-        name_first(&self.unstable, |name| {
+        let names = |jobs: &[JobFailure]| -> Vec<String> {
+            let named = |job: &JobFailure| {
+                let name = describe(&sweep.axes, &job.values, job.seed);
+                format!("{name} (job {}): {}", job.id, job.reason)
+            };
+            jobs.iter().map(named).collect()
+        };
+        name_first(&names(&self.unstable), |name| {
             console.note(format_args!("unstable: {name}"))
         });
-        name_first(&failed, |name| {
+        name_first(&names(failures), |name| {
             console.error(format_args!("failed: {name}"))
         });
         Ok(())

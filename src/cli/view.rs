@@ -2,7 +2,7 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
-use super::format;
+use super::{folders, format};
 use phase::observe::Snapshot;
 use phase::record::{Outcome, RunRecord, States};
 use phase::render::{Animation, ColorBy, Image, Stage, panel, strip};
@@ -49,6 +49,9 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "PIXELS", default_value_t = 320,
           value_parser = clap::value_parser!(u32).range(40..=4000))]
     width: u32,
+    /// Print the files written as one JSON object (docs/json.md) instead of text.
+    #[arg(long)]
+    pub(super) json: bool,
 }
 
 /// What the colours of the spheres stand for.
@@ -114,8 +117,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             )
         }
     };
+    folders::make_for(&path)?;
     store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
-    console.result(path.display())?;
+    console.file(&path)?;
+    console.answer_files()?;
     Ok(Exit::Done)
 }
 

@@ -1,7 +1,8 @@
 //! Which keys a file may have and what each may hold.
 //!
 //! A description is data: one list per table, next to the structs that the file ends in. It
-//! serves to refuse a file with all its problems at once, and to name the numeric keys of a scene.
+//! serves to refuse a file with all its problems at once, to name the numeric keys of a scene, and
+//! to describe files to editors and readers ([`crate::reference`]).
 
 use super::{Problem, any_of, number, one_of, quoted, suggest};
 use serde_json::{Map, Value};
@@ -10,7 +11,7 @@ use serde_json::{Map, Value};
 pub(crate) struct Key {
     pub(crate) name: &'static str,
     pub(crate) kind: Kind,
-    needed: bool,
+    pub(crate) needed: bool,
 }
 
 /// A key that must be there.
@@ -59,9 +60,9 @@ type Variants = (&'static str, &'static [Variant]);
 /// Which numbers are allowed.
 #[derive(Clone, Copy)]
 pub(crate) struct Range {
-    low: f64,
-    low_allowed: bool,
-    high: f64,
+    pub(crate) low: f64,
+    pub(crate) low_allowed: bool,
+    pub(crate) high: f64,
 }
 
 impl Range {

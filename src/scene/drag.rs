@@ -1,15 +1,16 @@
 //! The drag of air on a sphere: force from the difference of two velocities.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Drag law and the form of its quadratic part.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Drag {
-    /// Linear coefficient; its unit depends on `law`.
+    /// Linear coefficient, with the unit that `law` says.
     #[serde(default)]
     pub linear: f64,
-    /// Quadratic coefficient; its unit depends on `law`.
+    /// Quadratic coefficient, with the unit that `law` says.
     #[serde(default)]
     pub quadratic: f64,
     /// How the coefficients scale with the sphere.
@@ -20,7 +21,7 @@ pub struct Drag {
 }
 
 /// How drag scales with the sphere of radius r: F = c1 dv + c2 |dv| dv.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DragLaw {
     /// By cross-section (Rice, 2012, eqs. 22 and 23): c1 = linear pi r^2 with `linear` in
@@ -34,7 +35,7 @@ pub enum DragLaw {
 }
 
 /// Form of the quadratic drag.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DragForm {
     /// |dv| dv: isotropic, as physics has it.

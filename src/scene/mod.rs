@@ -19,11 +19,12 @@ pub(crate) use load::of_tree;
 pub use load::{from_str, load};
 pub use radius::{Radii, RadiusShare};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// One simulation, fully specified.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Free text, shown in figures and reports.
@@ -71,12 +72,55 @@ pub struct Scene {
     pub output: Output,
 }
 
+impl Scene {
+    /// Spheres that start somewhere and move for a time, and nothing that acts on them: no
+    /// contacts, no walls, no forces. Seed 1, and the default guards and output.
+    ///
+    /// ```
+    /// use phase::scene::{Gravity, Integrator, Radii, Scene, Spheres, Start, StartSphere, Time};
+    ///
+    /// let falling = Scene {
+    ///     gravity: Some(Gravity { acceleration: 9.8, tilt: 0.0 }),
+    ///     ..Scene::new(
+    ///         Spheres { count: 1, radius: Radii::One(0.004), density: 2500.0 },
+    ///         Start::List { spheres: vec![StartSphere::at([0.0, 0.0, 1.0])] },
+    ///         Time {
+    ///             dt: 1e-4,
+    ///             duration: 0.1,
+    ///             frame_interval: 1e-2,
+    ///             integrator: Integrator::VelocityVerlet,
+    ///         },
+    ///     )
+    /// };
+    /// assert!(falling.problems().is_empty());
+    /// ```
+    pub fn new(spheres: Spheres, start: Start, time: Time) -> Self {
+        Self {
+            title: None,
+            seed: default_seed(),
+            spheres,
+            contact: None,
+            friction: None,
+            tank: None,
+            start,
+            gravity: None,
+            drag: None,
+            swirl: None,
+            updraught: None,
+            spin_damping: None,
+            time,
+            guards: Guards::default(),
+            output: Output::default(),
+        }
+    }
+}
+
 fn default_seed() -> u64 {
     1
 }
 
 /// The spheres: how many, how large, how heavy.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Spheres {
     /// Number of spheres, n.
@@ -88,7 +132,7 @@ pub struct Spheres {
 }
 
 /// Normal contact law.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Contact {
     /// Viscoelastic Hertz contact (Brilliantov et al., 1996), never attractive.
@@ -119,7 +163,7 @@ fn one() -> f64 {
 }
 
 /// Tangential contact law.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Friction {
     /// The thesis's rule (Rice, 2012, eqs. 10 to 14): from spins alone, an impulse per step.
@@ -143,7 +187,7 @@ pub enum Friction {
 }
 
 /// The tank's walls, of the same material as the spheres.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tank {
     /// Radius R of the cylindrical wall (m). Absent: no cylinder.
@@ -155,7 +199,7 @@ pub struct Tank {
 }
 
 /// Where and how the spheres start.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Start {
     /// Random positions without overlap, inside the tank's cylinder.
@@ -186,7 +230,7 @@ pub enum Start {
 }
 
 /// One sphere of a start list.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StartSphere {
     /// Centre (m).
@@ -202,8 +246,20 @@ pub struct StartSphere {
     pub radius: Option<f64>,
 }
 
+impl StartSphere {
+    /// A sphere at rest at a place (m), with the radius that the scene gives it.
+    pub fn at(position: [f64; 3]) -> Self {
+        Self {
+            position,
+            velocity: [0.0; 3],
+            spin: [0.0; 3],
+            radius: None,
+        }
+    }
+}
+
 /// Gravity.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Gravity {
     /// Acceleration g (m/s2).
@@ -234,7 +290,7 @@ impl Gravity {
 }
 
 /// Air in rigid rotation about the axis (Rice, 2012, eqs. 21 to 27).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Swirl {
     /// Angular velocity Omega of the air (rad/s), counter-clockwise seen from above.
@@ -242,7 +298,7 @@ pub struct Swirl {
 }
 
 /// Rising air with the rectangular counting shield (Rice, 2012, eq. 24).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Updraught {
     /// Speed v_z of the rising air (m/s).
@@ -274,7 +330,7 @@ impl Updraught {
 }
 
 /// Viscous damping of spins.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpinDamping {
     /// Torque per spin, c (kg m2/s).
@@ -282,7 +338,7 @@ pub struct SpinDamping {
 }
 
 /// Time step, duration, frames, integrator.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
     /// Time step dt (s).
@@ -297,7 +353,7 @@ pub struct Time {
 }
 
 /// Integration scheme.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Integrator {
     /// Symplectic (semi-implicit) Euler, as the thesis: first order.
@@ -309,7 +365,7 @@ pub enum Integrator {
 }
 
 /// Limits beyond which a run is ended and reported as unstable.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Guards {
     /// Largest overlap, in radii of the smaller partner.
@@ -337,7 +393,7 @@ impl Default for Guards {
 }
 
 /// What is stored besides the observables of every frame. Never changes the motion.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
     /// Time between snapshots of all spheres (s); 0 for none but the last.

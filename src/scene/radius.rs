@@ -1,11 +1,12 @@
 //! Radii of the spheres: one value, shares of several, or a file.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use std::path::PathBuf;
 
 /// Radii of the spheres.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Radii {
     /// Every sphere has this radius (m).
@@ -22,7 +23,7 @@ pub enum Radii {
 }
 
 /// A share of the spheres with one radius.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RadiusShare {
     /// Radius (m).

@@ -3,6 +3,7 @@
 use super::spacing::{self, MOST_VALUES};
 use crate::document::{Problem, number, one_of};
 use crate::scene::{Scene, leaf};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// One axis of a sweep: a numeric key of the scene and the values it takes.
@@ -17,20 +18,29 @@ pub struct Axis {
 }
 
 /// An axis as a sweep file writes it: `values`, or `from` and `to` with `step` or `count`.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 pub(super) struct AxisEntry {
+    /// Any numeric key of the scene, by its path, such as `spheres.radius`.
     key: String,
+    /// Name in tables and figures. Default: the last part of the key, such as `radius`.
     name: Option<String>,
+    /// All values one by one, in the unit of the key. Give these, or `from` and `to` with `step`
+    /// or `count`.
     values: Option<Vec<f64>>,
+    /// First value, in the unit of the key.
     from: Option<f64>,
+    /// Last value, in the unit of the key.
     to: Option<f64>,
+    /// Distance between values, in the unit of the key.
     step: Option<f64>,
+    /// Number of values, in place of `step`.
     count: Option<usize>,
+    /// How `count` values lie between `from` and `to` (default `linear`).
     spacing: Option<Spacing>,
 }
 
 /// How `count` values lie between `from` and `to`.
-#[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 enum Spacing {
     /// At equal distances.

@@ -6,6 +6,7 @@ use super::{Axis, PlotSettings, Sweep};
 use crate::classify::Sieves;
 use crate::document::{Document, LoadError, Problem, one_of, suggest};
 use crate::scene::{self, Scene};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 use std::path::Path;
@@ -16,24 +17,36 @@ const MOST_AXES: usize = 4;
 /// Largest number of jobs: their scenes are held in memory.
 const MOST_JOBS: usize = 1_000_000;
 
-/// What a sweep file says besides its scene.
-#[derive(Deserialize)]
-struct SweepFile {
+/// What a sweep file says.
+#[derive(Deserialize, JsonSchema)]
+pub(crate) struct SweepFile {
+    /// Free text, the title of figures.
     title: Option<String>,
+    /// The scene that every job starts from: the path of its file, relative to this one, or the
+    /// scene itself in the tables `[scene.spheres]` and so on.
+    #[schemars(with = "Scene")]
+    scene: Value,
+    /// The axes, four at most. The first varies slowest. None: only the seeds vary.
     #[serde(default)]
     axis: Vec<AxisEntry>,
+    /// Seeds; each point of the grid runs once per seed. Absent: seed 1 alone.
     seeds: Option<SeedsEntry>,
+    /// Thresholds of the sieves, which label the runs.
     #[serde(default)]
     sieves: Sieves,
+    /// What the phase diagram shows.
     #[serde(default)]
     plot: PlotSettings,
 }
 
 /// Seeds as a sweep file writes them: a list, or the first and their number.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 struct SeedsEntry {
+    /// The first seed (default 1); the others follow.
     first: Option<u64>,
+    /// Number of seeds (default 1).
     count: Option<u64>,
+    /// All seeds one by one, in place of `first` and `count`.
     list: Option<Vec<u64>>,
 }
 
@@ -60,7 +73,7 @@ fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     document.accept(&problems)?;
     let file = SweepFile::deserialize(document.tree())
         .map_err(|error| document.refuse(&[Problem::new("", format!("not a sweep: {error}"))]))?;
-    let scene = base_scene(document)?;
+    let scene = base_scene(&file.scene, document)?;
     let axes = expand_axes(&file.axis, &scene, &mut problems);
     let seeds = expand_seeds(file.seeds.as_ref(), &mut problems);
     let sweep = Sweep {
@@ -85,8 +98,7 @@ fn of_document(document: &Document) -> Result<Sweep, LoadError> {
 }
 
 /// The scene that the sweep starts from: in a file of its own, or in the table `scene`.
-fn base_scene(document: &Document) -> Result<Scene, LoadError> {
-    let scene = &document.tree()["scene"];
+fn base_scene(scene: &Value, document: &Document) -> Result<Scene, LoadError> {
     let Some(path) = scene.as_str() else {
         return scene::of_tree(scene, document.folder()).map_err(|problems| {
             let within = |problem: Problem| problem.within("scene");

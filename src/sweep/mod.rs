@@ -12,7 +12,7 @@ mod labels;
 mod load;
 mod plan;
 mod pool;
-mod schema;
+pub(crate) mod schema;
 mod select;
 mod spacing;
 mod status;
@@ -27,6 +27,7 @@ pub use forecast::{Forecast, ForecastError, forecast};
 pub use job::{Job, PointError};
 pub use label::{Labelling, changes};
 pub use labels::{LabelRow, LabelTable, Point};
+pub(crate) use load::SweepFile;
 pub use load::{from_str, load};
 pub use plan::{Done, ForeignRecord, Plan, Standing};
 pub use pool::{Event, Pool, PoolError, Report};
@@ -35,6 +36,7 @@ pub use status::Status;
 
 use crate::classify::Sieves;
 use crate::scene::Scene;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A sweep, fully resolved: this is what the results folder keeps as `sweep.json`.
@@ -55,7 +57,7 @@ pub struct Sweep {
 }
 
 /// What the phase diagram shows.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlotSettings {
     /// Name of the horizontal axis (default: the first axis).

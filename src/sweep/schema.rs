@@ -10,7 +10,7 @@ const FRACTION: Kind = Kind::Number(Range::FRACTION);
 const WHOLE: Kind = Kind::Whole(0);
 
 /// The keys of a sweep file.
-pub(super) const SWEEP: Kind = Kind::Table(&[
+pub(crate) const SWEEP: Kind = Kind::Table(&[
     optional("title", Kind::Text),
     needed("scene", Kind::Either(&[Kind::Text, SCENE])),
     optional("axis", Kind::List(&AXIS)),

@@ -1,8 +1,8 @@
 //! Labels of a folder of dumps.
 
-use super::write_tables;
+use super::{Labelled, write_tables};
 use crate::cli::console::Console;
-use crate::cli::exit::{Exit, Failure};
+use crate::cli::exit::Failure;
 use phase::classify::Sieves;
 use phase::sweep::{Folder, FolderError, Labelling, find_dumps};
 use std::path::{Path, PathBuf};
@@ -14,19 +14,13 @@ pub(super) fn label(
     sieves: &Sieves,
     workers: usize,
     console: &Console,
-) -> Result<Exit, Failure> {
+) -> Result<Labelled, Failure> {
     let scene = phase::scene::load(scene).map_err(Failure::refused)?;
     sieves.check(&scene).map_err(Failure::refused)?;
     let dumps = dumps_in(folder)?;
     let labelling =
         Labelling::of_dumps(&dumps, &scene, sieves, workers).map_err(Failure::failed)?;
-    let problems = labelling.problems.len();
-    write_tables(labelling, &Folder::new(folder), console)?;
-    Ok(if problems > 0 {
-        Exit::Failed
-    } else {
-        Exit::Done
-    })
+    write_tables(labelling, &Folder::new(folder), console)
 }
 
 fn dumps_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {

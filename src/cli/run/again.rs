@@ -1,7 +1,7 @@
 //! A job of a sweep that is run again.
 
 use crate::cli::console::Console;
-use crate::cli::exit::{Exit, Failure};
+use crate::cli::exit::Failure;
 use phase::record::RunRecord;
 use phase::store;
 use phase::sweep::{Axis, Folder, Job, parse_point};
@@ -83,15 +83,19 @@ impl Original {
         Ok(())
     }
 
-    /// Says whether a run gave the same bits as in the sweep.
-    pub(super) fn compare(&self, again: &RunRecord, console: &Console) -> Result<Exit, Failure> {
+    /// Makes sure that a run gave the same bits as in the sweep. None if the sweep has no record of it.
+    pub(super) fn compare(
+        &self,
+        again: &RunRecord,
+        console: &Console,
+    ) -> Result<Option<bool>, Failure> {
         let path = self.record();
         if !path.exists() {
             console.result(format_args!(
                 "the sweep has no record of this job to compare with ({})",
                 path.display()
             ))?;
-            return Ok(Exit::Done);
+            return Ok(None);
         }
         let before = store::read_record(&path).map_err(Failure::failed)?;
         let digest = |record| store::motion_digest(record).map_err(Failure::failed);
@@ -102,7 +106,7 @@ impl Original {
                 again.observations.frames(),
                 path.display()
             ))?;
-            return Ok(Exit::Done);
+            return Ok(Some(true));
         }
         let by = |record: &RunRecord| {
             let program = &record.program;

@@ -1,0 +1,53 @@
+#!/usr/bin/env python3
+"""Reads a results folder with pandas and h5py, and prints what is in it.
+
+    python3 docs/read_records.py results/quick
+"""
+
+import json
+import sys
+from pathlib import Path
+
+import h5py
+import pandas
+
+
+def frames_of(record):
+    """The scalar observables of a record: one row per frame, indexed by time (s)."""
+    observations = record["observations"]
+    scalars = {name: data[:] for name, data in observations.items() if data.ndim == 1}
+    return pandas.DataFrame(scalars).set_index("time")
+
+
+def main(folder):
+    sweep = json.loads((folder / "sweep.json").read_text())
+    axes = [axis["name"] for axis in sweep["axes"]]
+    print(sweep["title"], "over", " and ".join(axes))
+
+    # Identities are texts, even where they look like numbers.
+    labels = pandas.read_csv(folder / "labels.csv", dtype={"id": str})
+    print(labels["label"].value_counts().to_string())
+    if len(axes) == 2:
+        print(labels.pivot_table(index=axes[1], columns=axes[0], values="code").to_string())
+
+    # The record of one run: the one with the widest hole.
+    run = labels.loc[labels["hole_radius"].idxmax()]
+    path = folder / "records" / f"{run['id']}.h5"
+    with h5py.File(path) as record:
+        print(f"{path.name}: {run['label']}, {record.attrs['outcome']}")
+        scene = json.loads(record.attrs["scene"])
+        print(scene["spheres"]["count"], "spheres of", scene["spheres"]["radius"], "m")
+
+        frames = frames_of(record)
+        print("mean of the last second:")
+        for name, value in frames.loc[frames.index[-1] - 1.0 :].mean().items():
+            data = record["observations"][name]
+            print(f"  {name:15} {value:12.4e} {data.attrs['unit']:6} {data.attrs['description']}")
+
+        position = record["snapshots/position"][-1]
+        distance = (position[:, 0] ** 2 + position[:, 1] ** 2) ** 0.5
+        print(f"at the end the spheres are {distance.min():.4f} to {distance.max():.4f} m from the axis")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1] if len(sys.argv) > 1 else "results/quick"))

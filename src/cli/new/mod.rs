@@ -1,0 +1,92 @@
+//! `phase new`: writes a file to start from.
+
+use super::console::Console;
+use super::exit::{Exit, Failure};
+use super::folders;
+use phase::store;
+use std::path::{Path, PathBuf};
+
+/// Write a scene or sweep file to start from, with a comment on every key.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example: a tank, and a sweep over it
+  phase new scene tank
+  phase new sweep diagram --scene tank.toml")]
+pub(crate) struct Arguments {
+    /// The kind of file.
+    kind: Kind,
+    /// Name of the file, with or without .toml.
+    name: PathBuf,
+    /// The scene file that the sweep starts from, relative to the new file [default: a scene within
+    /// the new file].
+    #[arg(long, value_name = "FILE")]
+    scene: Option<PathBuf>,
+    /// Replace a file of that name.
+    #[arg(short, long)]
+    force: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Kind {
+    /// One simulation.
+    Scene,
+    /// A scene, and what is varied in it.
+    Sweep,
+}
+
+const SCENE: &str = include_str!("scene.toml");
+const SWEEP: &str = include_str!("sweep.toml");
+
+/// The line of the starter sweep that names its scene.
+const SCENE_LINE: &str = "scene = \"tank.toml\"";
+
+pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
+    let path = match arguments.name.extension() {
+        Some(end) if end == "toml" => arguments.name.clone(),
+        _ => arguments.name.with_added_extension("toml"),
+    };
+    let text = match (arguments.kind, &arguments.scene) {
+        (Kind::Scene, None) => SCENE.to_owned(),
+        (Kind::Scene, Some(_)) => {
+            return Err(Failure::refused(
+                "a scene starts from no other; `--scene` goes with `phase new sweep`",
+            ));
+        }
+        (Kind::Sweep, Some(scene)) => sweep_of_file(scene),
+        (Kind::Sweep, None) => sweep_of_table(),
+    };
+    if path.exists() && !arguments.force {
+        return Err(Failure::refused(format_args!(
+            "{}: the file is there already; choose another name, or replace it with `--force`",
+            path.display()
+        )));
+    }
+    folders::make_for(&path)?;
+    store::write_atomic(&path, text.as_bytes()).map_err(Failure::failed)?;
+    console.file(&path)?;
+    Ok(Exit::Done)
+}
+
+/// The starter sweep over a scene of its own file.
+fn sweep_of_file(scene: &Path) -> String {
+    let name = toml::Value::String(scene.to_string_lossy().into_owned());
+    SWEEP.replace(SCENE_LINE, &format!("scene = {name}"))
+}
+
+/// The starter sweep with the starter scene in it.
+fn sweep_of_table() -> String {
+    let mut text = String::new();
+    for line in SWEEP.lines().filter(|line| !line.starts_with(SCENE_LINE)) {
+        text += &format!("{line}\n");
+    }
+    text += "\n# The scene that every simulation of the sweep starts from.\n";
+    // The scene's own heading and title are those of the sweep here.
+    let tables = SCENE.lines().skip_while(|line| !line.starts_with('['));
+    for line in tables {
+        text += &match line.strip_prefix('[') {
+            Some(table) => format!("[scene.{table}\n"),
+            None => format!("{line}\n"),
+        };
+    }
+    text
+}

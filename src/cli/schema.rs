@@ -1,0 +1,34 @@
+//! `phase schema`: the JSON schema of a kind of file.
+
+use super::console::Console;
+use super::exit::{Exit, Failure};
+use phase::reference::{self, File};
+
+/// Print the JSON schema of a kind of file, by which an editor completes and checks it.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example: a schema for your own scenes
+  phase schema scene > scene.schema.json
+With `#:schema scene.schema.json` as the first line of a scene file, editors that know TOML (VS Code
+with Even Better TOML, Helix, Neovim or Zed with taplo) complete its keys and underline mistakes.")]
+pub(crate) struct Arguments {
+    /// The kind of file.
+    file: Kind,
+}
+
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Kind {
+    /// One simulation.
+    Scene,
+    /// A scene, and what is varied in it.
+    Sweep,
+}
+
+pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
+    let file = match arguments.file {
+        Kind::Scene => File::Scene,
+        Kind::Sweep => File::Sweep,
+    };
+    console.result(format_args!("{:#}", reference::schema(file)))?;
+    Ok(Exit::Done)
+}
