@@ -124,7 +124,6 @@ impl Kind {
             Self::Text => "a text in quotes".to_owned(),
             Self::Flag => "true or false".to_owned(),
             Self::Number(range) => range.words(),
-            Self::Whole(0) => "a whole number".to_owned(),
             Self::Whole(least) => format!("a whole number of at least {least}"),
             Self::Choice(words) => match words {
                 [word] => format!("\"{word}\""),
@@ -193,7 +192,7 @@ impl Kind {
             (Self::Vector, Value::Array(entries)) if entries.len() == 3 => {
                 for (index, entry) in entries.iter().enumerate() {
                     let path = format!("{path}[{index}]");
-                    Self::Number(Range::ANY).check(entry, &path, problems);
+                    Self::Number(Range::between(-1e30, 1e30)).check(entry, &path, problems);
                 }
             }
             (Self::Vector, Value::Array(entries)) => {

@@ -4,9 +4,15 @@
 
 use crate::document::schema::{Kind, Range, needed, optional};
 
-const NUMBER: Kind = Kind::Number(Range::ANY);
-const POSITIVE: Kind = Kind::Number(Range::POSITIVE);
-const NOT_NEGATIVE: Kind = Kind::Number(Range::NOT_NEGATIVE);
+// Wider than any experiment, narrow enough that masses, energies and numbers of steps made of them
+// neither vanish nor overflow.
+const LENGTH: Kind = Kind::Number(Range::between(1e-9, 1e9));
+const PLACE: Kind = Kind::Number(Range::between(-1e9, 1e9));
+const DENSITY: Kind = Kind::Number(Range::between(1e-9, 1e15));
+const SECONDS: Kind = Kind::Number(Range::between(1e-15, 1e15));
+const NUMBER: Kind = Kind::Number(Range::between(-1e30, 1e30));
+const POSITIVE: Kind = Kind::Number(Range::above(0.0, 1e30));
+const NOT_NEGATIVE: Kind = Kind::Number(Range::between(0.0, 1e30));
 const COUNT: Kind = Kind::Whole(1);
 
 /// The keys of a scene file.
@@ -40,16 +46,16 @@ pub(crate) const SCENE: Kind = Kind::Table(&[
 const SPHERES: Kind = Kind::Table(&[
     needed("count", COUNT),
     needed("radius", RADII),
-    needed("density", POSITIVE),
+    needed("density", DENSITY),
 ]);
 
 const RADII: Kind = Kind::Either(&[
-    POSITIVE,
+    LENGTH,
     Kind::List(&Kind::Table(&[
-        needed("radius", POSITIVE),
+        needed("radius", LENGTH),
         needed("share", POSITIVE),
     ])),
-    Kind::List(&POSITIVE),
+    Kind::List(&LENGTH),
     Kind::Table(&[needed("file", Kind::Text)]),
 ]);
 
@@ -87,7 +93,7 @@ const FRICTION: Kind = Kind::Tagged(
     ],
 );
 
-const TANK: Kind = Kind::Table(&[optional("radius", POSITIVE), optional("floor", NUMBER)]);
+const TANK: Kind = Kind::Table(&[optional("radius", LENGTH), optional("floor", PLACE)]);
 
 const START: Kind = Kind::Tagged(
     "kind",
@@ -95,8 +101,8 @@ const START: Kind = Kind::Tagged(
         (
             "random",
             &[
-                needed("z_min", NUMBER),
-                needed("z_max", NUMBER),
+                needed("z_min", PLACE),
+                needed("z_max", PLACE),
                 optional("speed", NOT_NEGATIVE),
                 optional("spin", NOT_NEGATIVE),
             ],
@@ -110,7 +116,7 @@ const START_SPHERE: Kind = Kind::Table(&[
     needed("position", Kind::Vector),
     optional("velocity", Kind::Vector),
     optional("spin", Kind::Vector),
-    optional("radius", POSITIVE),
+    optional("radius", LENGTH),
 ]);
 
 const DRAG: Kind = Kind::Table(&[
@@ -127,15 +133,15 @@ const UPDRAUGHT: Kind = Kind::Table(&[
     needed("speed", NUMBER),
     optional("strength", NOT_NEGATIVE),
     needed("decay", NOT_NEGATIVE),
-    needed("origin", NUMBER),
+    needed("origin", PLACE),
     needed("alpha", Kind::Number(Range::FRACTION)),
     optional("reference_omega", POSITIVE),
 ]);
 
 const TIME: Kind = Kind::Table(&[
-    needed("dt", POSITIVE),
-    needed("duration", POSITIVE),
-    needed("frame_interval", POSITIVE),
+    needed("dt", SECONDS),
+    needed("duration", SECONDS),
+    needed("frame_interval", SECONDS),
     optional(
         "integrator",
         Kind::Choice(&["symplectic-euler", "velocity-verlet"]),

@@ -8,7 +8,8 @@ use std::path::Path;
 
 const MARK: &[u8; 8] = b"\nblake3:";
 const LENGTH: usize = MARK.len() + blake3::OUT_LEN;
-const HDF5_SIGNATURE: &[u8; 8] = b"\x89HDF\r\n\x1a\n";
+/// What every HDF5 file begins with.
+pub const HDF5_SIGNATURE: &[u8; 8] = b"\x89HDF\r\n\x1a\n";
 
 /// Appends the checksum.
 pub(super) fn append(bytes: &mut Vec<u8>) {
@@ -33,10 +34,13 @@ pub(super) fn verify(bytes: &mut Vec<u8>, path: &Path) -> Result<(), StoreError>
         return Err(StoreError::damaged(path, "it is empty"));
     }
     if bytes.starts_with(HDF5_SIGNATURE) {
-        return Err(StoreError::damaged(
-            path,
-            "the checksum at its end is missing",
-        ));
+        return Err(StoreError::NotARecord {
+            path: path.to_owned(),
+            reason:
+                "it is an HDF5 file without the checksum at its end: another program's, or cut \
+                     off"
+                .to_owned(),
+        });
     }
     Err(StoreError::NotARecord {
         path: path.to_owned(),
