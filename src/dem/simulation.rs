@@ -26,7 +26,7 @@ pub enum BuildError {
 
 /// Skin of the neighbour list, in radii of the largest sphere: where lists are long-lived and not
 /// yet long.
-const SKIN: f64 = 0.5;
+const SKIN: f64 = 1.0;
 
 /// A running simulation.
 pub struct Simulation {
