@@ -24,9 +24,12 @@ pub enum BuildError {
     MindlinWithoutHertz,
 }
 
-/// Skin of the neighbour list, in radii of the largest sphere: where lists are long-lived and not
-/// yet long.
-const SKIN: f64 = 1.0;
+/// First skin of a neighbour list for contacts, in radii of the largest sphere: where lists are
+/// long-lived and not yet long.
+const CONTACT_SKIN: f64 = 0.5;
+
+/// The same with the columns of an updraught's shield, whose list grows less with its skin.
+const COLUMN_SKIN: f64 = 1.0;
 
 /// A running simulation.
 pub struct Simulation {
@@ -41,11 +44,15 @@ impl Simulation {
     /// # Errors
     /// If the spheres cannot be placed, or laws do not fit together.
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
-        Self::with_skin(scene, SKIN)
+        let skin = match scene.updraught {
+            None => CONTACT_SKIN,
+            Some(_) => COLUMN_SKIN,
+        };
+        Self::with_skin(scene, skin)
     }
 
-    /// The same with another skin of the neighbour list, in radii of the largest sphere: 0 builds
-    /// it at every step, a large one lists all pairs. Nothing but the speed depends on it: a
+    /// The same with another first skin of the neighbour list, in radii of the largest sphere: 0
+    /// builds it at every step, a large one lists all pairs. Nothing but the speed depends on it: a
     /// test compares the bits.
     ///
     /// # Errors

@@ -128,10 +128,10 @@ impl Near {
                 let entry = first + k as u32;
                 pairs[kept] = NearPair { i, j, entry };
                 undecided[left] = [i, j];
-                kept += (facts & NEAR) as usize;
-                left += (facts / UNDECIDED & 1) as usize;
-                self.shielding[i as usize] += (facts / SHIELDS_FIRST & 1) as u32;
-                self.shielding[j as usize] += (facts / SHIELDS_SECOND & 1) as u32;
+                kept += has(facts, NEAR) as usize;
+                left += has(facts, UNDECIDED) as usize;
+                self.shielding[i as usize] += has(facts, SHIELDS_FIRST);
+                self.shielding[j as usize] += has(facts, SHIELDS_SECOND);
                 if facts & NEAR == 0 {
                     forget(entry);
                 }
@@ -166,8 +166,8 @@ impl Near {
             glance.look();
             for k in 0..BLOCK {
                 let [i, j] = pairs[k];
-                shielding[i as usize] += (glance.facts[k] / SHIELDS_FIRST & 1) as u32;
-                shielding[j as usize] += (glance.facts[k] / SHIELDS_SECOND & 1) as u32;
+                shielding[i as usize] += has(glance.facts[k], SHIELDS_FIRST);
+                shielding[j as usize] += has(glance.facts[k], SHIELDS_SECOND);
             }
         }
     }
@@ -254,6 +254,12 @@ impl Glance {
                 | bit(within(2.0 * rj[k]) & (dz < 0.0), SHIELDS_SECOND);
         }
     }
+}
+
+/// 1 if that is among the facts.
+#[inline(always)]
+fn has(facts: u64, bit: u64) -> u32 {
+    u32::from(facts & bit != 0)
 }
 
 #[inline(always)]

@@ -5,7 +5,7 @@
 //! gets a force of zero. Then the forces are added up one by one in the order of the list. Adding
 //! zero to a sum that began at +0 changes no bit of it.
 
-use super::{Parts, System};
+use super::System;
 use crate::dem::block::{BLOCK, Body, Column, Columns, Load, Row};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{TangentialLaw, Touch};
