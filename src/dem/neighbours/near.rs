@@ -12,6 +12,7 @@ use super::anchor::{Allowance, Anchor};
 use super::{Particles, VerletList};
 use crate::dem::block::{BLOCK, Body, Columns};
 use fearless_simd::Simd;
+use std::ops::Range;
 
 /// A pair that may touch, and its entry in the Verlet list.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,8 +25,12 @@ pub struct NearPair {
     pub entry: u32,
 }
 
-/// Steps from one refresh to the next that the margin adapts to.
-const LIFE: std::ops::Range<u64> = 7..14;
+/// Steps from one refresh to the next that the margin adapts to, for the long lists of the shield.
+const COLUMN_LIFE: Range<u64> = 7..14;
+
+/// The same for lists of contacts, which are short, while a pair that is near costs as much as one
+/// that touches.
+const CONTACT_LIFE: Range<u64> = 2..5;
 
 /// The inner list.
 pub struct Near {
@@ -86,9 +91,14 @@ impl Near {
     /// Widens or narrows the margin after a list that held for this many steps, for a Verlet list
     /// of that skin (m).
     pub fn adapt(&mut self, steps: u64, skin: f64) {
-        if steps < LIFE.start {
+        let life = if self.shield {
+            COLUMN_LIFE
+        } else {
+            CONTACT_LIFE
+        };
+        if steps < life.start {
             self.margin *= 1.25;
-        } else if steps >= LIFE.end {
+        } else if steps >= life.end {
             self.margin *= 0.8;
         }
         self.margin = self.margin.clamp(0.02 * skin, 0.5 * skin);
