@@ -19,14 +19,17 @@ pub enum BuildError {
     /// The spheres cannot be placed.
     #[error(transparent)]
     Start(#[from] StartError),
-    /// Mindlin friction takes its stiffness from a Hertz contact.
-    #[error("mindlin friction needs the hertz contact law; add [contact] with law = \"hertz\"")]
-    MindlinWithoutHertz,
+    /// Friction acts at contacts.
+    #[error("friction acts at contacts; add [contact] with law = \"hertz\"")]
+    FrictionWithoutContact,
 }
 
-/// Skin of the neighbour list, in radii of the largest sphere: where lists are long-lived and not
-/// yet long.
-const SKIN: f64 = 0.5;
+/// First skin of a neighbour list for contacts, in radii of the largest sphere: where lists are
+/// long-lived and not yet long.
+const CONTACT_SKIN: f64 = 0.5;
+
+/// The same with the columns of an updraught's shield, whose list grows less with its skin.
+const COLUMN_SKIN: f64 = 1.0;
 
 /// A running simulation.
 pub struct Simulation {
@@ -41,11 +44,15 @@ impl Simulation {
     /// # Errors
     /// If the spheres cannot be placed, or laws do not fit together.
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
-        Self::with_skin(scene, SKIN)
+        let skin = match scene.updraught {
+            None => CONTACT_SKIN,
+            Some(_) => COLUMN_SKIN,
+        };
+        Self::with_skin(scene, skin)
     }
 
-    /// The same with another skin of the neighbour list, in radii of the largest sphere: 0 builds
-    /// it at every step, a large one lists all pairs. Nothing but the speed depends on it: a
+    /// The same with another first skin of the neighbour list, in radii of the largest sphere: 0
+    /// builds it at every step, a large one lists all pairs. Nothing but the speed depends on it: a
     /// test compares the bits.
     ///
     /// # Errors
@@ -68,24 +75,7 @@ impl Simulation {
             skin: skin * particles.largest_radius(),
             particles,
         };
-        let engine = match scene.contact {
-            None => with_normal(NoContact, scene, parts)?,
-            Some(Contact::Hertz {
-                young_modulus,
-                poisson_ratio,
-                dissipation_factor,
-                ..
-            }) => {
-                let dissipation_time = timestep::dissipation_time(scene);
-                let law = Hertz::new(
-                    young_modulus,
-                    poisson_ratio,
-                    dissipation_time,
-                    dissipation_factor,
-                );
-                with_normal(law, scene, parts)?
-            }
-        };
+        let engine = engine(scene, parts)?;
         Ok(Self {
             engine,
             dt: scene.time.dt,
@@ -161,11 +151,9 @@ impl Simulation {
     }
 }
 
-fn with_normal<N: NormalLaw>(
-    normal: N,
-    scene: &Scene,
-    parts: Parts,
-) -> Result<Box<dyn Engine>, BuildError> {
+/// The engine compiled for the scene's contact and friction. Each pair of laws costs time to compile,
+/// so only those are here that go together.
+fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
     fn boxed<N: NormalLaw, T: TangentialLaw>(
         normal: N,
         tangential: T,
@@ -173,6 +161,25 @@ fn with_normal<N: NormalLaw>(
     ) -> Box<dyn Engine> {
         Box::new(System::new(normal, tangential, parts))
     }
+    let Some(Contact::Hertz {
+        young_modulus,
+        poisson_ratio,
+        dissipation_factor,
+        ..
+    }) = scene.contact
+    else {
+        return match scene.friction {
+            None => Ok(boxed(NoContact, Frictionless, parts)),
+            Some(_) => Err(BuildError::FrictionWithoutContact),
+        };
+    };
+    let dissipation_time = timestep::dissipation_time(scene);
+    let normal = Hertz::new(
+        young_modulus,
+        poisson_ratio,
+        dissipation_time,
+        dissipation_factor,
+    );
     let dt = scene.time.dt;
     Ok(match scene.friction {
         None => boxed(normal, Frictionless, parts),
@@ -184,19 +191,8 @@ fn with_normal<N: NormalLaw>(
             regularisation,
         }) => boxed(normal, Coulomb::new(coefficient, regularisation), parts),
         Some(Friction::Mindlin { coefficient }) => {
-            let Some(Contact::Hertz {
-                young_modulus,
-                poisson_ratio,
-                ..
-            }) = scene.contact
-            else {
-                return Err(BuildError::MindlinWithoutHertz);
-            };
-            boxed(
-                normal,
-                Mindlin::new(coefficient, young_modulus, poisson_ratio, dt),
-                parts,
-            )
+            let law = Mindlin::new(coefficient, young_modulus, poisson_ratio, dt);
+            boxed(normal, law, parts)
         }
     })
 }

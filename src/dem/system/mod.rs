@@ -3,18 +3,19 @@
 mod contacts;
 mod integrate;
 
-use self::contacts::{Body, Load, TouchingPair};
+use self::contacts::PairBlock;
+use super::block::{Body, Load};
 use super::contact::NormalLaw;
 use super::effects::Effect;
 use super::friction::TangentialLaw;
 use super::guard::Limits;
-use super::neighbours::{Reach, VerletList};
+use super::neighbours::{Near, Reach, VerletList};
 use super::particles::Particles;
 use super::vector::Vector;
 use super::walls::{Cylinder, Floor, Wall};
 use crate::record::Instability;
 use crate::scene::Integrator;
-use fearless_simd::Level;
+use fearless_simd::{Level, Simd};
 
 /// What the rest of the program needs of a system, whatever its laws.
 pub(in crate::dem) trait Engine: Send {
@@ -48,13 +49,20 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     tangential: T,
     /// Absent where no pair interacts.
     list: Option<VerletList>,
+    near: Near,
+    /// Whether the near pairs must be looked for anew.
     stale: bool,
     /// Steps since the list was built.
     age: u64,
+    /// Steps since the near pairs were looked for.
+    near_age: u64,
     bodies: Vec<Body>,
     loads: Vec<Load>,
-    touching: Vec<TouchingPair>,
+    block: Box<PairBlock<T::History>>,
     shielding: Vec<u32>,
+    /// Spheres that may touch the floor and the cylinder.
+    near_floor: Vec<u32>,
+    near_cylinder: Vec<u32>,
     /// Histories of listed pairs, of the floor and of the cylinder. A law without history has one
     /// of no size, and these take no memory.
     pair_history: Vec<T::History>,
@@ -78,14 +86,23 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         };
         let histories =
             |present: bool| vec![T::History::default(); if present { count } else { 0 }];
+        let interact = N::ACTS || parts.shielded;
         Self {
-            list: (N::ACTS || parts.shielded).then(|| VerletList::new(reach, parts.skin)),
+            list: interact.then(|| VerletList::new(reach, parts.skin)),
             stale: true,
+            near: Near::new(N::ACTS, parts.shielded, 0.3 * parts.skin),
             age: 0,
-            bodies: Vec::new(),
-            loads: Vec::new(),
-            touching: Vec::new(),
+            near_age: 0,
+            bodies: if interact {
+                bodies_of(&parts.particles)
+            } else {
+                Vec::new()
+            },
+            loads: vec![Load::default(); if interact { count } else { 0 }],
+            block: Box::new(PairBlock::new()),
             shielding: vec![0; if parts.shielded { count } else { 0 }],
+            near_floor: Vec::new(),
+            near_cylinder: Vec::new(),
             pair_history: Vec::new(),
             floor_history: histories(parts.floor.is_some()),
             cylinder_history: histories(parts.cylinder.is_some()),
@@ -100,37 +117,38 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Evaluates all forces and torques at the present positions and velocities.
     #[inline(always)]
-    fn evaluate(&mut self) -> Result<(), Instability> {
-        if self.stale {
-            self.rebuild()?;
-        }
+    fn evaluate<S: Simd>(&mut self, simd: S) -> Result<(), Instability> {
         if self.list.is_some() {
             self.gather();
-            if self.parts.shielded {
-                self.scan::<true>()
-            } else {
-                self.scan::<false>()
+        }
+        if self.stale {
+            self.refresh(simd)?;
+        }
+        if self.list.is_some() {
+            self.pair_forces(simd);
+            if let (true, Some(floor)) = (N::ACTS, self.parts.floor) {
+                let near = std::mem::take(&mut self.near_floor);
+                let mut history = std::mem::take(&mut self.floor_history);
+                self.wall_forces(simd, floor, &near, &mut history);
+                (self.near_floor, self.floor_history) = (near, history);
             }
-            self.pair_forces();
+            if let (true, Some(cylinder)) = (N::ACTS, self.parts.cylinder) {
+                let near = std::mem::take(&mut self.near_cylinder);
+                let mut history = std::mem::take(&mut self.cylinder_history);
+                self.wall_forces(simd, cylinder, &near, &mut history);
+                (self.near_cylinder, self.cylinder_history) = (near, history);
+            }
             self.scatter();
+            if self.parts.shielded {
+                self.near
+                    .count_shielding(simd, &self.bodies, &mut self.shielding);
+            }
         } else {
             self.parts.particles.force.fill(Vector::ZERO);
             self.parts.particles.torque.fill(Vector::ZERO);
         }
-        if N::ACTS {
-            if let Some(floor) = self.parts.floor {
-                let mut history = std::mem::take(&mut self.floor_history);
-                self.wall_forces(floor, &mut history);
-                self.floor_history = history;
-            }
-            if let Some(cylinder) = self.parts.cylinder {
-                let mut history = std::mem::take(&mut self.cylinder_history);
-                self.wall_forces(cylinder, &mut history);
-                self.cylinder_history = history;
-            }
-        }
         for effect in &mut self.parts.effects {
-            effect.apply(&mut self.parts.particles, &self.shielding);
+            effect.apply(self.level, &mut self.parts.particles, &self.shielding);
         }
         match self.too_deep.take() {
             Some((sphere, overlap)) => {
@@ -143,7 +161,43 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
+    /// Looks for near pairs anew, in a list that holds until they must be looked for again.
+    #[inline(always)]
+    fn refresh<S: Simd>(&mut self, simd: S) -> Result<(), Instability> {
+        let Some(list) = &self.list else {
+            return self.rebuild();
+        };
+        self.near.adapt(self.near_age, list.skin());
+        self.near_age = 0;
+        let time = self.age as f64 * self.parts.dt;
+        if !list.holds(&self.parts.particles, time, self.near.margin()) {
+            self.rebuild()?;
+        }
+        self.stale = false;
+        if let Some(list) = &self.list {
+            let (near, particles) = (&mut self.near, &self.parts.particles);
+            let history = &mut self.pair_history;
+            let forget = |entry: u32| {
+                if Self::REMEMBERS {
+                    history[entry as usize] = T::History::default();
+                }
+            };
+            near.refresh::<S>(simd, list, particles, &self.bodies, forget);
+            let margin = near.margin();
+            if let Some(wall) = self.parts.floor {
+                let (near, history) = (&mut self.near_floor, &mut self.floor_history);
+                find_near_wall(wall, particles, margin, near, history);
+            }
+            if let Some(wall) = self.parts.cylinder {
+                let (near, history) = (&mut self.near_cylinder, &mut self.cylinder_history);
+                find_near_wall(wall, particles, margin, near, history);
+            }
+        }
+        Ok(())
+    }
+
     /// Builds the list anew, after making sure that every sphere is somewhere.
+    #[inline(always)]
     fn rebuild(&mut self) -> Result<(), Instability> {
         let Parts {
             particles,
@@ -153,10 +207,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         } = &self.parts;
         limits.check_positions(particles, self.step, *dt)?;
         self.stale = false;
-        self.age = 0;
+        let age = std::mem::take(&mut self.age);
         let Some(list) = &mut self.list else {
             return Ok(());
         };
+        list.adapt(age);
         if !Self::REMEMBERS {
             list.build(particles);
             self.pair_history
@@ -177,8 +232,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         // every lane computes what the scalar code would.
         let level = self.level;
         fearless_simd::dispatch!(level, simd => {
-            let _ = simd;
-            self.steps(steps)
+            self.steps(simd, steps)
         })?;
         let Parts {
             particles,
@@ -208,36 +262,75 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
     /// Reads positions alone, and builds the list at most earlier than a step would: bits of
     /// the motion do not depend on when the list is built.
     fn elastic_energy(&mut self) -> f64 {
-        if !N::ACTS || (self.stale && self.rebuild().is_err()) {
+        if !N::ACTS {
             return 0.0;
         }
-        let Some(list) = &self.list else { return 0.0 };
+        if self.stale {
+            self.gather();
+            let level = self.level;
+            let refreshed = fearless_simd::dispatch!(level, simd => self.refresh(simd));
+            if refreshed.is_err() {
+                return 0.0;
+            }
+        }
         let Particles {
             position, radius, ..
         } = &self.parts.particles;
         let mut energy = 0.0;
+        let mut pairs = self.near.pairs().iter().peekable();
         for i in 0..radius.len() {
             let (centre, ri) = (position[i], radius[i]);
-            let entries = list.start()[i] as usize..list.start()[i + 1] as usize;
-            for &j in &list.neighbour()[entries] {
-                let rj = radius[j as usize];
-                let distance_squared = (centre - position[j as usize]).norm_squared();
+            while let Some(pair) = pairs.next_if(|pair| pair.i as usize == i) {
+                let j = pair.j as usize;
+                let rj = radius[j];
+                let distance_squared = (centre - position[j]).norm_squared();
                 if distance_squared < (ri + rj) * (ri + rj) {
                     let overlap = ri + rj - distance_squared.sqrt();
                     energy += self.normal.elastic_energy(overlap, ri * rj / (ri + rj));
                 }
             }
             let walls = [
-                self.parts.floor.and_then(|floor| floor.touch(centre, ri)),
+                self.parts.floor.map(|floor| floor.contact(centre, ri)),
                 self.parts
                     .cylinder
-                    .and_then(|cylinder| cylinder.touch(centre, ri)),
+                    .map(|cylinder| cylinder.contact(centre, ri)),
             ];
-            for (overlap, _) in walls.into_iter().flatten() {
-                energy += self.normal.elastic_energy(overlap, ri);
+            for contact in walls.into_iter().flatten() {
+                if contact.touches {
+                    energy += self.normal.elastic_energy(contact.overlap, ri);
+                }
             }
         }
         energy
+    }
+}
+
+/// Spheres in rows.
+fn bodies_of(particles: &Particles) -> Vec<Body> {
+    let inertia = |i: usize| particles.inertia.get(i).copied().unwrap_or(0.0);
+    let body = |i: usize| Body {
+        place: [0.0, 0.0, 0.0, particles.radius[i]],
+        motion: [0.0, 0.0, 0.0, particles.mass[i]],
+        turning: [0.0, 0.0, 0.0, inertia(i)],
+    };
+    (0..particles.len()).map(body).collect()
+}
+
+/// Finds the spheres near a wall, and forgets the histories of the others.
+fn find_near_wall<W: Wall, H: Default>(
+    wall: W,
+    particles: &Particles,
+    margin: f64,
+    near: &mut Vec<u32>,
+    histories: &mut [H],
+) {
+    near.clear();
+    for (i, (&centre, &radius)) in particles.position.iter().zip(&particles.radius).enumerate() {
+        if wall.is_near(centre, radius, margin) {
+            near.push(i as u32);
+        } else {
+            histories[i] = H::default();
+        }
     }
 }
 
