@@ -11,7 +11,7 @@
 use super::anchor::{Allowance, Anchor};
 use super::{Particles, VerletList};
 use crate::dem::block::{BLOCK, Body, Columns};
-use fearless_simd::Simd;
+use fearless_simd::{Level, Simd};
 use std::ops::Range;
 
 /// A pair that may touch, and its entry in the Verlet list.
@@ -106,14 +106,26 @@ impl Near {
 
     /// Makes the list anew from a valid Verlet list; `bodies` are the particles in rows. `forget` is
     /// called with each entry that is not near.
-    #[inline(always)]
-    pub(in crate::dem) fn refresh<S: Simd>(
+    pub(in crate::dem) fn refresh(
         &mut self,
-        simd: S,
+        level: Level,
         list: &VerletList,
         particles: &Particles,
         bodies: &[Body],
-        mut forget: impl FnMut(u32),
+        forget: Option<&mut dyn FnMut(u32)>,
+    ) {
+        fearless_simd::dispatch!(level, simd => self.find(simd, list, bodies, forget));
+        self.anchor.drop(particles);
+        self.half_diagonal = list.half_diagonal;
+    }
+
+    #[inline(always)]
+    fn find<S: Simd>(
+        &mut self,
+        simd: S,
+        list: &VerletList,
+        bodies: &[Body],
+        mut forget: Option<&mut dyn FnMut(u32)>,
     ) {
         let (mut near, mut open) = (0, 0);
         self.shielding.clear();
@@ -142,7 +154,7 @@ impl Near {
                 left += has(facts, UNDECIDED) as usize;
                 self.shielding[i as usize] += has(facts, SHIELDS_FIRST);
                 self.shielding[j as usize] += has(facts, SHIELDS_SECOND);
-                if facts & NEAR == 0 {
+                if let Some(forget) = forget.as_mut().filter(|_| facts & NEAR == 0) {
                     forget(entry);
                 }
             }
@@ -154,8 +166,6 @@ impl Near {
         self.undecided.truncate(open);
         let blocks = if self.shield { open.div_ceil(BLOCK) } else { 0 };
         self.undecided.resize(blocks * BLOCK, [0; 2]);
-        self.anchor.drop(particles);
-        self.half_diagonal = list.half_diagonal;
     }
 
     /// Counts the spheres that shield each one at the present positions.
