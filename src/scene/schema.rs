@@ -10,9 +10,9 @@ const LENGTH: Kind = Kind::Number(Range::between(1e-9, 1e9));
 const PLACE: Kind = Kind::Number(Range::between(-1e9, 1e9));
 const DENSITY: Kind = Kind::Number(Range::between(1e-9, 1e15));
 const SECONDS: Kind = Kind::Number(Range::between(1e-15, 1e15));
-const NUMBER: Kind = Kind::Number(Range::between(-1e30, 1e30));
-const POSITIVE: Kind = Kind::Number(Range::above(0.0, 1e30));
-const NOT_NEGATIVE: Kind = Kind::Number(Range::between(0.0, 1e30));
+const NUMBER: Kind = Kind::Number(Range::ANY);
+const POSITIVE: Kind = Kind::Number(Range::POSITIVE);
+const NOT_NEGATIVE: Kind = Kind::Number(Range::NOT_NEGATIVE);
 const COUNT: Kind = Kind::Whole(1);
 
 /// The keys of a scene file.

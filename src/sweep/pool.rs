@@ -289,7 +289,11 @@ mod tests {
             .collect();
         assert_eq!(failed, [1.0, 3.0]);
         assert_eq!(report.failures[0].reason, "a bug in phase: one is too few");
-        assert!(report.failures[1].reason.contains("mindlin"));
+        assert!(
+            report.failures[1]
+                .reason
+                .contains("friction acts at contacts")
+        );
         assert_eq!(
             store::read_failures(&folder.failures()).unwrap(),
             report.failures
