@@ -5,19 +5,21 @@ use super::color_bar::ColorBar;
 use super::grid::{Grid, Panel};
 use super::layout::{Layout, TITLE_LINE};
 use super::legend::{Entry, Key};
-use super::style::{self, Drawn, LABEL, SMALL, Sheet, TITLE, letters, px};
+use super::style::{self, Drawn, Fill, LABEL, SMALL, Sheet, TITLE, letters, px};
 use super::svg::Svg;
 use super::{PlotError, Source, canvas, critical};
 use crate::sweep::Point;
 use plotters::drawing::IntoDrawingArea;
 use plotters::element::PathElement;
 use plotters::style::text_anchor::{HPos, VPos};
-use plotters::style::{BLACK, Color, FontTransform, RGBColor, TextStyle};
+use plotters::style::{BLACK, Color, FontTransform, TextStyle};
 
 /// How a cell looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Look {
-    pub(super) color: RGBColor,
+    pub(super) fill: Fill,
+    /// The share of the seeds that agree, which a mark shows where it is not 1.
+    pub(super) agreement: f64,
     /// A line is drawn between neighbours of different groups.
     pub(super) group: usize,
 }
@@ -30,7 +32,7 @@ pub(super) struct Diagram<'a> {
     /// How a point looks; `None` where it has no value.
     pub(super) look: &'a dyn Fn(&Point) -> Option<Look>,
     /// What a cell without a value is called.
-    pub(super) empty: &'a str,
+    pub(super) empty: String,
     /// Entries of the legend, before those of the curve and of empty cells.
     pub(super) legend: Vec<Entry>,
     pub(super) bar: Option<ColorBar>,
@@ -76,8 +78,8 @@ impl Diagram<'_> {
         let empty = |panel: &Panel| self.looks(panel).contains(&None);
         if self.grid.panels.iter().any(empty) {
             entries.push(Entry {
-                key: Key::Hatch,
-                text: self.empty.to_owned(),
+                key: Key::Fill(Fill::Hatch),
+                text: self.empty.clone(),
             });
         }
         if with_curve {
@@ -146,8 +148,13 @@ impl Diagram<'_> {
             let (column, row) = (index % columns, index / columns);
             let corners = [(x[column], y[row + 1]), (x[column + 1], y[row])];
             match look {
-                Some(look) => style::fill(sheet, corners, look.color)?,
-                None => style::hatch(sheet, corners)?,
+                Some(look) => {
+                    style::paint(sheet, corners, look.fill)?;
+                    if look.agreement < 1.0 {
+                        style::disagreement(sheet, corners, look.agreement)?;
+                    }
+                }
+                None => style::paint(sheet, corners, Fill::Hatch)?,
             }
         }
         Ok(())
