@@ -271,6 +271,15 @@ fn dots_mark_cells_in_which_seeds_disagree() {
     let svg = draw("dots", "phase", &sweep, &table);
     // A disc and its rim in each of those cells, and in the legend.
     assert_eq!(circles(&svg), 2 * (disagreeing + 1));
+    // Equal agreement has equal discs, however high the cells are.
+    let radii = svg
+        .split("<circle ")
+        .skip(1)
+        .map(|circle| circle.split(" r=").nth(1));
+    let radii: std::collections::BTreeSet<_> = radii
+        .map(|rest| rest.unwrap().split('"').nth(1).unwrap())
+        .collect();
+    assert_eq!(radii.len(), 1, "{radii:?}");
     let colors = pure.map(|color| count(&svg, color));
     table.rows.retain(|row| row.seed == 1);
     let svg = draw("one-seed", "phase", &sweep, &table);

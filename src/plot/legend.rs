@@ -37,6 +37,8 @@ pub(super) struct Legend {
     entries: Vec<(Entry, (i32, i32))>,
     width: i32,
     height: i32,
+    /// Side of the cells whose marks of disagreement are explained.
+    pub(super) cell: i32,
 }
 
 impl Legend {
@@ -46,6 +48,7 @@ impl Legend {
             entries: Vec::new(),
             width: 0,
             height: 0,
+            cell: style::LARGEST_CELL,
         };
         let (mut x, mut y) = (0, 0);
         for entry in entries {
@@ -72,7 +75,7 @@ impl Legend {
         for (entry, place) in &self.entries {
             let (left, top) = (origin.0 + place.0, origin.1 + place.1);
             let middle = top + LINE / 2;
-            draw_key(sheet, entry.key, (left, middle))?;
+            draw_key(sheet, entry.key, (left, middle), self.cell)?;
             let letters = letters(SMALL, HPos::Left, VPos::Center);
             sheet.draw_text(&entry.text, &letters, (left + KEY.0 + GAPS.0, middle))?;
         }
@@ -80,14 +83,14 @@ impl Legend {
     }
 }
 
-fn draw_key(sheet: &Sheet<'_>, key: Key, (left, middle): (i32, i32)) -> Drawn {
+fn draw_key(sheet: &Sheet<'_>, key: Key, (left, middle): (i32, i32), cell: i32) -> Drawn {
     let (right, top, bottom) = (left + KEY.0, middle - KEY.1 / 2, middle + KEY.1 / 2);
     let corners = [(left, top), (right, bottom)];
     match key {
         Key::Fill(fill) => style::paint(sheet, corners, fill)?,
         Key::Agreement(agreement) => {
             style::fill(sheet, corners, WHITE)?;
-            style::disagreement(sheet, corners, agreement)?;
+            style::disagreement(sheet, corners, agreement, cell)?;
         }
         Key::Curve => return style::curve(sheet, &[(left, middle), (right, middle)]),
         Key::Line(color) => return style::line(sheet, &[(left, middle), (right, middle)], color),

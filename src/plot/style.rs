@@ -145,13 +145,20 @@ fn stipple(sheet: &Sheet<'_>, corners: Corners) -> Drawn {
     Ok(())
 }
 
+/// Largest cell that marks of disagreement grow with.
+pub(super) const LARGEST_CELL: i32 = px(18);
+
 /// Marks a cell in which seeds disagree: a white disc with a black rim, seen on every colour and in
-/// grey, the larger the smaller `agreement` is, the share of the seeds in the majority.
-pub(super) fn disagreement(sheet: &Sheet<'_>, corners: Corners, agreement: f64) -> Drawn {
-    const LARGEST_CELL: i32 = px(26);
+/// grey, the larger the smaller `agreement` is, the share of the seeds in the majority. `cell` is
+/// the side of the smallest cell, so that equal agreement has equal discs.
+pub(super) fn disagreement(
+    sheet: &Sheet<'_>,
+    corners: Corners,
+    agreement: f64,
+    cell: i32,
+) -> Drawn {
     let [(left, top), (right, bottom)] = corners;
-    let cell = f64::from((right - left).min(bottom - top).min(LARGEST_CELL));
-    let diameter = cell * (0.2 + 0.8 * (1.0 - agreement).clamp(0.0, 1.0));
+    let diameter = f64::from(cell) * (0.2 + 0.8 * (1.0 - agreement).clamp(0.0, 1.0));
     let centre = (left.midpoint(right), top.midpoint(bottom));
     let radius = (0.5 * diameter).round() as i32;
     sheet.draw(&Circle::new(centre, radius, WHITE.filled()))?;

@@ -130,7 +130,7 @@ impl Words {
         let words = |words: &str| vector::text(words, (size, base), size, Anchor::Start);
         let (label, low, high) = match color {
             ColorBy::Nothing => return String::new(),
-            ColorBy::Index => return words("colours: one sphere from the next"),
+            ColorBy::Index => return words("colours tell spheres apart"),
             ColorBy::Speed { fastest } => ("speed (m/s)", 0.0, fastest),
             ColorBy::Height { low, high } => ("height (m)", low, high),
         };
