@@ -40,6 +40,8 @@ fn scene() -> Scene {
 struct Tank {
     sweep: Sweep,
     table: LabelTable,
+    /// Duration of the runs (s).
+    duration: f64,
     /// Identities of the records that were read.
     read: RefCell<Vec<String>>,
 }
@@ -86,8 +88,39 @@ impl Tank {
                 sieves: Sieves::default(),
                 plot: PlotSettings::default(),
             },
+            duration: 5.0,
             read: RefCell::default(),
         }
+    }
+
+    /// The same tank with two more axes.
+    fn of_four_axes() -> Self {
+        let mut tank = Self::settled();
+        let more = [
+            ("spheres.density", "density", [2500.0, 7500.0]),
+            ("friction.coefficient", "friction", [0.0, 0.05]),
+        ];
+        for (key, name, values) in more {
+            let rows = std::mem::take(&mut tank.table.rows);
+            tank.table.rows = rows
+                .into_iter()
+                .flat_map(|row| {
+                    values.map(|value| {
+                        let mut row = row.clone();
+                        row.id += &format!("-{value}");
+                        row.values.push(value);
+                        row
+                    })
+                })
+                .collect();
+            tank.table.axes.push(name.to_owned());
+            tank.sweep.axes.push(Axis {
+                key: key.to_owned(),
+                name: name.to_owned(),
+                values: values.to_vec(),
+            });
+        }
+        tank
     }
 
     fn settled() -> Self {
@@ -100,7 +133,9 @@ impl Tank {
         let record = |id: &str| -> Result<RunRecord, StoreError> {
             self.read.borrow_mut().push(id.to_owned());
             let row = self.table.rows.iter().find(|row| row.id == id).unwrap();
-            Ok(record(row.values[0], row.values[1]))
+            let mut record = record(row.values[0], row.values[1]);
+            record.scene.time.duration = self.duration;
+            Ok(record)
         };
         let source = Source {
             sweep: &self.sweep,
@@ -162,6 +197,8 @@ fn record(radius: f64, omega: f64) -> RunRecord {
         match axis {
             0 => 0.05 * libm::cos(angle),
             1 => 0.05 * libm::sin(angle),
+            // One of the fastest flies high above the others.
+            _ if omega == 40.0 && sphere == 0 => 1.0,
             _ => radius - 0.2,
         }
     });
@@ -205,6 +242,40 @@ fn shows(svg: &str, expected: &[&str]) {
     }
 }
 
+/// Asserts that words that stand on one height do not touch each other, and end within the figure.
+#[track_caller]
+fn words_are_apart(svg: &str) {
+    let number = |line: &str, name: &str| -> f64 {
+        let rest = line.split(&format!(" {name}=\"")).nth(1).unwrap();
+        rest.split('"').next().unwrap().parse().unwrap()
+    };
+    let level = |line: &&str| line.starts_with("<text") && !line.contains("rotate(");
+    let mut words: Vec<(f64, f64, f64, String)> = svg
+        .lines()
+        .filter(level)
+        .map(|line| {
+            let text = texts(line).remove(0);
+            // Digits of DejaVu Sans are .636 em wide, most letters a little less.
+            let width = 0.55 * number(line, "font-size") * text.chars().count() as f64;
+            let start = match line {
+                _ if line.contains("\"middle\"") => 0.5,
+                _ if line.contains("\"end\"") => 1.0,
+                _ => 0.0,
+            };
+            let left = number(line, "x") - start * width;
+            (number(line, "y"), left, left + width, text)
+        })
+        .collect();
+    words.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    for pair in words.windows(2) {
+        let apart = pair[0].0 != pair[1].0 || pair[0].2 < pair[1].1;
+        assert!(apart, "{} touches {}", pair[0].3, pair[1].3);
+    }
+    for (_, left, right, text) in &words {
+        assert!(*left >= 0.0 && *right <= 7200.0, "{text} is cut");
+    }
+}
+
 /// Lines of charts, with the points of each.
 fn lines(svg: &str) -> Vec<Vec<(f64, f64)>> {
     let paths = svg
@@ -238,6 +309,37 @@ fn speeds_show_the_corners_of_the_grid_and_between() {
     shows(&svg, &["A made-up tank"]);
     // Two lines in each panel and two keys.
     assert_eq!(lines(&svg).len(), 2 * 6 + 2);
+}
+
+#[test]
+fn heads_of_four_axes_leave_out_what_is_common_and_break() {
+    let tank = Tank::of_four_axes();
+    let svg = tank.draw("speeds-four", "speeds", &[]);
+    shows(&svg, &["ρ = 2500 kg/m³, μ = 0", "r = 2 mm, Ω = 2 rad/s"]);
+    words_are_apart(&svg);
+    let points = [
+        "radius=0.002,omega=40,density=7500,friction=0.05",
+        "radius=0.004,omega=12,density=2500,friction=0.05",
+        "radius=0.006,omega=12,density=2500,friction=0",
+    ];
+    let svg = tank.draw("speeds-four-points", "speeds", &points);
+    shows(
+        &svg,
+        &["r = 2 mm, Ω = 40 rad/s,", "ρ = 7500 kg/m³, μ = 0.05"],
+    );
+    words_are_apart(&svg);
+    for figure in ["energies", "state-energies"] {
+        words_are_apart(&tank.draw(&format!("{figure}-four"), figure, &points));
+    }
+}
+
+#[test]
+fn ticks_of_a_short_run_do_not_touch() {
+    let mut tank = Tank::settled();
+    tank.duration = 0.1;
+    let svg = tank.draw("energies-short", "energies", &[]);
+    shows(&svg, &["first 0.02 s", "0.10", "0.000"]);
+    words_are_apart(&svg);
 }
 
 #[test]
@@ -366,6 +468,64 @@ fn one_run_of_every_state() {
     shows(&svg, &["r = 2 mm", "Ω = 6 rad/s"]);
     assert_eq!(svg.matches("<image ").count(), 10);
     assert!(!texts(&svg).contains(&"unstable".to_owned()));
+    shows(&svg, &["not shown: unstable, 2 of 30 runs"]);
+}
+
+#[test]
+fn figures_of_states_say_that_all_runs_are_unstable() {
+    let tank = Tank::new(|_, _, _| Label::Unstable);
+    for figure in ["states", "state-energies"] {
+        let svg = tank.draw(&format!("{figure}-unstable"), figure, &[]);
+        shows(&svg, &["not shown: unstable, 30 of 30 runs"]);
+    }
+    let asked = tank.draw("states-asked", "states", &["radius=0.004,omega=6"]);
+    shows(&asked, &["unstable", "r = 4 mm"]);
+}
+
+#[test]
+fn spheres_too_high_for_a_picture_are_counted() {
+    let tank = Tank::settled();
+    let svg = tank.draw("states-high", "states", &["radius=0.006,omega=40"]);
+    shows(&svg, &["1 sphere above, not drawn"]);
+    let svg = tank.draw("states-low", "states", &["radius=0.006,omega=12"]);
+    assert!(!svg.contains("not drawn"));
+}
+
+/// Forty spheres that fly apart, with a spin.
+fn flight(spin: f64) -> RunRecord {
+    const MANY: usize = 40;
+    let mut record = record(0.004, 6.0);
+    record.radius = vec![0.004; MANY];
+    let moment = |time: f64| Snapshot {
+        time,
+        position: Array2::from_shape_fn((MANY, 3), |(sphere, axis)| {
+            (0.01 + time) * libm::cos(1.3 * sphere as f64 + 2.0 * axis as f64)
+        }),
+        velocity: Array2::ones((MANY, 3)),
+        spin: Array2::from_elem((MANY, 3), spin),
+    };
+    record.trajectory = [0.0, 0.01, 0.02].map(moment).to_vec();
+    record
+}
+
+#[test]
+fn tracks_of_many_spheres_are_thinned_and_arrows_named_if_there_are_any() {
+    let draw = |spin: f64| {
+        let svg = plot::draw_tracks(&flight(spin)).unwrap();
+        String::from_utf8(svg.to_svg_bytes()).unwrap()
+    };
+    let slow = draw(1e-3);
+    shows(
+        &slow,
+        &["the first 32 of 40 spheres; filled: start; bold: end"],
+    );
+    // Disc and rim at the start and at the end, and the bold rim.
+    assert_eq!(slow.matches("<circle").count(), 32 * 5);
+    let fast = draw(1e3);
+    shows(
+        &fast,
+        &["the first 32 of 40 spheres; filled: start; bold: end; arrows: spin"],
+    );
 }
 
 #[test]
@@ -399,6 +559,7 @@ fn critical_rotation_is_that_of_the_theory() {
         &[
             "critical rotation Ωc (rad/s)",
             "radius of the spheres r (mm)",
+            "n = 20, R = 60 mm, g = 9.8 m/s²",
         ],
     );
     let line = &lines(&svg)[0];
@@ -418,7 +579,7 @@ fn critical_rotation_has_a_line_for_each_number_of_spheres() {
         values: vec![64.0, 256.0],
     };
     let svg = tank.draw("critical-rotation-counts", "critical-rotation", &[]);
-    shows(&svg, &["n = 64", "n = 256"]);
+    shows(&svg, &["n = 64", "n = 256", "R = 60 mm, g = 9.8 m/s²"]);
     let lines = lines(&svg);
     let bottom = svg_bottom(&svg);
     let ratio = (bottom - lines[1][0].1) / (bottom - lines[0][0].1);
@@ -448,6 +609,27 @@ fn net_force_rises_and_falls_with_the_radius() {
     // at three quarters 27/16 exp(-.1), and rises.
     let at_4_mm = |line: &[(f64, f64)]| line[line.len() * 2 / 3].1 - line[0].1;
     assert!(at_4_mm(&lines[0]) > 0.0 && at_4_mm(&lines[1]) < 0.0);
+}
+
+#[test]
+fn net_force_says_what_it_assumes_of_the_lift() {
+    let mut tank = Tank::settled();
+    let assumption = "In this scene the updraught does not depend on Ω.";
+    let says = |svg: &str| texts(svg).iter().any(|text| text.starts_with(assumption));
+    let independent = tank.draw("net-force-independent", "net-force", &[]);
+    assert!(says(&independent));
+    let updraught = tank.sweep.scene.updraught.as_mut().unwrap();
+    updraught.reference_omega = Some(8.0);
+    let proportional = tank.draw("net-force-proportional", "net-force", &[]);
+    assert!(!says(&proportional));
+    assert_eq!(lines(&proportional), lines(&independent));
+    // At 8 rad/s of a reference of 16 the lift is a quarter, so that the scene's own curve is the one
+    // of half the rotation before.
+    let updraught = tank.sweep.scene.updraught.as_mut().unwrap();
+    updraught.reference_omega = Some(16.0);
+    let weak = tank.draw("net-force-weak", "net-force", &[]);
+    let falls = |line: &[(f64, f64)]| line[line.len() * 2 / 3].1 > line[0].1;
+    assert!(falls(&lines(&weak)[2]) && !falls(&lines(&independent)[2]));
 }
 
 #[test]

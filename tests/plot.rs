@@ -239,9 +239,9 @@ fn nine() -> (Sweep, LabelTable) {
 fn the_nine_by_nine_phase_diagram() {
     let (sweep, table) = nine();
     let svg = draw("nine", "phase", &sweep, &table);
-    // 81 cells, five keys, a key of four shades, and the background.
+    // 81 cells, five keys of labels and one of disagreement, and the background.
     let cells = svg.lines().filter(|line| line.starts_with("<rect")).count();
-    assert_eq!(cells, 81 + 5 + 4 + 1);
+    assert_eq!(cells, 81 + 5 + 1 + 1);
     for text in [
         "Theoretical tank, linear drag",
         "r / R",
@@ -251,28 +251,109 @@ fn the_nine_by_nine_phase_diagram() {
         "pinned",
         "small spout",
         "large spout",
-        "paler: seeds disagree",
+        "67 % of seeds agree",
         "critical rotation Ωc",
         "0.04",
         "24",
     ] {
         assert!(has(&svg, text), "{text} not in {:?}", texts(&svg));
     }
-    for text in ["unstable", "unsettled", "not run"] {
+    for text in ["unstable", "unsettled", "not run", "no majority"] {
         assert!(!has(&svg, text), "{text}");
     }
 }
 
 #[test]
-fn disagreement_fades_cells() {
+fn dots_mark_cells_in_which_seeds_disagree() {
     let (sweep, mut table) = nine();
-    let pure = "#2a8a5c";
-    let svg = draw("faded", "phase", &sweep, &table);
-    let faded = count(&svg, pure);
+    let disagreeing = table.points().iter().filter(|p| p.agreement < 1.0).count();
+    let pure = ["#2a8a5c", "#58a6e0", "#e2bd6c"];
+    let svg = draw("dots", "phase", &sweep, &table);
+    // A disc and its rim in each of those cells, and in the legend.
+    assert_eq!(circles(&svg), 2 * (disagreeing + 1));
+    // Equal agreement has equal discs, however high the cells are.
+    let radii = svg
+        .split("<circle ")
+        .skip(1)
+        .map(|circle| circle.split(" r=").nth(1));
+    let radii: std::collections::BTreeSet<_> = radii
+        .map(|rest| rest.unwrap().split('"').nth(1).unwrap())
+        .collect();
+    assert_eq!(radii.len(), 1, "{radii:?}");
+    let colors = pure.map(|color| count(&svg, color));
     table.rows.retain(|row| row.seed == 1);
     let svg = draw("one-seed", "phase", &sweep, &table);
-    assert!(count(&svg, pure) > faded);
-    assert!(!has(&svg, "paler: seeds disagree"));
+    // The colour of the majority stays, so that it has one grey only.
+    assert_eq!(colors, pure.map(|color| count(&svg, color)));
+    assert_eq!(circles(&svg), 0);
+    assert!(!has(&svg, "67 % of seeds agree"));
+}
+
+fn circles(svg: &str) -> usize {
+    svg.lines()
+        .filter(|line| line.starts_with("<circle"))
+        .count()
+}
+
+#[test]
+fn seeds_without_a_majority_are_shown_as_such() {
+    let axes = vec![axis(RADIUS, &[0.002, 0.003]), axis(OMEGA, &[0.0, 10.0])];
+    let sweep = sweep("Three seeds", axes, &[1, 2, 3]);
+    let three = [Label::Settled, Label::Fluid, Label::Pinned];
+    let mixed = table(&sweep, |values, seed| {
+        let at_once = values[0] == 0.002;
+        let label = if at_once {
+            Label::LargeSpout
+        } else {
+            three[seed as usize - 1]
+        };
+        Some(verdict(label))
+    });
+    let svg = draw("no-majority", "phase", &sweep, &mixed);
+    assert!(has(&svg, "no majority") && has(&svg, "large spout"));
+    for label in three {
+        assert!(!has(&svg, label.name()), "{label:?}");
+    }
+    let mut two = mixed.clone();
+    two.rows.retain(|row| row.seed < 3);
+    assert!(has(&draw("tie", "phase", &sweep, &two), "no majority"));
+}
+
+#[test]
+fn unstable_cells_are_a_pattern_and_not_the_black_of_the_critical_rotation() {
+    let axes = vec![axis(RADIUS, &[0.002, 0.003]), axis(OMEGA, &[0.0, 10.0])];
+    let sweep = sweep("Unstable", axes, &[1]);
+    let table = table(&sweep, |_, _| Some(verdict(Label::Unstable)));
+    let svg = draw("unstable", "phase", &sweep, &table);
+    assert!(has(&svg, "unstable"));
+    assert_eq!(count(&svg, "#000000"), 0);
+    let lines = svg
+        .lines()
+        .filter(|line| line.contains("stroke-opacity=\"0.75\""));
+    assert!(lines.count() > 100);
+}
+
+#[test]
+fn maps_without_values_have_no_colour_bar() {
+    let (sweep, mut table) = nine();
+    let without = draw("no-values", "settle-time", &sweep, &table);
+    assert!(has(&without, "settle time (s): no values"));
+    assert!(!has(&without, "settle time (s)") && !has(&without, "no value"));
+    table.rows[0].verdict.settle_time = Some(2.0);
+    let with = draw("one-value", "settle-time", &sweep, &table);
+    assert!(has(&with, "settle time (s)") && has(&with, "no value"));
+}
+
+#[test]
+fn margins_have_zero_in_the_middle_even_if_all_are_negative() {
+    let (sweep, mut table) = nine();
+    for (index, row) in table.rows.iter_mut().enumerate() {
+        row.verdict.evidence.spout_margin = Some(-0.5 - 0.5 * (index % 2) as f64);
+    }
+    let svg = draw("negative-margins", "spout-margin", &sweep, &table);
+    for tick in ["−0.8", "0.0", "0.8"] {
+        assert!(has(&svg, tick), "{tick} not in {:?}", texts(&svg));
+    }
 }
 
 #[test]

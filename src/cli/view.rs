@@ -1,14 +1,18 @@
 //! `phase view`: pictures of a run, without any other program.
 
+mod target;
+
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::{folders, format};
 use phase::observe::Snapshot;
 use phase::record::{Outcome, RunRecord, States};
-use phase::render::{Animation, ColorBy, Image, Stage, panel, strip};
+use phase::render::{Animation, ColorBy, Image, Sheet, Stage};
+use phase::scene::Radii;
 use phase::store;
 use phase::sweep::work;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+use target::{Kind, Target};
 
 /// Draw the spheres of a run: side view and view from above.
 ///
@@ -75,14 +79,17 @@ const PICTURES: usize = 100;
 const LARGEST: usize = 5_000_000;
 /// Share of an animation after which it must show all spheres: before, they may still be falling in.
 const ARRIVAL: f64 = 0.25;
+/// Largest height of a picture (pixels).
+const HEIGHT: usize = 4000;
+/// Greatest height of the view from the side, over its width.
+const TALLEST: f64 = 8.0;
 /// Largest height of an animation (pixels).
 const ANIMATION_HEIGHT: usize = 720;
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    if let Some(path) = &arguments.animate {
-        file_kind(path)?;
-    }
+    let target = Target::new(arguments)?;
     let record = store::read_record(&arguments.record).map_err(Failure::failed)?;
+    target.check(&arguments.record)?;
     let states = drawable(&record);
     if states.is_empty() {
         return Err(Failure::failed(format_args!(
@@ -96,27 +103,32 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         record.states(),
         format::count(states.len(), "state")
     ));
-    let (path, bytes) = match &arguments.animate {
-        Some(path) => {
-            let shown = evenly(states, PICTURES);
-            (
-                path.clone(),
-                animate(&record, &shown, path, arguments, console)?,
-            )
+    let bytes = if arguments.animate.is_some() {
+        animate(
+            &record,
+            &evenly(states, PICTURES),
+            target.kind,
+            arguments,
+            console,
+        )?
+    } else {
+        let shown = chosen(&record, states, arguments)?;
+        let times: Vec<String> = shown.iter().map(|at| brief(&record, at.time)).collect();
+        console.note(format_args!("shows t = {} s", times.join(", ")));
+        let mut view = View::new(&record, &shown, arguments);
+        view.limit_height(console);
+        let asked = arguments.width as usize;
+        let width = view.fitted(shown.len(), asked, HEIGHT);
+        if width < asked {
+            console.note(format_args!(
+                "panels are {width} instead of {asked} pixels wide: a picture is at most {HEIGHT} \
+                 pixels high"
+            ));
         }
-        None => {
-            let shown = chosen(&record, states, arguments)?;
-            let times: Vec<String> = shown.iter().map(|state| state.time.to_string()).collect();
-            console.note(format_args!("shows t = {} s", times.join(", ")));
-            let view = View::new(&record, &shown, arguments);
-            let image = strip(&view.panels(&shown, arguments.width as usize)?);
-            let path = arguments.out.clone();
-            (
-                path.unwrap_or_else(|| arguments.record.with_extension("png")),
-                image.to_png(&texts(&record)).map_err(Failure::failed)?,
-            )
-        }
+        let image = view.sheet.picture(&view.panels(&shown, width)?);
+        image.to_png(&texts(&record)).map_err(Failure::failed)?
     };
+    let path = target.path;
     folders::make_for(&path)?;
     store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
     console.file(&path)?;
@@ -153,8 +165,10 @@ fn chosen<'a>(
         let inside = *time >= first - 0.5 * interval && *time <= last + 0.5 * interval;
         if !inside {
             return Err(Failure::refused(format_args!(
-                "there is no state at t = {time} s: the record holds them from {first} to {last} s \
+                "there is no state at t = {time} s: the record holds them from {} to {} s \
                  ({} frames of {interval} s)",
+                brief(record, first),
+                brief(record, last),
                 record.observations.frames()
             )));
         }
@@ -181,18 +195,33 @@ fn evenly(states: &[Snapshot], most: usize) -> Vec<&Snapshot> {
     (0..count).map(at).collect()
 }
 
+/// A time as text, with as many digits as the frames ask for.
+fn seconds(record: &RunRecord, time: f64) -> String {
+    let interval = record.scene.time.frame_interval;
+    let tenfold = std::iter::successors(Some(interval), |scaled| Some(10.0 * scaled));
+    let digits = tenfold.take(6).position(|scaled| scaled >= 1.0 - 1e-9);
+    format!("{time:.*}", digits.unwrap_or(6))
+}
+
+/// The same without zeros at its end.
+fn brief(record: &RunRecord, time: f64) -> String {
+    let text = seconds(record, time);
+    text.parse()
+        .map_or(text, |rounded: f64| rounded.to_string())
+}
+
 /// What all pictures of a run have in common.
 struct View<'a> {
     record: &'a RunRecord,
-    stage: Stage,
-    color: ColorBy,
+    sheet: Sheet,
 }
 
 impl<'a> View<'a> {
     fn new(record: &'a RunRecord, shown: &[&Snapshot], arguments: &Arguments) -> Self {
         let all = || shown.iter().copied();
-        Self {
-            record,
+        let sheet = Sheet {
+            title: title(record),
+            radius: record.radius.clone(),
             stage: Stage::of_scene(&record.scene).around(all(), &record.radius),
             color: match arguments.color {
                 Color::Speed => ColorBy::speed_of(all()),
@@ -200,37 +229,75 @@ impl<'a> View<'a> {
                 Color::Index => ColorBy::Index,
                 Color::None => ColorBy::Nothing,
             },
+        };
+        Self { record, sheet }
+    }
+
+    /// Leaves out the upper part of a tall tank, and says so.
+    fn limit_height(&mut self, console: &Console) {
+        let limited = self.sheet.stage.no_taller(TALLEST);
+        let (top, limit) = (self.sheet.stage.seen[1][2], limited.seen[1][2]);
+        if limit < top {
+            console.note(format_args!(
+                "shows up to z = {limit:.3} m; spheres above are not drawn"
+            ));
         }
+        self.sheet.stage = limited;
+    }
+
+    /// The largest width of panels, not above `width`, with which a picture is at most `most` pixels
+    /// high.
+    fn fitted(&self, count: usize, width: usize, most: usize) -> usize {
+        let mut fitted = width;
+        while self.sheet.height(count, fitted) > most && fitted > 1 {
+            let shrunk = fitted * most / self.sheet.height(count, fitted);
+            fitted = shrunk.clamp(1, fitted - 1);
+        }
+        fitted
     }
 
     /// A panel of every state, drawn on all cores.
     fn panels(&self, shown: &[&Snapshot], width: usize) -> Result<Vec<Image>, Failure> {
-        // As many digits as the frames ask for.
-        let interval = self.record.scene.time.frame_interval;
-        let tenfold = std::iter::successors(Some(interval), |scaled| Some(10.0 * scaled));
-        let digits = tenfold.take(6).position(|scaled| scaled >= 1.0 - 1e-9);
-        let digits = digits.unwrap_or(6);
         work::map(work::default_workers(), shown, |state| {
-            let colors = self.color.colors(state);
-            let text = format!("t = {:.digits$} s", state.time);
-            panel(
-                state,
-                &self.record.radius,
-                &colors,
-                &self.stage,
-                width,
-                &text,
-            )
+            let caption = format!("t = {} s", seconds(self.record, state.time));
+            self.sheet.panel(state, width, &caption)
         })
         .map_err(Failure::failed)
     }
+
+    /// A picture of every state.
+    fn pictures(&self, shown: &[&Snapshot], width: usize) -> Result<Vec<Image>, Failure> {
+        let panels = self.panels(shown, width)?;
+        let pictures = panels.chunks(1).map(|panel| self.sheet.picture(panel));
+        Ok(pictures.collect())
+    }
+}
+
+/// Title of the scene, and what is known of the run's place in a sweep.
+fn title(record: &RunRecord) -> Vec<String> {
+    let scene = &record.scene;
+    let mut place = vec![format!("n = {}", record.radius.len())];
+    if let Radii::One(radius) = scene.spheres.radius {
+        place.push(format!("r = {} mm", rounded(1e3 * radius)));
+    }
+    if let Some(swirl) = &scene.swirl {
+        place.push(format!("Ω = {} rad/s", rounded(swirl.omega)));
+    }
+    place.push(format!("seed {}", scene.seed));
+    let lines = scene.title.iter().cloned();
+    lines.chain([place.join(", ")]).collect()
+}
+
+/// A number to four digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
 }
 
 /// The bytes of an animation, made smaller until it has a reasonable size.
 fn animate(
     record: &RunRecord,
     shown: &[&Snapshot],
-    path: &Path,
+    kind: Kind,
     arguments: &Arguments,
     console: &Console,
 ) -> Result<Vec<u8>, Failure> {
@@ -242,59 +309,47 @@ fn animate(
     }
     let mut view = View::new(record, shown, arguments);
     let arrived = &shown[(ARRIVAL * shown.len() as f64) as usize..];
-    let later = View::new(record, arrived, arguments).stage.seen[1][2];
-    if later < view.stage.seen[1][2] {
+    let later = View::new(record, arrived, arguments).sheet.stage.seen[1][2];
+    if later < view.sheet.stage.seen[1][2] {
         console.note(format_args!(
             "shows up to z = {later:.3} m, where all spheres are after the first quarter"
         ));
-        view.stage = view.stage.up_to(later);
+        view.sheet.stage = view.sheet.stage.up_to(later);
     }
+    view.limit_height(console);
     // In real time, but neither faster than the eye nor a slide show.
     let duration = shown[shown.len() - 1].time - shown[0].time;
     let delay = (100.0 * duration / shown.len() as f64)
         .round()
         .clamp(4.0, 50.0) as u16;
-    let mut width = arguments.width as usize;
-    let trial = view.panels(&shown[..1], width)?;
-    if trial[0].height > ANIMATION_HEIGHT {
-        width = width * ANIMATION_HEIGHT / trial[0].height;
-    }
+    let asked = arguments.width as usize;
+    let mut width = view.fitted(1, asked, ANIMATION_HEIGHT);
+    let pictures = format::count(shown.len(), "picture");
     loop {
-        let animation = Animation::new(&view.panels(shown, width)?, delay);
-        let bytes = if file_kind(path)? == Kind::Gif {
-            animation.to_gif().map_err(Failure::failed)?
-        } else {
-            animation.to_apng(&texts(record)).map_err(Failure::failed)?
+        console.note(format_args!("draws {pictures} of {width} pixels' width"));
+        let animation = Animation::new(&view.pictures(shown, width)?, delay);
+        let bytes = match kind {
+            Kind::Gif => animation.to_gif().map_err(Failure::failed)?,
+            Kind::Png => animation.to_apng(&texts(record)).map_err(Failure::failed)?,
         };
+        let size = format::bytes(bytes.len() as f64);
         if bytes.len() <= LARGEST || width < 80 {
-            console.note(format_args!(
-                "{} of {width} pixels' width, {}",
-                format::count(shown.len(), "picture"),
-                format::bytes(bytes.len() as f64)
-            ));
+            if width < asked {
+                console.note(format_args!(
+                    "{width} instead of {asked} pixels wide: an animation is at most \
+                     {ANIMATION_HEIGHT} pixels high and {} large",
+                    format::bytes(LARGEST as f64)
+                ));
+            }
+            console.note(format_args!("{pictures} of {width} pixels' width, {size}"));
             return Ok(bytes);
         }
+        console.note(format_args!(
+            "{size} are too much: draws them again, smaller"
+        ));
         // The size goes with the area.
         let shrink = (LARGEST as f64 / bytes.len() as f64).sqrt().min(0.95);
         width = (0.97 * shrink * width as f64) as usize;
-    }
-}
-
-/// A kind of animated file.
-#[derive(PartialEq, Eq)]
-enum Kind {
-    Apng,
-    Gif,
-}
-
-fn file_kind(path: &Path) -> Result<Kind, Failure> {
-    match path.extension().and_then(|extension| extension.to_str()) {
-        Some("gif") => Ok(Kind::Gif),
-        Some("png" | "apng") => Ok(Kind::Apng),
-        _ => Err(Failure::refused(format_args!(
-            "{}: an animation is a .png (APNG) or a .gif",
-            path.display()
-        ))),
     }
 }
 

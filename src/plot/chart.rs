@@ -7,13 +7,16 @@ use super::legend::{Entry, Key, Legend};
 use super::scale::{Direction, Room, Scale};
 use super::style::{self, Drawn, LABEL, MARGIN, SMALL, Sheet, TICK, TITLE, WIDTH, letters, px};
 use super::svg::Svg;
+use super::text;
 use super::{PlotError, Source};
 use plotters::drawing::IntoDrawingArea;
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{FontTransform, RGBColor};
 
-/// Room between panels: the last tick label of one and the first of the next must not touch.
-const GAP: i32 = px(28);
+/// Room between panels beside the halves of tick labels that reach into it.
+const GAP: i32 = px(16);
+/// Distance of the lines of heads and notes.
+const LINE: i32 = px(16);
 
 /// A line: points in the order of x, and its colour.
 #[derive(Clone, Debug)]
@@ -25,8 +28,8 @@ pub(super) struct Line {
 /// A panel.
 #[derive(Clone, Debug)]
 pub(super) struct Panel {
-    /// What stands above it, with markup.
-    pub(super) head: String,
+    /// What stands above it, with markup: items of a list, which breaks between them.
+    pub(super) head: Vec<String>,
     /// Ends of its axes. What lies left of them or right is not drawn.
     pub(super) x: (f64, f64),
     pub(super) y: (f64, f64),
@@ -37,6 +40,8 @@ pub(super) struct Panel {
 pub(super) struct Chart {
     /// Name of the figure.
     pub(super) name: &'static str,
+    /// What stands below the title and holds for all panels, as items of a list.
+    pub(super) common: Vec<String>,
     /// Panels, row by row.
     pub(super) panels: Vec<Panel>,
     /// Panels per row.
@@ -48,6 +53,8 @@ pub(super) struct Chart {
     pub(super) y_label: String,
     /// Names of the lines, by colour.
     pub(super) legend: Vec<(RGBColor, String)>,
+    /// Sentences below everything.
+    pub(super) notes: Vec<String>,
 }
 
 impl Chart {
@@ -90,8 +97,11 @@ impl Chart {
         }
         axes.draw()?;
         let head = letters(SMALL, HPos::Center, VPos::Bottom);
-        let place = (left + width / 2, top - px(3));
-        sheet.draw_text(&panel.head, &head, place)
+        for (index, line) in layout.heads[index].iter().rev().enumerate() {
+            let place = (left + width / 2, top - px(3) - index as i32 * LINE);
+            sheet.draw_text(line, &head, place)?;
+        }
+        Ok(())
     }
 
     fn draw_words(&self, sheet: &Sheet<'_>, layout: &Layout) -> Drawn {
@@ -99,6 +109,12 @@ impl Chart {
             let style = letters(TITLE, HPos::Center, VPos::Top);
             let y = MARGIN + index as i32 * TITLE_LINE;
             sheet.draw_text(line, &style, (WIDTH / 2, y))?;
+        }
+        let small = letters(SMALL, HPos::Center, VPos::Top);
+        for (lines, top) in [&layout.common, &layout.notes] {
+            for (index, line) in lines.iter().enumerate() {
+                sheet.draw_text(line, &small, (WIDTH / 2, top + index as i32 * LINE))?;
+            }
         }
         let (left, top) = layout.origin;
         let (right, bottom) = layout.end();
@@ -114,6 +130,11 @@ impl Chart {
 struct Layout {
     size: (i32, i32),
     title: Vec<String>,
+    /// Lines that hold for all panels and lines of notes, with their upper ends.
+    common: (Vec<String>, i32),
+    notes: (Vec<String>, i32),
+    /// Lines above each panel.
+    heads: Vec<Vec<String>>,
     /// Upper left corner of the first panel.
     origin: (i32, i32),
     panel: (i32, i32),
@@ -144,33 +165,51 @@ impl Layout {
         };
         let widths = y_scales.iter().map(|y| y.label_width(f64::from(SMALL)));
         let tick_room = 2 * TICK + widths.fold(0.0, f64::max).ceil() as i32;
-        let title = title_lines(title);
-        let head = if chart.panels.iter().any(|panel| !panel.head.is_empty()) {
-            HEAD
-        } else {
-            0
-        };
         let inner = (0..count).filter(|index| !index.is_multiple_of(columns));
+        let left = MARGIN + LABEL + px(8) + tick_room;
+        // The widest panel that could be, for the half of a tick label that reaches beyond it.
+        let widest = (WIDTH - MARGIN - left) / columns as i32;
+        let beyond = chart.panels.iter().map(|panel| beyond(panel.x, widest));
+        let beyond = beyond.fold((0, 0), |most, next| {
+            (most.0.max(next.0), most.1.max(next.1))
+        });
         let gap_x = GAP
+            + beyond.1
             + if inner.clone().any(own_y) {
-                tick_room
+                tick_room.max(beyond.0)
             } else {
-                0
+                beyond.0
             };
+        let room = WIDTH - MARGIN - beyond.1 - left - gap_x * (columns as i32 - 1);
+        let panel = (room / columns as i32, chart.height);
+        let lines =
+            |items: &[String], room: i32| text::wrap_list(items, f64::from(SMALL), f64::from(room));
+        let heads: Vec<Vec<String>> = chart
+            .panels
+            .iter()
+            .map(|of| lines(&of.head, panel.0))
+            .collect();
+        let head = match heads.iter().map(Vec::len).max() {
+            None | Some(0) => 0,
+            Some(most) => HEAD + LINE * (most as i32 - 1),
+        };
         let gap_y = px(10)
             + if (0..count.saturating_sub(columns)).any(own_x) {
                 TICKS_BELOW
             } else {
                 0
             };
-        let left = MARGIN + LABEL + px(8) + tick_room;
-        // The last tick label reaches beyond its panel.
-        let room = WIDTH - MARGIN - px(8) - left - gap_x * (columns as i32 - 1);
-        let panel = (room / columns as i32, chart.height);
+        let title = title_lines(title);
+        let common = lines(&chart.common, WIDTH - 2 * MARGIN);
+        let below_title = title_height(&title);
+        let top = below_title + LINE * common.len() as i32;
         let mut layout = Self {
             size: (WIDTH, 0),
-            origin: (left, title_height(&title) + head),
+            origin: (left, top + head),
             title,
+            common: (common, below_title - px(4)),
+            notes: (note_lines(&chart.notes), 0),
+            heads,
             panel,
             pitch: (panel.0 + gap_x, panel.1 + gap_y + head),
             columns,
@@ -196,6 +235,10 @@ impl Layout {
         if legend > 0 {
             layout.legend.1.1 = bottom + px(8);
             bottom += px(8) + legend;
+        }
+        layout.notes.1 = bottom + px(8);
+        if !layout.notes.0.is_empty() {
+            bottom += px(8) + LINE * layout.notes.0.len() as i32;
         }
         layout.size.1 = whole(bottom + MARGIN);
         layout
@@ -225,6 +268,32 @@ fn legend(names: &[(RGBColor, String)]) -> Legend {
         text: text.clone(),
     };
     Legend::new(names.iter().map(entry).collect(), WIDTH - 2 * MARGIN)
+}
+
+/// How far the first and the last tick label of a horizontal axis reach beyond its ends.
+fn beyond(range: (f64, f64), length: i32) -> (i32, i32) {
+    let scale = scale(range, length, Direction::Horizontal);
+    let ends = [scale.ticks().first(), scale.ticks().last()].map(|tick| {
+        let (value, label) = tick?;
+        let half = 0.5 * text::width(label, f64::from(SMALL));
+        Some((half, scale.fraction(*value) * f64::from(length)))
+    });
+    let reach = |end: Option<(f64, f64)>, inside: &dyn Fn(f64) -> f64| {
+        end.map_or(0.0, |(half, place)| (half - inside(place)).max(0.0))
+    };
+    (
+        reach(ends[0], &|place| place).ceil() as i32,
+        reach(ends[1], &|place| f64::from(length) - place).ceil() as i32,
+    )
+}
+
+/// Lines of notes below a figure.
+pub(super) fn note_lines(notes: &[String]) -> Vec<String> {
+    let room = f64::from(WIDTH - 2 * MARGIN);
+    let lines = notes.iter();
+    lines
+        .flat_map(|note| text::wrap(note, f64::from(SMALL), room))
+        .collect()
 }
 
 fn scale((low, high): (f64, f64), length: i32, direction: Direction) -> Scale {

@@ -139,6 +139,32 @@ pub(super) fn states(source: &Source<'_>) -> Result<Vec<usize>, PlotError> {
         .collect())
 }
 
+/// Says how many runs [`states`] leaves out because they are unstable; nothing if there are none, or
+/// if points are asked for.
+pub(super) fn left_out(source: &Source<'_>) -> Option<String> {
+    let rows = &source.table.rows;
+    let unstable = rows
+        .iter()
+        .filter(|row| row.verdict.label == Label::Unstable);
+    let count = unstable.count();
+    (count > 0 && source.points.is_empty())
+        .then(|| format!("not shown: unstable, {count} of {} runs", rows.len()))
+}
+
+/// The places of runs in the sweep: what is common to all of several, and the rest for each.
+pub(super) fn places(runs: &[Run<'_>]) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut places: Vec<Vec<String>> = runs.iter().map(Run::place).collect();
+    let Some((first, [_, ..])) = places.split_first() else {
+        return (Vec::new(), places);
+    };
+    let is_common = |part: &&String| places.iter().all(|place| place.contains(part));
+    let common: Vec<String> = first.iter().filter(is_common).cloned().collect();
+    for place in &mut places {
+        place.retain(|part| !common.contains(part));
+    }
+    (common, places)
+}
+
 /// The point nearest to the mean of all, counted in places along the axes.
 fn nearest_to_middle<'p>(source: &Source<'_>, points: &[&'p Point]) -> Option<&'p Point> {
     let place = |point: &Point| -> Vec<f64> {
@@ -173,9 +199,9 @@ impl Run<'_> {
         })
     }
 
-    /// Its place in the sweep, with markup: `$r$ = 4 mm, $Ω$ = 8 rad/s`. The seed is named only if
-    /// a point asks for one.
-    pub(super) fn head(&self) -> String {
+    /// Its place in the sweep, with markup: `$r$ = 4 mm` and `$Ω$ = 8 rad/s`. The seed is named
+    /// only if a point asks for one.
+    fn place(&self) -> Vec<String> {
         let axes = self.source.sweep.axes.iter().zip(&self.row.values);
         let mut parts: Vec<String> = axes
             .map(|(axis, &value)| quantity(self.source, &axis.key, &axis.name, value))
@@ -184,7 +210,7 @@ impl Run<'_> {
         if names.any(|(name, _)| name == SEED) {
             parts.push(format!("seed {}", self.row.seed));
         }
-        parts.join(", ")
+        parts
     }
 
     /// The same as one would write it on the command line.

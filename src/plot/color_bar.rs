@@ -27,19 +27,22 @@ pub(super) struct ColorBar {
 }
 
 impl ColorBar {
-    /// The bar for these values. A `signed` quantity that has both signs gets a map with zero in
-    /// the middle.
-    pub(super) fn new(values: impl Iterator<Item = f64>, signed: bool, label: String) -> Self {
+    /// The bar for these values; none without any. A `signed` quantity gets a map with zero in the
+    /// middle, even if all values have one sign.
+    pub(super) fn new(
+        values: impl Iterator<Item = f64>,
+        signed: bool,
+        label: String,
+    ) -> Option<Self> {
         let (mut low, mut high) = values
             .fold((f64::INFINITY, f64::NEG_INFINITY), |range, value| {
                 (range.0.min(value), range.1.max(value))
             });
         if low > high {
-            // No value at all: an arbitrary range, for cells that are all empty.
-            (low, high) = (0.0, 1.0);
+            return None;
         }
-        let map = if signed && low < 0.0 && high > 0.0 {
-            high = high.max(-low);
+        let map = if signed {
+            high = high.abs().max(low.abs());
             low = -high;
             ColorMap::Diverging
         } else {
@@ -49,12 +52,12 @@ impl ColorBar {
             let widening = if high == 0.0 { 1.0 } else { 0.5 * high.abs() };
             (low, high) = (low - widening, high + widening);
         }
-        Self {
+        Some(Self {
             low,
             high,
             map,
             label: vec![label],
-        }
+        })
     }
 
     /// The same with a label that a bar of this height can hold.
@@ -116,7 +119,7 @@ mod tests {
     use super::*;
 
     fn bar(values: &[f64], signed: bool) -> ColorBar {
-        ColorBar::new(values.iter().copied(), signed, String::new())
+        ColorBar::new(values.iter().copied(), signed, String::new()).unwrap()
     }
 
     #[test]
@@ -130,20 +133,24 @@ mod tests {
     }
 
     #[test]
-    fn both_signs_put_zero_in_the_middle() {
-        let both = bar(&[3.0, -1.0], true);
-        assert_eq!(
-            (both.low, both.high, both.map),
-            (-3.0, 3.0, ColorMap::Diverging)
-        );
-        assert_eq!(bar(&[3.0, 1.0], true).map, ColorMap::Sequential);
+    fn zero_is_in_the_middle_of_a_signed_quantity() {
+        for values in [[3.0, -1.0], [-3.0, -1.0], [1.0, 3.0]] {
+            let bar = bar(&values, true);
+            assert_eq!(
+                (bar.low, bar.high, bar.map),
+                (-3.0, 3.0, ColorMap::Diverging)
+            );
+        }
     }
 
     #[test]
-    fn equal_values_and_none_have_a_range() {
-        for values in [&[][..], &[0.0], &[2.0, 2.0], &[-5.0]] {
-            let bar = bar(values, true);
-            assert!(bar.low < bar.high, "{values:?}");
+    fn equal_values_have_a_range_and_none_have_no_bar() {
+        for values in [&[0.0][..], &[2.0, 2.0], &[-5.0]] {
+            for signed in [false, true] {
+                let bar = bar(values, signed);
+                assert!(bar.low < bar.high, "{values:?}");
+            }
         }
+        assert!(ColorBar::new(std::iter::empty(), true, String::new()).is_none());
     }
 }

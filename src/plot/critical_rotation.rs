@@ -49,8 +49,9 @@ impl Figure for CriticalRotation {
         };
         Chart {
             name: self.name(),
+            common: fixed(source),
             panels: vec![Panel {
-                head: String::new(),
+                head: Vec::new(),
                 x: (low * 1e3, high * 1e3),
                 y: (0.0, top),
                 lines: curves.into_iter().map(|(_, line)| line).collect(),
@@ -60,6 +61,7 @@ impl Figure for CriticalRotation {
             x_label: "radius of the spheres $r$ (mm)".to_owned(),
             y_label: "critical rotation $Ω_c$ (rad/s)".to_owned(),
             legend,
+            notes: Vec::new(),
         }
         .draw(source)
     }
@@ -90,6 +92,23 @@ fn scenes(source: &Source<'_>) -> Vec<(String, RGBColor, Scene)> {
             let name = choice::quantity(source, &axis.key, &axis.name, value);
             Some((name, color, scene))
         })
+        .collect()
+}
+
+/// What the curve is for: number of spheres, tank and gravity, where no axis moves them.
+fn fixed(source: &Source<'_>) -> Vec<String> {
+    let scene = &source.sweep.scene;
+    let mut keys = source.sweep.axes.iter().map(|axis| axis.key.as_str());
+    let moved = keys.find(|key| MOVING.contains(key));
+    let values = [
+        Some(scene.spheres.count as f64),
+        scene.tank.as_ref().and_then(|tank| tank.radius),
+        scene.gravity.as_ref().map(|gravity| gravity.acceleration),
+    ];
+    let pairs = MOVING.into_iter().zip(values);
+    let fixed = pairs.filter(|(key, _)| Some(*key) != moved);
+    fixed
+        .filter_map(|(key, value)| Some(choice::quantity(source, key, key, value?)))
         .collect()
 }
 

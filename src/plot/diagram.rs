@@ -5,19 +5,22 @@ use super::color_bar::ColorBar;
 use super::grid::{Grid, Panel};
 use super::layout::{Layout, TITLE_LINE};
 use super::legend::{Entry, Key};
-use super::style::{self, Drawn, LABEL, SMALL, Sheet, TITLE, letters, px};
+use super::scale::Scale;
+use super::style::{self, Drawn, Fill, LABEL, SMALL, Sheet, TITLE, letters, px};
 use super::svg::Svg;
 use super::{PlotError, Source, canvas, critical};
 use crate::sweep::Point;
 use plotters::drawing::IntoDrawingArea;
 use plotters::element::PathElement;
 use plotters::style::text_anchor::{HPos, VPos};
-use plotters::style::{BLACK, Color, FontTransform, RGBColor, TextStyle};
+use plotters::style::{BLACK, Color, FontTransform, TextStyle};
 
 /// How a cell looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Look {
-    pub(super) color: RGBColor,
+    pub(super) fill: Fill,
+    /// The share of the seeds that agree, which a mark shows where it is not 1.
+    pub(super) agreement: f64,
     /// A line is drawn between neighbours of different groups.
     pub(super) group: usize,
 }
@@ -30,7 +33,7 @@ pub(super) struct Diagram<'a> {
     /// How a point looks; `None` where it has no value.
     pub(super) look: &'a dyn Fn(&Point) -> Option<Look>,
     /// What a cell without a value is called.
-    pub(super) empty: &'a str,
+    pub(super) empty: String,
     /// Entries of the legend, before those of the curve and of empty cells.
     pub(super) legend: Vec<Entry>,
     pub(super) bar: Option<ColorBar>,
@@ -48,7 +51,8 @@ impl Diagram<'_> {
             .collect();
         let entries = self.entries(curves.iter().any(|curve| !curve.is_empty()));
         let title = source.sweep.title.as_deref();
-        let layout = Layout::new(title, self.grid, self.bar.clone(), entries);
+        let mut layout = Layout::new(title, self.grid, self.bar.clone(), entries);
+        layout.legend.0.cell = self.smallest_cell(&layout);
         let size = (layout.size.0 as u32, layout.size.1 as u32);
         let mut body = String::new();
         {
@@ -76,8 +80,8 @@ impl Diagram<'_> {
         let empty = |panel: &Panel| self.looks(panel).contains(&None);
         if self.grid.panels.iter().any(empty) {
             entries.push(Entry {
-                key: Key::Hatch,
-                text: self.empty.to_owned(),
+                key: Key::Fill(Fill::Hatch),
+                text: self.empty.clone(),
             });
         }
         if with_curve {
@@ -121,6 +125,7 @@ impl Diagram<'_> {
                 .collect();
             style::curve(sheet, &pixels)?;
         }
+        self.draw_marks(sheet, plot, &looks, layout.legend.0.cell)?;
         axes.draw()
     }
 
@@ -146,11 +151,49 @@ impl Diagram<'_> {
             let (column, row) = (index % columns, index / columns);
             let corners = [(x[column], y[row + 1]), (x[column + 1], y[row])];
             match look {
-                Some(look) => style::fill(sheet, corners, look.color)?,
-                None => style::hatch(sheet, corners)?,
+                Some(look) => style::paint(sheet, corners, look.fill)?,
+                None => style::paint(sheet, corners, Fill::Hatch)?,
             }
         }
         Ok(())
+    }
+
+    /// Marks the cells in which seeds disagree.
+    fn draw_marks(
+        &self,
+        sheet: &Sheet<'_>,
+        plot: &Plot<'_>,
+        looks: &[Option<Look>],
+        cell: i32,
+    ) -> Drawn {
+        let (x, y) = self.edges(plot);
+        let columns = self.grid.cells().0;
+        for (index, look) in looks.iter().enumerate() {
+            let (column, row) = (index % columns, index / columns);
+            let corners = [(x[column], y[row + 1]), (x[column + 1], y[row])];
+            if let Some(look) = look
+                && look.agreement < 1.0
+            {
+                style::disagreement(sheet, corners, look.agreement, cell)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Shortest side of a cell, as far as marks grow with it.
+    fn smallest_cell(&self, layout: &Layout) -> i32 {
+        let (columns, rows) = (&layout.scales.0, &layout.scales.1);
+        let shortest = |edges: Vec<f64>, scale: &Scale, length: i32| {
+            let places = edges.windows(2);
+            let sides = places.map(|pair| scale.fraction(pair[1]) - scale.fraction(pair[0]));
+            (sides.fold(1.0, f64::min) * f64::from(length)) as i32
+        };
+        let across = shortest(self.grid.x.edges(), columns, layout.panel.0);
+        let y = self.grid.y.as_ref();
+        let up = y.map_or(layout.panel.1, |y| {
+            shortest(y.edges(), rows, layout.panel.1)
+        });
+        across.min(up).min(style::LARGEST_CELL)
     }
 
     /// Draws the lines between cells of different groups.

@@ -70,17 +70,21 @@ impl Figure for Energies {
         let all = energies.iter().flat_map(|run| run.lines.iter().flatten());
         let largest = all.fold(0.0, |most: f64, point| most.max(point.1.abs()));
         let (unit, factor) = prefixed("J", largest);
-        let panels = runs.iter().zip(&energies).flat_map(|(run, energies)| {
-            let state = run.row.verdict.label.name().replace('-', " ");
-            let head = match run.head() {
-                place if !self.with_states => place,
-                place if place.is_empty() => state,
-                place => format!("{state}: {place}"),
-            };
+        let (common, places) = choice::places(&runs);
+        let shown = runs.iter().zip(places).zip(&energies);
+        let panels = shown.flat_map(|((run, mut head), energies)| {
+            if self.with_states {
+                let state = run.row.verdict.label.name().replace('-', " ");
+                match head.first_mut() {
+                    Some(first) => *first = format!("{state}: {first}"),
+                    None => head.push(state),
+                }
+            }
             panels(head, energies, factor)
         });
         Chart {
             name: self.name,
+            common,
             panels: panels.collect(),
             columns: 2,
             height: if runs.len() == 1 { px(240) } else { px(130) },
@@ -90,6 +94,11 @@ impl Figure for Energies {
                 .into_iter()
                 .zip(KINDS.map(str::to_owned))
                 .collect(),
+            notes: if self.with_states {
+                choice::left_out(source).into_iter().collect()
+            } else {
+                Vec::new()
+            },
         }
         .draw(source)
     }
@@ -143,7 +152,7 @@ fn mean_after(time: &[f64], values: &[f32], from: f64) -> f64 {
 }
 
 /// The whole run, and its begin.
-fn panels(head: String, energies: &Lines, factor: f64) -> [Panel; 2] {
+fn panels(head: Vec<String>, energies: &Lines, factor: f64) -> [Panel; 2] {
     let scaled = |points: &[(f64, f64)]| points.iter().map(|(t, e)| (*t, e * factor)).collect();
     let lines: Vec<Line> = energies
         .lines
@@ -168,7 +177,7 @@ fn panels(head: String, energies: &Lines, factor: f64) -> [Panel; 2] {
         1.0 => "first second".to_owned(),
         _ => format!("first {} s", scale::number(begin)),
     };
-    [(head, energies.duration), (larger, begin)].map(|(head, end)| Panel {
+    [(head, energies.duration), (vec![larger], begin)].map(|(head, end)| Panel {
         head,
         x: (0.0, end),
         y,

@@ -1,9 +1,9 @@
 //! The legend: entries in lines that break where the room ends.
 
-use super::style::{self, Drawn, SMALL, Sheet, letters, px};
-use super::{palette, text};
+use super::style::{self, Drawn, Fill, SMALL, Sheet, letters, px};
+use super::text;
 use plotters::style::text_anchor::{HPos, VPos};
-use plotters::style::{BLACK, Color, RGBColor};
+use plotters::style::{BLACK, Color, RGBColor, WHITE};
 
 /// Size of a key, the small picture of an entry.
 const KEY: (i32, i32) = (px(20), px(13));
@@ -15,12 +15,10 @@ const GAPS: (i32, i32) = (px(7), px(16));
 /// The small picture of an entry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Key {
-    /// A colour.
-    Color(RGBColor),
-    /// A colour that fades with disagreement.
-    Fading(RGBColor),
-    /// The hatch of cells without a value.
-    Hatch,
+    /// A colour or pattern.
+    Fill(Fill),
+    /// The mark of cells in which only this share of the seeds agree.
+    Agreement(f64),
     /// The curve of a theory.
     Curve,
     /// A line of a chart.
@@ -39,6 +37,8 @@ pub(super) struct Legend {
     entries: Vec<(Entry, (i32, i32))>,
     width: i32,
     height: i32,
+    /// Side of the cells whose marks of disagreement are explained.
+    pub(super) cell: i32,
 }
 
 impl Legend {
@@ -48,6 +48,7 @@ impl Legend {
             entries: Vec::new(),
             width: 0,
             height: 0,
+            cell: style::LARGEST_CELL,
         };
         let (mut x, mut y) = (0, 0);
         for entry in entries {
@@ -74,7 +75,7 @@ impl Legend {
         for (entry, place) in &self.entries {
             let (left, top) = (origin.0 + place.0, origin.1 + place.1);
             let middle = top + LINE / 2;
-            draw_key(sheet, entry.key, (left, middle))?;
+            draw_key(sheet, entry.key, (left, middle), self.cell)?;
             let letters = letters(SMALL, HPos::Left, VPos::Center);
             sheet.draw_text(&entry.text, &letters, (left + KEY.0 + GAPS.0, middle))?;
         }
@@ -82,20 +83,14 @@ impl Legend {
     }
 }
 
-fn draw_key(sheet: &Sheet<'_>, key: Key, (left, middle): (i32, i32)) -> Drawn {
+fn draw_key(sheet: &Sheet<'_>, key: Key, (left, middle): (i32, i32), cell: i32) -> Drawn {
     let (right, top, bottom) = (left + KEY.0, middle - KEY.1 / 2, middle + KEY.1 / 2);
     let corners = [(left, top), (right, bottom)];
     match key {
-        Key::Color(color) => style::fill(sheet, corners, color)?,
-        Key::Hatch => style::hatch(sheet, corners)?,
-        Key::Fading(color) => {
-            const SHADES: i32 = 4;
-            for shade in 0..SHADES {
-                let edge = |index: i32| left + KEY.0 * index / SHADES;
-                let agreement = 1.0 - f64::from(shade) / f64::from(SHADES);
-                let corners = [(edge(shade), top), (edge(shade + 1), bottom)];
-                style::fill(sheet, corners, palette::faded(color, agreement))?;
-            }
+        Key::Fill(fill) => style::paint(sheet, corners, fill)?,
+        Key::Agreement(agreement) => {
+            style::fill(sheet, corners, WHITE)?;
+            style::disagreement(sheet, corners, agreement, cell)?;
         }
         Key::Curve => return style::curve(sheet, &[(left, middle), (right, middle)]),
         Key::Line(color) => return style::line(sheet, &[(left, middle), (right, middle)], color),

@@ -4,6 +4,7 @@
 use super::color_bar::ColorBar;
 use super::diagram::{Diagram, Look};
 use super::grid::Grid;
+use super::style::Fill;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
 use crate::classify::Verdict;
@@ -110,19 +111,24 @@ impl Figure for Map {
         } else {
             format!("{} ({})", self.quantity, self.unit)
         };
-        let bar = ColorBar::new(values, self.signed, label);
+        let bar = ColorBar::new(values, self.signed, label.clone());
         Diagram {
             name: self.name,
             grid: &grid,
             look: &|point| {
-                self.mean(source, point).map(|value| Look {
-                    color: bar.color(value),
+                let value = self.mean(source, point)?;
+                Some(Look {
+                    fill: Fill::Color(bar.as_ref()?.color(value)),
+                    agreement: 1.0,
                     group: 0,
                 })
             },
-            empty: "no value",
+            empty: match &bar {
+                Some(_) => "no value".to_owned(),
+                None => format!("{label}: no values"),
+            },
             legend: Vec::new(),
-            bar: Some(bar.clone()),
+            bar: bar.clone(),
         }
         .draw(source)
     }

@@ -2,14 +2,15 @@
 //! tank, over its radius (Rice, 2012, eq. 46 and figure 21).
 //!
 //! The thesis leaves the factor of its eq. 44 open, a lift proportional to Omega^2. Here it is such
-//! that the lift at the scene's own Omega is the scene's updraught.
+//! that the lift at the scene's own Omega is the scene's updraught, whether that depends on Omega or
+//! not.
 
 use super::chart::{self, Chart, Line, Panel};
 use super::critical_rotation::{radii, samples, volume};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, palette, scale};
-use crate::scene::Scene;
+use crate::scene::{Scene, Updraught};
 use crate::theory::unshielded_lift;
 
 /// The net vertical force over the radius.
@@ -51,12 +52,13 @@ impl Figure for NetForce {
         };
         Chart {
             name: self.name(),
+            common: Vec::new(),
             legend: curves
                 .iter()
                 .map(|(share, color, _)| (*color, name(*share)))
                 .collect(),
             panels: vec![Panel {
-                head: String::new(),
+                head: Vec::new(),
                 x: (0.0, largest * 1e3),
                 y: chart::range(values().map(|force| force * factor)).unwrap_or((0.0, 1.0)),
                 lines: curves
@@ -71,6 +73,7 @@ impl Figure for NetForce {
             height: px(400),
             x_label: "radius of the sphere $r$ (mm)".to_owned(),
             y_label: format!("net vertical force $F_z$ ({unit})"),
+            notes: notes(scene),
         }
         .draw(source)
     }
@@ -81,12 +84,29 @@ const NEEDS: PlotError = PlotError::Scene {
     needs: "gravity, drag, swirl and updraught",
 };
 
+/// What the curves assume and the scene does not.
+fn notes(scene: &Scene) -> Vec<String> {
+    let updraught = scene.updraught.as_ref();
+    if updraught.is_none_or(|updraught| updraught.reference_omega.is_some()) {
+        return Vec::new();
+    }
+    vec![
+        "In this scene the updraught does not depend on $Ω$. The curves of other rotations assume \
+         a lift proportional to $Ω$² (Rice, 2012, eq. 44)."
+            .to_owned(),
+    ]
+}
+
 /// Lift at `share` of the scene's rotation less weight (N), of a sphere at rest on the floor.
 fn net_force(scene: &Scene, radius: f64, share: f64) -> Option<f64> {
     let updraught = scene.updraught.as_ref()?;
     let floor = scene.tank.as_ref().and_then(|tank| tank.floor);
     let height = floor.unwrap_or(updraught.origin) + radius;
-    let lift = unshielded_lift(updraught, scene.drag.as_ref()?, radius, height);
+    let updraught = Updraught {
+        strength: updraught.strength_in(scene.swirl.as_ref()),
+        ..updraught.clone()
+    };
+    let lift = unshielded_lift(&updraught, scene.drag.as_ref()?, radius, height);
     let mass = scene.spheres.density * volume(radius);
     Some(share * share * lift - mass * scene.gravity.as_ref()?.acceleration)
 }

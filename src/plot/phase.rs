@@ -3,6 +3,7 @@
 use super::diagram::{Diagram, Look};
 use super::grid::Grid;
 use super::legend::{Entry, Key};
+use super::style::Fill;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, palette};
 use crate::classify::Label;
@@ -17,7 +18,7 @@ impl Figure for PhaseDiagram {
     }
 
     fn description(&self) -> String {
-        "phase diagram: the majority label at every point, paler where seeds disagree".to_owned()
+        "phase diagram: the majority label at every point, a dot where seeds disagree".to_owned()
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
@@ -27,34 +28,83 @@ impl Figure for PhaseDiagram {
             .iter()
             .flat_map(|panel| panel.cells.iter().flatten())
             .collect();
-        let occurs = |label: &Label| points.iter().any(|point| point.label == *label);
+        let occurs = |label: &Label| {
+            let mut points = points.iter();
+            points.any(|point| has_majority(point) && point.label == *label)
+        };
         let mut legend: Vec<Entry> = Label::ALL
             .into_iter()
             .filter(occurs)
             .map(|label| Entry {
-                key: Key::Color(palette::state(label)),
+                key: Key::Fill(fill(label)),
                 text: label.name().replace('-', " "),
             })
             .collect();
-        if points.iter().any(|point| point.agreement < 1.0) {
-            legend.push(Entry {
-                key: Key::Fading(palette::state(Label::Pinned)),
-                text: "paler: seeds disagree".to_owned(),
-            });
-        }
+        legend.extend(of_disagreement(&points));
         Diagram {
             name: self.name(),
             grid: &grid,
-            look: &|point| {
-                Some(Look {
-                    color: palette::faded(palette::state(point.label), point.agreement),
-                    group: point.label as usize,
-                })
-            },
-            empty: "not run",
+            look: &|point| Some(look(point)),
+            empty: "not run".to_owned(),
             legend,
             bar: None,
         }
         .draw(source)
     }
+}
+
+/// Whether more than half of the seeds of a point have its label.
+fn has_majority(point: &Point) -> bool {
+    point.agreement > 0.5
+}
+
+fn fill(label: Label) -> Fill {
+    match label {
+        // Its colour is that of the critical rotation.
+        Label::Unstable => Fill::CrossHatch,
+        _ => Fill::Color(palette::state(label)),
+    }
+}
+
+fn look(point: &Point) -> Look {
+    if has_majority(point) {
+        Look {
+            fill: fill(point.label),
+            agreement: point.agreement,
+            group: point.label as usize,
+        }
+    } else {
+        Look {
+            fill: Fill::Stipple,
+            agreement: 1.0,
+            group: Label::ALL.len(),
+        }
+    }
+}
+
+/// Entries of the legend for points whose seeds disagree: the largest and the smallest agreement
+/// that is a majority, and points without one.
+fn of_disagreement(points: &[&Point]) -> Vec<Entry> {
+    let agreements = points.iter().map(|point| point.agreement);
+    let marked = agreements.filter(|&agreement| agreement > 0.5 && agreement < 1.0);
+    let mut ends: Vec<f64> = marked.collect();
+    ends.sort_by(|one, other| other.total_cmp(one));
+    ends.dedup();
+    if ends.len() > 2 {
+        ends.drain(1..ends.len() - 1);
+    }
+    let mut entries: Vec<Entry> = ends
+        .into_iter()
+        .map(|agreement| Entry {
+            key: Key::Agreement(agreement),
+            text: format!("{:.0} % of seeds agree", 100.0 * agreement),
+        })
+        .collect();
+    if points.iter().any(|point| !has_majority(point)) {
+        entries.push(Entry {
+            key: Key::Fill(Fill::Stipple),
+            text: "no majority".to_owned(),
+        });
+    }
+    entries
 }

@@ -24,12 +24,15 @@ impl Figure for Speeds {
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
         let runs = choice::runs(source, choice::corners)?;
+        let (common, places) = choice::places(&runs);
         let panels = runs
             .iter()
-            .map(|run| Ok(panel(run.head(), &run.record()?)))
+            .zip(places)
+            .map(|(run, place)| Ok(panel(place, &run.record()?)))
             .collect::<Result<Vec<_>, PlotError>>()?;
         Chart {
             name: self.name(),
+            common,
             columns: columns(panels.len()),
             height: if panels.len() == 1 { px(360) } else { px(190) },
             panels,
@@ -39,6 +42,7 @@ impl Figure for Speeds {
                 (AIR, "air at the spheres".to_owned()),
                 (SPHERES, "spheres".to_owned()),
             ],
+            notes: Vec::new(),
         }
         .draw(source)
     }
@@ -47,7 +51,7 @@ impl Figure for Speeds {
 const AIR: plotters::style::RGBColor = palette::LINES[2];
 const SPHERES: plotters::style::RGBColor = palette::LINES[0];
 
-fn panel(head: String, record: &RunRecord) -> Panel {
+fn panel(head: Vec<String>, record: &RunRecord) -> Panel {
     let observations = &record.observations;
     let line = |values: &[f32], color| Line {
         points: observations

@@ -6,11 +6,12 @@ use super::choice::{self, Run};
 use super::layout::{TITLE_LINE, title_height, title_lines, whole};
 use super::style::{Drawn, LABEL, MARGIN, SMALL, Sheet, TITLE, WIDTH, frame, letters, px};
 use super::svg::{Placed, Svg};
-use super::{Figure, PlotError, Source, palette, scale};
+use super::{Figure, PlotError, Source, chart, palette, scale, text};
 use crate::classify::Label;
 use crate::observe::Snapshot;
-use crate::record::RunRecord;
-use crate::render::{Camera, Rgb, Stage, picture};
+use crate::record::{Outcome, RunRecord};
+use crate::render::{Camera, Rgb, Stage, picture, round_down};
+use ndarray::Axis;
 use plotters::drawing::IntoDrawingArea;
 use plotters::element::PathElement;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -29,6 +30,8 @@ const HEAD: i32 = px(20);
 const LINE: i32 = px(17);
 /// Greatest height that is shown, over the radius of the tank.
 const HIGHEST: f64 = 4.0;
+/// Heights that differ by this share are equal.
+const ROUNDING: f64 = 1e-9;
 
 impl Figure for States {
     fn name(&self) -> &'static str {
@@ -45,11 +48,17 @@ impl Figure for States {
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
         let runs = choice::runs(source, choice::states)?;
+        let (common, places) = choice::places(&runs);
         let ends = runs
             .iter()
-            .map(|run| End::new(run, run.record()?, self.name()))
+            .zip(places)
+            .map(|(run, place)| End::new(run, place, run.record()?, self.name()))
             .collect::<Result<Vec<_>, PlotError>>()?;
-        let strip = Strip::new(&ends, source.sweep.title.as_deref());
+        let mut notes: Vec<String> = choice::left_out(source).into_iter().collect();
+        if !common.is_empty() {
+            notes.insert(0, common.join(", "));
+        }
+        let strip = Strip::new(&ends, source.sweep.title.as_deref(), &notes);
         let size = (WIDTH as u32, strip.height as u32);
         let mut body = String::new();
         {
@@ -72,16 +81,26 @@ struct End {
 }
 
 impl End {
-    fn new(run: &Run<'_>, record: RunRecord, figure: &'static str) -> Result<Self, PlotError> {
+    fn new(
+        run: &Run<'_>,
+        place: Vec<String>,
+        record: RunRecord,
+        figure: &'static str,
+    ) -> Result<Self, PlotError> {
         let stage = Stage::of_scene(&record.scene);
-        let snapshot = record.snapshots.into_iter().last();
+        let mut snapshots = record.snapshots.into_iter().rev();
+        // The numbers of the state that broke a guard mean nothing.
+        let snapshot = match &record.outcome {
+            Outcome::Unstable(broken) => snapshots.find(|state| state.time < broken.time),
+            Outcome::Completed => snapshots.next(),
+        };
         let snapshot = snapshot.ok_or(PlotError::Scene {
             figure,
             needs: "snapshots in its records",
         })?;
         Ok(Self {
             label: run.row.verdict.label,
-            place: run.head().split(", ").map(str::to_owned).collect(),
+            place,
             stage: stage.around([&snapshot], &record.radius),
             snapshot,
             radius: record.radius,
@@ -90,15 +109,29 @@ impl End {
 
     /// The spheres have the colour of the state in the phase diagram, a little paler: shadows need
     /// room below it.
-    fn colors(&self) -> Vec<Rgb> {
+    fn color(&self) -> Rgb {
         let color = palette::lightened(palette::state(self.label), 0.25);
-        vec![[color.0, color.1, color.2]; self.radius.len()]
+        [color.0, color.1, color.2]
+    }
+
+    /// The spheres that are wholly below the top of a stage: the edge of a picture cuts none.
+    fn below_top(&self, stage: &Stage) -> Vec<usize> {
+        let top = stage.seen[1][2];
+        let heights = self.snapshot.position.column(2);
+        let tops = heights.iter().zip(&self.radius);
+        let tops = tops.map(|(height, radius)| height + radius).enumerate();
+        tops.filter(|(_, sphere)| *sphere <= top + ROUNDING * top.abs())
+            .map(|(index, _)| index)
+            .collect()
     }
 }
 
 /// Where pictures and words go. Corners of pictures fall on pixels of the PNG.
 struct Strip {
     title: Vec<String>,
+    /// Lines below each pair of pictures, and below all.
+    places: Vec<Vec<String>>,
+    notes: Vec<String>,
     /// The tanks, with what is seen of them.
     stages: Vec<Stage>,
     /// Pictures per row.
@@ -115,7 +148,7 @@ struct Strip {
 }
 
 impl Strip {
-    fn new(ends: &[End], title: Option<&str>) -> Self {
+    fn new(ends: &[End], title: Option<&str>, notes: &[String]) -> Self {
         let top_of = |end: &End| {
             let [low, high] = end.stage.seen;
             let reach = end.stage.radius.unwrap_or(0.5 * (high[0] - low[0]));
@@ -146,7 +179,13 @@ impl Strip {
             (height / f64::from(SNAP)).ceil() as i32 * SNAP
         };
         let heights = [height_of(Camera::side), height_of(Camera::top)];
-        let lines = ends.iter().map(|end| end.place.len()).max().unwrap_or(0) as i32;
+        let places: Vec<Vec<String>> = ends
+            .iter()
+            .zip(&stages)
+            .map(|(end, stage)| place_lines(end, stage, width))
+            .collect();
+        let lines = places.iter().map(Vec::len).max().unwrap_or(0) as i32;
+        let notes = chart::note_lines(notes);
         let row = HEAD + heights[0] + GAP + heights[1] + px(6) + lines * LINE;
         let title = title_lines(title);
         let top = title_height(&title);
@@ -154,8 +193,10 @@ impl Strip {
         Self {
             left: (WIDTH - count * width - (count - 1) * GAP) / 2 / SNAP * SNAP,
             top: (top + SNAP - 1) / SNAP * SNAP,
-            height: whole(top + rows * (row + GAP) + MARGIN + px(6)),
+            height: whole(top + rows * (row + GAP) + notes.len() as i32 * LINE + MARGIN + px(6)),
             title,
+            places,
+            notes,
             stages,
             columns,
             picture: (width, heights),
@@ -176,11 +217,17 @@ impl Strip {
         let (left, top) = self.corner(index);
         let (width, [side, above]) = self.picture;
         let (end, stage) = (&ends[index], &self.stages[index]);
+        let drawn = end.below_top(stage);
+        let snapshot = Snapshot {
+            position: end.snapshot.position.select(Axis(0), &drawn),
+            ..Snapshot::default()
+        };
+        let radius: Vec<f64> = drawn.iter().map(|&sphere| end.radius[sphere]).collect();
         let placed = |camera: Camera, top: i32, height: i32| Placed {
             image: picture(
-                &end.snapshot,
-                &end.radius,
-                &end.colors(),
+                &snapshot,
+                &radius,
+                &vec![end.color(); drawn.len()],
                 stage,
                 &camera,
                 (width / SNAP) as usize,
@@ -209,10 +256,16 @@ impl Strip {
             let head = letters(LABEL, HPos::Center, VPos::Bottom);
             sheet.draw_text(&name, &head, (middle, top + HEAD - px(4)))?;
             let below = top + HEAD + side + GAP + above + px(6);
-            for (index, line) in end.place.iter().enumerate() {
+            for (index, line) in self.places[index].iter().enumerate() {
                 let style = letters(SMALL, HPos::Center, VPos::Top);
                 sheet.draw_text(line, &style, (middle, below + index as i32 * LINE))?;
             }
+        }
+        let rows = ends.len().div_ceil(self.columns) as i32;
+        let below = self.top + rows * (self.row + GAP);
+        for (index, line) in self.notes.iter().enumerate() {
+            let style = letters(SMALL, HPos::Center, VPos::Top);
+            sheet.draw_text(line, &style, (WIDTH / 2, below + index as i32 * LINE))?;
         }
         self.draw_length(sheet)
     }
@@ -237,12 +290,17 @@ impl Strip {
     }
 }
 
-/// The largest of 1, 2 and 5 times a power of ten that is not above a positive number.
-fn round_down(value: f64) -> f64 {
-    let decade = libm::exp10(libm::log10(value).floor());
-    let fits = |mantissa: &&f64| *mantissa * decade <= value;
-    [5.0, 2.0, 1.0]
-        .iter()
-        .find(fits)
-        .map_or(decade, |mantissa| mantissa * decade)
+/// Lines below the pictures of a run, none wider than they: where it is in the sweep, and how many
+/// spheres are too high to be drawn.
+fn place_lines(end: &End, stage: &Stage, width: i32) -> Vec<String> {
+    let mut items = end.place.clone();
+    let above = end.radius.len() - end.below_top(stage).len();
+    if above > 0 {
+        let spheres = if above == 1 { "sphere" } else { "spheres" };
+        items.push(format!("{above} {spheres} above, not drawn"));
+    }
+    let items = items.iter();
+    items
+        .flat_map(|item| text::wrap(item, f64::from(SMALL), f64::from(width)))
+        .collect()
 }

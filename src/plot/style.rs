@@ -5,10 +5,10 @@ use super::palette;
 use super::text::FONT;
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, DrawingAreaErrorKind};
-use plotters::element::{PathElement, Rectangle};
+use plotters::element::{Circle, PathElement, Rectangle};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{
-    BLACK, Color, FontDesc, FontFamily, FontStyle, RGBColor, ShapeStyle, TextStyle,
+    BLACK, Color, FontDesc, FontFamily, FontStyle, RGBColor, ShapeStyle, TextStyle, WHITE,
 };
 use std::convert::Infallible;
 
@@ -68,27 +68,105 @@ pub(super) fn outline(sheet: &Sheet<'_>, corners: Corners, style: ShapeStyle) ->
     sheet.draw(&PathElement::new(path, style))
 }
 
-/// Marks a rectangle as one without a value. The hatch goes through from one to the next.
-pub(super) fn hatch(sheet: &Sheet<'_>, corners: Corners) -> Drawn {
-    const SPACING: i32 = px(5);
-    fill(sheet, corners, palette::EMPTY)?;
+/// What a rectangle is filled with. The patterns differ in shape, so that they need no colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Fill {
+    Color(RGBColor),
+    /// Oblique lines: no value.
+    Hatch,
+    /// Crossing oblique lines on white: what went numerically wrong.
+    CrossHatch,
+    /// Points on white: seeds without a majority.
+    Stipple,
+}
+
+/// Distance of the lines and points of patterns.
+const SPACING: i32 = px(5);
+
+/// Fills a rectangle. Patterns go through from one to the next.
+pub(super) fn paint(sheet: &Sheet<'_>, corners: Corners, with: Fill) -> Drawn {
+    match with {
+        Fill::Color(color) => fill(sheet, corners, color),
+        Fill::Hatch => {
+            fill(sheet, corners, palette::EMPTY)?;
+            oblique(sheet, corners, palette::HATCH.stroke_width(6), Way::Up)
+        }
+        Fill::CrossHatch => {
+            fill(sheet, corners, WHITE)?;
+            let ink = BLACK.mix(0.75).stroke_width(8);
+            oblique(sheet, corners, ink, Way::Up)?;
+            oblique(sheet, corners, ink, Way::Down)
+        }
+        Fill::Stipple => {
+            fill(sheet, corners, WHITE)?;
+            stipple(sheet, corners)
+        }
+    }
+}
+
+/// Direction of oblique lines, to the right.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Way {
+    Up,
+    Down,
+}
+
+/// Draws oblique lines in a rectangle.
+fn oblique(sheet: &Sheet<'_>, corners: Corners, ink: ShapeStyle, way: Way) -> Drawn {
     let [(left, top), (right, bottom)] = corners;
+    // Downward lines are upward ones in a rectangle that is turned over.
+    let turned = |y: i32| if way == Way::Up { y } else { -y };
+    let (top, bottom) = (
+        turned(top).min(turned(bottom)),
+        turned(top).max(turned(bottom)),
+    );
     let mut sum = (left + top).div_euclid(SPACING) * SPACING + SPACING;
     while sum < right + bottom {
-        let from = (left.max(sum - bottom), bottom.min(sum - left));
-        let to = (right.min(sum - top), top.max(sum - right));
-        sheet.draw(&PathElement::new(
-            [from, to],
-            palette::HATCH.stroke_width(6),
-        ))?;
+        let from = (left.max(sum - bottom), turned(bottom.min(sum - left)));
+        let to = (right.min(sum - top), turned(top.max(sum - right)));
+        sheet.draw(&PathElement::new([from, to], ink))?;
         sum += SPACING;
     }
     Ok(())
 }
 
+/// Draws points in a rectangle, every second row shifted.
+fn stipple(sheet: &Sheet<'_>, corners: Corners) -> Drawn {
+    const POINT: i32 = px(1);
+    let [(left, top), (right, bottom)] = corners;
+    let first = |edge: i32| (edge + POINT).div_euclid(SPACING) + 1;
+    for row in first(top)..=(bottom - POINT).div_euclid(SPACING) {
+        let shift = row.rem_euclid(2) * SPACING / 2;
+        for column in first(left - shift)..=(right - POINT - shift).div_euclid(SPACING) {
+            let centre = (column * SPACING + shift, row * SPACING);
+            sheet.draw(&Circle::new(centre, POINT, BLACK.filled()))?;
+        }
+    }
+    Ok(())
+}
+
+/// Largest cell that marks of disagreement grow with.
+pub(super) const LARGEST_CELL: i32 = px(18);
+
+/// Marks a cell in which seeds disagree: a white disc with a black rim, seen on every colour and in
+/// grey, the larger the smaller `agreement` is, the share of the seeds in the majority. `cell` is
+/// the side of the smallest cell, so that equal agreement has equal discs.
+pub(super) fn disagreement(
+    sheet: &Sheet<'_>,
+    corners: Corners,
+    agreement: f64,
+    cell: i32,
+) -> Drawn {
+    let [(left, top), (right, bottom)] = corners;
+    let diameter = f64::from(cell) * (0.2 + 0.8 * (1.0 - agreement).clamp(0.0, 1.0));
+    let centre = (left.midpoint(right), top.midpoint(bottom));
+    let radius = (0.5 * diameter).round() as i32;
+    sheet.draw(&Circle::new(centre, radius, WHITE.filled()))?;
+    sheet.draw(&Circle::new(centre, radius, BLACK.stroke_width(8)))
+}
+
 /// Draws the curve of a theory: black with a white border, visible on every colour.
 pub(super) fn curve(sheet: &Sheet<'_>, points: &[(i32, i32)]) -> Drawn {
-    use plotters::style::WHITE;
     sheet.draw(&PathElement::new(points, WHITE.stroke_width(44)))?;
     sheet.draw(&PathElement::new(points, BLACK.stroke_width(20)))
 }

@@ -127,6 +127,27 @@ pub(super) fn wrap(text: &str, size: f64, limit: f64) -> Vec<String> {
     lines
 }
 
+/// Breaks a list into lines of at most `limit`, between its items; an item that is longer itself,
+/// at its spaces.
+pub(super) fn wrap_list(items: &[String], size: f64, limit: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for item in items {
+        match lines.last_mut() {
+            Some(line) if width(&format!("{line}, {item}"), size) <= limit => {
+                line.push_str(", ");
+                line.push_str(item);
+            }
+            last => {
+                if let Some(line) = last {
+                    line.push(',');
+                }
+                lines.extend(wrap(item, size, limit));
+            }
+        }
+    }
+    lines
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -168,6 +189,19 @@ mod tests {
         assert!((width("M", 2048.0) - 1767.0).abs() < 3.0);
         assert!((width("Mi", 2048.0) - 2336.0).abs() < 5.0);
         assert!(width("$Ω_c$", 10.0) < width("$Ωc$", 10.0));
+    }
+
+    #[test]
+    fn lists_break_between_their_items() {
+        let items = ["$r$ = 2 mm", "$Ω$ = 40 rad/s", "$μ$ = 0.05"].map(str::to_owned);
+        let line = |limit| wrap_list(&items, 12.0, limit);
+        assert_eq!(line(400.0), [items.join(", ")]);
+        assert_eq!(line(180.0), ["$r$ = 2 mm, $Ω$ = 40 rad/s,", "$μ$ = 0.05"]);
+        assert_eq!(
+            line(20.0).concat().replace([' ', ','], ""),
+            items.concat().replace(' ', "")
+        );
+        assert!(wrap_list(&[], 12.0, 100.0).is_empty());
     }
 
     #[test]

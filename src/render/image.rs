@@ -41,6 +41,19 @@ impl Image {
         }
     }
 
+    /// Draws a grey line along the border.
+    pub(super) fn outline(&mut self) {
+        const GREY: [u8; 4] = [160, 160, 160, 255];
+        for y in 0..self.height {
+            for x in 0..self.width {
+                if x == 0 || y == 0 || x + 1 == self.width || y + 1 == self.height {
+                    let at = 4 * (x + y * self.width);
+                    self.rgba[at..at + 4].copy_from_slice(&GREY);
+                }
+            }
+        }
+    }
+
     /// The picture as a PNG file, with texts (keyword, text) in its metadata.
     ///
     /// # Errors

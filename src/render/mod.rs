@@ -7,20 +7,23 @@
 
 mod animation;
 mod camera;
-mod caption;
 mod coloring;
 mod depth;
 mod image;
 mod palette;
 mod panel;
 mod shade;
+mod sheet;
 mod stage;
+mod vector;
 
 pub use animation::Animation;
 pub use camera::Camera;
 pub use coloring::{ColorBy, Rgb};
 pub use image::Image;
 pub use panel::{panel, strip};
+pub use sheet::Sheet;
+pub(crate) use sheet::round_down;
 pub use stage::Stage;
 
 use crate::observe::Snapshot;
@@ -28,7 +31,8 @@ use crate::observe::Snapshot;
 /// A picture of `width` x `height` pixels of all spheres of a snapshot.
 ///
 /// The view of the camera fills the picture as far as its proportions allow, centred on white.
-/// Spheres outside the view are not drawn.
+/// Spheres outside the view are not drawn; those above or below what the stage shows throw no
+/// shadows either.
 ///
 /// * `radius`: radius of every sphere (m)
 /// * `stage`: the walls; keep it, and the camera made of it, over the frames of an animation
@@ -59,6 +63,7 @@ pub fn picture(
     width: usize,
     height: usize,
 ) -> Image {
+    let [low, high] = stage.seen;
     let spheres: Vec<shade::Sphere> = snapshot
         .position
         .rows()
@@ -70,7 +75,7 @@ pub fn picture(
             radius,
             color,
         })
-        .filter(|sphere| sphere.is_drawable())
+        .filter(|sphere| sphere.is_drawable() && sphere.is_between(low[2], high[2]))
         .collect();
     shade::render(&spheres, stage, camera, width, height)
 }

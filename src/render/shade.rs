@@ -17,6 +17,11 @@ impl Sphere {
         let Vector { x, y, z } = self.centre;
         [x, y, z, self.radius].iter().all(|v| v.is_finite()) && self.radius > 0.0
     }
+
+    /// Whether a part of it is between two heights (m).
+    pub(super) fn is_between(&self, low: f64, high: f64) -> bool {
+        self.centre.z + self.radius >= low && self.centre.z - self.radius <= high
+    }
 }
 
 /// Rays per pixel, along each side: smooth edges.

@@ -72,6 +72,25 @@ impl Stage {
         self
     }
 
+    /// The stage no taller than `ratio` times its width: within a tank its upper part is not seen,
+    /// without one more is seen beside the spheres.
+    #[must_use]
+    pub fn no_taller(mut self, ratio: f64) -> Self {
+        let [low, high] = self.seen;
+        let width = high[0] - low[0];
+        let height = (high[2] - low[2]).min(f64::MAX);
+        if height <= ratio * width {
+            return self;
+        }
+        if self.radius.is_some() {
+            return self.up_to(low[2] + ratio * width);
+        }
+        let middle = low[0] + 0.5 * width;
+        let half = 0.5 * height / ratio;
+        (self.seen[0][0], self.seen[1][0]) = (middle - half, middle + half);
+        self
+    }
+
     /// Points that enclose all that is seen, in coordinates along x and along `up`, where `up` has
     /// no component along x.
     pub(super) fn outline(&self, up: Vector) -> Vec<[f64; 2]> {

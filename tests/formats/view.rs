@@ -60,18 +60,159 @@ fn a_strip_shows_the_times_asked_for() {
 }
 
 #[test]
+fn times_are_rounded() {
+    let place = run(&["--trajectory"]);
+    // The third frame is at 0.030000000000000002 s.
+    place
+        .phase(&["view", "run.h5", "--width", "40", "--frame", "3,7"])
+        .code(0)
+        .complains("shows t = 0.03, 0.07 s\n");
+}
+
+/// Whether a picture holds a colour, to within a few steps.
+fn holds(pixels: &[u8], color: [u8; 3]) -> bool {
+    let near = |pixel: &[u8]| (0..3).all(|channel| pixel[channel].abs_diff(color[channel]) < 16);
+    pixels.chunks(4).any(near)
+}
+
+#[test]
+fn the_legend_says_what_colours_stand_for() {
+    let place = run(&[]);
+    let view = |color: &str| {
+        let arguments = ["view", "run.h5", "--time", "2", "--color", color];
+        place.phase(&arguments).code(0);
+        decode(&place, "run.png")
+    };
+    let (_, height, _, pixels) = view("height");
+    let foot = &pixels[pixels.len() * 9 / 10..];
+    // Both ends of the colours, which shaded spheres do not have.
+    assert!(holds(foot, [0x44, 0x01, 0x54]) && holds(foot, [0xfd, 0xe7, 0x25]));
+    let (_, without, _, pixels) = view("none");
+    let foot = &pixels[pixels.len() * 9 / 10..];
+    assert!(without < height && !holds(foot, [0xfd, 0xe7, 0x25]));
+}
+
+#[test]
+fn files_that_are_no_pictures_stay() {
+    let place = run(&[]);
+    let view = |more: &[&str]| place.phase(&[&["view", "run.h5", "--width", "40"], more].concat());
+    for name in ["v.jpg", "v.gif", "v", "run.h5"] {
+        view(&["--out", name])
+            .code(2)
+            .complains("a picture is a .png");
+    }
+    place.write("notes.png", "mine");
+    for way in ["--out", "--animate"] {
+        view(&[way, "notes.png"])
+            .code(2)
+            .complains("notes.png: this file exists and is no PNG");
+    }
+    assert_eq!(place.read("notes.png"), "mine");
+    place.write("notes.gif", "mine");
+    view(&["--animate", "notes.gif"])
+        .code(2)
+        .complains("this file exists and is no GIF");
+    assert_eq!(place.read("notes.gif"), "mine");
+    std::fs::create_dir(place.path("folder.png")).unwrap();
+    view(&["--out", "folder.png"])
+        .code(2)
+        .complains("is a folder");
+
+    std::fs::copy(place.path("run.h5"), place.path("record.png")).unwrap();
+    place
+        .phase(&["view", "record.png"])
+        .code(2)
+        .complains("this is the record itself");
+    // Pictures are written anew.
+    view(&["--out", "again.png"]).code(0);
+    view(&["--out", "again.png"]).code(0);
+}
+
+#[test]
+fn tall_tanks_are_cut() {
+    for top in ["50.0", "1e308"] {
+        let place = Workplace::new();
+        let scene = scene_file().replace("z_max = 0.05", &format!("z_max = {top}"));
+        place.write(
+            "scene.toml",
+            &scene.replace("duration = 2.0", "duration = 0.02"),
+        );
+        place
+            .phase(&["run", "scene.toml", "--out", "run.h5"])
+            .code(0);
+        place
+            .phase(&["view", "run.h5", "--width", "100"])
+            .code(0)
+            .complains("shows up to z = 0.480 m; spheres above are not drawn");
+        let (_, height, ..) = decode(&place, "run.png");
+        assert!((900..1100).contains(&height), "{height}");
+    }
+}
+
+#[test]
+fn pictures_are_not_higher_than_they_may_be() {
+    let place = run(&[]);
+    place
+        .phase(&["view", "run.h5", "--time", "2", "--width", "4000"])
+        .code(0)
+        .complains("instead of 4000 pixels wide: a picture is at most 4000 pixels high");
+    let (_, height, ..) = decode(&place, "run.png");
+    assert!((3950..=4000).contains(&height), "{height}");
+    place
+        .phase(&["view", "run.h5", "--animate", "run.gif", "--width", "2000"])
+        .code(0)
+        .complains("draws ")
+        .complains("instead of 2000 pixels wide: an animation is at most 720 pixels high");
+}
+
+#[test]
+fn panels_without_a_tank_have_a_border() {
+    let place = Workplace::new();
+    let scene = scene_file();
+    let open = scene.replace("[tank]\nradius = 0.03\nfloor = 0.0\n", "");
+    assert_ne!(open, scene);
+    let (before, after) = open.split_once("[start]").unwrap();
+    let after = &after[after.find("[gravity]").unwrap()..];
+    let start = "[start]\nkind = \"list\"\n\
+                 spheres = [{ position = [0.0, 0.0, 0.0] }, { position = [0.0, 0.0, 1.0] }]\n";
+    let open = [&before.replace("count = 8", "count = 2"), start, after].concat();
+    place.write(
+        "scene.toml",
+        &open.replace("duration = 2.0", "duration = 0.02"),
+    );
+    place
+        .phase(&["run", "scene.toml", "--out", "run.h5"])
+        .code(0);
+    place
+        .phase(&["view", "run.h5", "--time", "0", "--width", "100"])
+        .code(0);
+    let (width, height, _, pixels) = decode(&place, "run.png");
+    assert!(height < 1100, "{height}");
+    let grey = |row: usize| {
+        let row = &pixels[4 * width as usize * row..4 * width as usize * (row + 1)];
+        row.chunks(4).filter(|pixel| pixel[..3] == [160; 3]).count()
+    };
+    // Upper and lower border of two views.
+    assert_eq!(
+        (0..height as usize).filter(|&row| grey(row) == 100).count(),
+        4
+    );
+}
+
+#[test]
 fn animations_play_the_whole_run() {
     let place = run(&["--snapshot-interval", "0.1"]);
     let view = |file: &str| place.phase(&["view", "run.h5", "--width", "60", "--animate", file]);
     view("run.png").code(0).complains("21 pictures");
     let (width, _, frames, _) = decode(&place, "run.png");
-    assert_eq!((width, frames), (60, 21));
+    // The panel, and white on both sides.
+    assert_eq!((width, frames), (62, 21));
     view("run.gif").code(0).says("run.gif");
     let file = std::fs::File::open(place.path("run.gif")).unwrap();
     let mut decoder = gif::DecodeOptions::new().read_info(file).unwrap();
     let mut delays = Vec::new();
     while let Some(frame) = decoder.read_next_frame().unwrap() {
-        assert_eq!(frame.width, 60);
+        assert_eq!(frame.width, 62);
         delays.push(frame.delay);
     }
     // 2 s, in real time.

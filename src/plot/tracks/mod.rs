@@ -26,6 +26,8 @@ const MOST_INSTANTS: f64 = 12.0;
 const FEW_SPHERES: usize = 12;
 /// A spin is marked if the surface it turns moves at least at this share of the fastest motion.
 const NOTABLE_SPIN: f64 = 0.02;
+/// Most spheres whose tracks are drawn: more of them hide each other.
+const MOST_SPHERES: usize = 32;
 /// Stroke of a path.
 const STROKE: u32 = 18;
 /// Distance of the lines of the words.
@@ -53,19 +55,21 @@ pub fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
         return Err(PlotError::NoTrajectory);
     }
     let view = View::new(record);
-    let tracks = Tracks {
+    let mut tracks = Tracks {
         record,
         view,
         sight: Sight::new(record, view),
         instants: instants(record),
+        notable: 0.0,
     };
+    tracks.notable = NOTABLE_SPIN * tracks.fastest();
     let layout = Layout::new(&tracks);
     let size = (layout.size.0 as u32, layout.size.1 as u32);
     let mut body = String::new();
     {
         let sheet = canvas::Canvas::new(&mut body, size).into_drawing_area();
         tracks.draw_outline(&sheet, &layout)?;
-        for sphere in 0..record.radius.len() {
+        for sphere in tracks.shown() {
             tracks.draw_sphere(&sheet, &layout, sphere)?;
         }
         layout.draw_frame(&sheet)?;
@@ -98,6 +102,8 @@ struct Tracks<'a> {
     view: View,
     sight: Sight,
     instants: (Vec<usize>, f64),
+    /// Speed of a surface from which on an arrow shows its spin (m/s).
+    notable: f64,
 }
 
 impl Tracks<'_> {
@@ -171,7 +177,7 @@ impl Tracks<'_> {
         sheet.draw(&Circle::new(end, size, color.stroke_width(STROKE)))?;
         sheet.draw(&PathElement::new(path, color.stroke_width(STROKE)))?;
         for frame in [0, last] {
-            if self.surface_speed(frame, sphere) > NOTABLE_SPIN * self.fastest() {
+            if self.has_arrow(frame, sphere) {
                 let centre = layout.at(self.place(frame, sphere));
                 let counter_clockwise = self.turning(frame, sphere) > 0.0;
                 draw_turn(sheet, centre, 0.6 * f64::from(size), counter_clockwise)?;
@@ -203,23 +209,40 @@ impl Tracks<'_> {
         Ok(())
     }
 
+    /// The spheres that are drawn.
+    fn shown(&self) -> std::ops::Range<usize> {
+        0..self.record.radius.len().min(MOST_SPHERES)
+    }
+
+    /// Whether an arrow shows the spin of a sphere in that frame.
+    fn has_arrow(&self, frame: usize, sphere: usize) -> bool {
+        self.surface_speed(frame, sphere) > self.notable
+    }
+
     /// What the marks mean.
     fn caption(&self) -> String {
+        let count = self.record.radius.len();
+        let mut parts = Vec::new();
+        if self.shown().len() < count {
+            parts.push(format!("the first {MOST_SPHERES} of {count} spheres"));
+        }
         if let View::Time { .. } = self.view {
-            return "bands: from edge to edge of a sphere".to_owned();
+            parts.push("bands: from edge to edge of a sphere".to_owned());
+            return parts.join("; ");
         }
-        let mut caption = "filled: start; bold: end".to_owned();
-        if self.record.radius.len() <= FEW_SPHERES {
+        if count <= FEW_SPHERES {
             let every = super::scale::number(1e3 * self.instants.1);
-            caption = format!("circles every {every} ms; {caption}");
+            parts.push(format!("circles every {every} ms"));
         }
+        parts.push("filled: start; bold: end".to_owned());
         let last = self.record.trajectory.len() - 1;
-        let spins = (0..self.record.radius.len())
-            .flat_map(|sphere| [0, last].map(|frame| self.turning(frame, sphere)));
-        if spins.into_iter().any(|spin| spin != 0.0) {
-            caption += "; arrows: spin";
+        let mut places = self
+            .shown()
+            .flat_map(|sphere| [(0, sphere), (last, sphere)]);
+        if places.any(|(frame, sphere)| self.has_arrow(frame, sphere)) {
+            parts.push("arrows: spin".to_owned());
         }
-        caption
+        parts.join("; ")
     }
 }
 

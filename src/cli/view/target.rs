@@ -1,0 +1,93 @@
+//! The file that `phase view` writes.
+
+use super::Arguments;
+use crate::cli::exit::Failure;
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+
+/// A kind of file.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// PNG, of one picture or animated (APNG).
+    Png,
+    Gif,
+}
+
+impl Kind {
+    /// How such files begin.
+    fn signature(self) -> &'static [u8] {
+        match self {
+            Self::Png => b"\x89PNG\r\n\x1a\n",
+            Self::Gif => b"GIF8",
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Png => "PNG",
+            Self::Gif => "GIF",
+        }
+    }
+}
+
+/// The file to write.
+pub(super) struct Target {
+    pub(super) path: PathBuf,
+    pub(super) kind: Kind,
+}
+
+impl Target {
+    /// The file that the command line asks for, of the kind that its name says.
+    pub(super) fn new(arguments: &Arguments) -> Result<Self, Failure> {
+        let path = arguments.animate.as_ref().or(arguments.out.as_ref());
+        let path = path.cloned();
+        let path = path.unwrap_or_else(|| arguments.record.with_extension("png"));
+        let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+        let kind = match (extension.to_str(), &arguments.animate) {
+            (Some("png"), _) | (Some("apng"), Some(_)) => Kind::Png,
+            (Some("gif"), Some(_)) => Kind::Gif,
+            (_, Some(_)) => {
+                return Err(Failure::refused(format_args!(
+                    "{}: an animation is a .png (APNG) or a .gif",
+                    path.display()
+                )));
+            }
+            (_, None) => {
+                return Err(Failure::refused(format_args!(
+                    "{}: a picture is a .png; give it such a name",
+                    path.display()
+                )));
+            }
+        };
+        Ok(Self { path, kind })
+    }
+
+    /// Refuses to write over the record, or over anything but a picture of the same kind.
+    pub(super) fn check(&self, record: &Path) -> Result<(), Failure> {
+        let refused = |why: &str| {
+            let path = self.path.display();
+            Err(Failure::refused(format_args!("{path}: {why}")))
+        };
+        let (target, source) = (self.path.canonicalize(), record.canonicalize());
+        if matches!((target, source), (Ok(target), Ok(source)) if target == source) {
+            return refused("this is the record itself; give the picture another name");
+        }
+        if self.path.is_dir() {
+            return refused("this is a folder; name a file in it");
+        }
+        // What cannot be read, writing will complain of.
+        let mut begin = Vec::new();
+        if let Ok(file) = File::open(&self.path) {
+            let signature = self.kind.signature();
+            let read = file.take(signature.len() as u64).read_to_end(&mut begin);
+            if read.is_ok() && !begin.is_empty() && begin != signature {
+                return refused(&format!(
+                    "this file exists and is no {}; remove it, or choose another name",
+                    self.kind.name()
+                ));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,261 @@
+//! Panels with what one needs to read them: title, legend of the colours, a length to compare with.
+
+use super::vector::{self, Anchor};
+use super::{Camera, ColorBy, Image, Stage, panel, strip};
+use crate::color::ColorMap;
+use crate::observe::Snapshot;
+
+/// Size of the letters over the width of a panel.
+const LETTERS: f64 = 0.048;
+/// Height of a line over the size of its letters.
+const LINE: f64 = 1.6;
+/// Room between words and panels, in lines.
+const GAP: f64 = 0.4;
+/// Length of the colour bar, over the size of the letters.
+const BAR: f64 = 5.0;
+/// From so many panels on, the legend and the length stand beside each other.
+const WIDE: usize = 2;
+
+/// What the pictures of a run have in common.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    /// Lines above the panels.
+    pub title: Vec<String>,
+    /// Radius of every sphere (m).
+    pub radius: Vec<f64>,
+    /// The walls, and what is seen of them.
+    pub stage: Stage,
+    /// What the colours stand for.
+    pub color: ColorBy,
+}
+
+impl Sheet {
+    /// A panel of a state, `width` pixels wide, below a caption.
+    pub fn panel(&self, snapshot: &Snapshot, width: usize, caption: &str) -> Image {
+        let colors = self.color.colors(snapshot);
+        panel::panel(snapshot, &self.radius, &colors, &self.stage, width, caption)
+    }
+
+    /// Height of a picture of `count` panels of that width (pixels).
+    pub fn height(&self, count: usize, width: usize) -> usize {
+        let words = Words::new(self, count, width);
+        words.head + panel::height(&self.stage, width) + words.foot
+    }
+
+    /// Panels of equal size beside each other, with title, legend and length.
+    ///
+    /// # Panics
+    /// Without any panel.
+    pub fn picture(&self, panels: &[Image]) -> Image {
+        let strip = strip(panels);
+        let words = Words::new(self, panels.len(), panels[0].width);
+        let mut picture = Image::white(strip.width, words.head + strip.height + words.foot);
+        picture.paste(&words.draw_head(), 0, 0);
+        picture.paste(&strip, 0, words.head);
+        let foot = words.draw_foot(self, panels[0].width);
+        picture.paste(&foot, 0, words.head + strip.height);
+        picture
+    }
+}
+
+/// The words of a sheet, and the room for them (pixels).
+struct Words {
+    width: usize,
+    /// Size of the letters.
+    size: f64,
+    title: Vec<String>,
+    head: usize,
+    foot: usize,
+    /// Whether the legend and the length stand beside each other.
+    is_wide: bool,
+}
+
+impl Words {
+    fn new(sheet: &Sheet, count: usize, panel: usize) -> Self {
+        let width = panel::strip_width(count, panel);
+        let size = LETTERS * panel as f64;
+        let title: Vec<String> = sheet
+            .title
+            .iter()
+            .flat_map(|line| wrap(line, size, width as f64 - 2.0 * size))
+            .collect();
+        let is_wide = count >= WIDE;
+        let rows = match sheet.color {
+            ColorBy::Nothing => 1.0,
+            _ if is_wide => 1.0,
+            _ => 2.0,
+        };
+        let lines = |count: f64| (count * LINE * size).ceil() as usize;
+        Self {
+            width,
+            size,
+            head: lines(title.len() as f64 + GAP),
+            title,
+            foot: lines(GAP + rows + 0.2),
+            is_wide,
+        }
+    }
+
+    /// Base line of a line of text.
+    fn base(&self, line: usize) -> f64 {
+        (line as f64 + 0.75) * LINE * self.size
+    }
+
+    /// Room between the panels and the words below.
+    fn gap(&self) -> f64 {
+        GAP * LINE * self.size
+    }
+
+    fn draw_head(&self) -> Image {
+        let middle = 0.5 * self.width as f64;
+        let lines = self.title.iter().enumerate();
+        let elements: String = lines
+            .map(|(index, line)| {
+                vector::text(line, (middle, self.base(index)), self.size, Anchor::Middle)
+            })
+            .collect();
+        vector::drawing(&elements, self.width, self.head)
+    }
+
+    fn draw_foot(&self, sheet: &Sheet, panel: usize) -> Image {
+        let legend = self.legend(sheet.color);
+        let row = usize::from(!legend.is_empty() && !self.is_wide);
+        let elements = legend + &self.length(&sheet.stage, panel, row);
+        vector::drawing(&elements, self.width, self.foot)
+    }
+
+    /// Which colour stands for what, as elements.
+    fn legend(&self, color: ColorBy) -> String {
+        let (size, base) = (self.size, self.base(0) + self.gap());
+        let words = |words: &str| vector::text(words, (size, base), size, Anchor::Start);
+        let (label, low, high) = match color {
+            ColorBy::Nothing => return String::new(),
+            ColorBy::Index => return words("colours tell spheres apart"),
+            ColorBy::Speed { fastest } => ("speed (m/s)", 0.0, fastest),
+            ColorBy::Height { low, high } => ("height (m)", low, high),
+        };
+        if low >= high {
+            return words(&format!("{label}: {} everywhere", number(low)));
+        }
+        let mut elements = words(label);
+        let mut x = 1.5 * size + vector::width(label, size);
+        let mut number = |x: &mut f64, value: f64| {
+            let text = number(value);
+            elements += &vector::text(&text, (*x, base), size, Anchor::Start);
+            *x += vector::width(&text, size) + 0.5 * size;
+        };
+        number(&mut x, low);
+        let bar = x;
+        x += (BAR + 0.5) * size;
+        number(&mut x, high);
+        elements + &color_bar((bar, base - 0.75 * size), (BAR * size, 0.8 * size))
+    }
+
+    /// A length to compare with, as elements.
+    fn length(&self, stage: &Stage, panel: usize, row: usize) -> String {
+        let camera = Camera::side(stage);
+        let length = round_down(0.5 * camera.view()[0]);
+        let pixels = length * panel as f64 / camera.view()[0];
+        let text = match length {
+            length if length < 1.0 => format!("{} mm", number(1e3 * length)),
+            length => format!("{} m", number(length)),
+        };
+        let (size, base) = (self.size, self.base(row) + self.gap());
+        let left = if self.is_wide {
+            self.width as f64 - 1.5 * size - pixels - vector::width(&text, size)
+        } else {
+            size
+        };
+        let (right, foot, top) = (left + pixels, base, base - 0.4 * size);
+        let line = format!(
+            "<path d=\"M{left} {top}V{foot}H{right}V{top}\" fill=\"none\" stroke=\"#000\" \
+             stroke-width=\"{}\"/>",
+            0.08 * size
+        );
+        line + &vector::text(&text, (right + 0.5 * size, base), size, Anchor::Start)
+    }
+}
+
+/// The colours from low to high, as elements.
+fn color_bar((left, top): (f64, f64), (width, height): (f64, f64)) -> String {
+    const STEPS: usize = 64;
+    let step = width / STEPS as f64;
+    (0..STEPS)
+        .map(|index| {
+            let [red, green, blue] = ColorMap::Sequential.at((index as f64 + 0.5) / STEPS as f64);
+            let x = left + index as f64 * step;
+            // Neighbours overlap, so that no white is between them.
+            format!(
+                "<rect x=\"{x}\" y=\"{top}\" width=\"{}\" height=\"{height}\" \
+                 fill=\"#{red:02x}{green:02x}{blue:02x}\"/>",
+                if index + 1 < STEPS { 1.5 * step } else { step }
+            )
+        })
+        .collect()
+}
+
+/// Breaks a text into lines of at most `limit`, at spaces.
+fn wrap(text: &str, size: f64, limit: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if vector::width(&format!("{line} {word}"), size) <= limit => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+/// A number to three digits.
+fn number(value: f64) -> String {
+    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    match rounded.abs() {
+        0.0 | 1e-3..1e5 => rounded.to_string(),
+        _ => format!("{rounded:e}"),
+    }
+}
+
+/// The largest of 1, 2 and 5 times a power of ten that is not above a positive number.
+pub(crate) fn round_down(value: f64) -> f64 {
+    let decade = libm::exp10(libm::log10(value).floor());
+    let fits = |mantissa: &&f64| *mantissa * decade <= value;
+    [5.0, 2.0, 1.0]
+        .iter()
+        .find(fits)
+        .map_or(decade, |mantissa| mantissa * decade)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_three_digits() {
+        for (value, text) in [
+            (0.0, "0"),
+            (0.52349, "0.523"),
+            (1234.0, "1230"),
+            (-0.2, "-0.2"),
+            (4.0e-7, "4e-7"),
+            (1e300, "1e300"),
+        ] {
+            assert_eq!(number(value), text);
+        }
+    }
+
+    #[test]
+    fn lengths_are_round() {
+        for (value, length) in [(0.062, 0.05), (0.05, 0.05), (3.0, 2.0), (0.19, 0.1)] {
+            assert!((round_down(value) - length).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn titles_break_between_words() {
+        let lines = wrap("Vortex tank, theoretical, linear drag", 10.0, 130.0);
+        assert_eq!(lines, ["Vortex tank,", "theoretical, linear", "drag"]);
+    }
+}

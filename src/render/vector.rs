@@ -1,0 +1,70 @@
+//! Words and simple shapes in a picture.
+
+use super::Image;
+use resvg::{tiny_skia, usvg};
+use std::sync::Arc;
+
+/// SVG elements, with letters that are part of the program, in a white picture of that size. What is
+/// too large to be drawn stays white.
+pub(super) fn drawing(elements: &str, width: usize, height: usize) -> Image {
+    let mut image = Image::white(width, height);
+    if let Some(pixels) = draw(elements, width, height) {
+        for (target, source) in image.rgba.chunks_exact_mut(4).zip(pixels.pixels()) {
+            target.copy_from_slice(&[source.red(), source.green(), source.blue(), 255]);
+        }
+    }
+    image
+}
+
+fn draw(elements: &str, width: usize, height: usize) -> Option<tiny_skia::Pixmap> {
+    let document = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\">\
+         {elements}</svg>"
+    );
+    let mut options = usvg::Options {
+        font_family: "DejaVu Sans".to_owned(),
+        ..usvg::Options::default()
+    };
+    options
+        .fontdb_mut()
+        .load_font_source(usvg::fontdb::Source::Binary(Arc::new(
+            dejavu::sans::regular(),
+        )));
+    let tree = usvg::Tree::from_str(&document, &options).ok()?;
+    let side = |length: usize| u32::try_from(length).ok();
+    let mut pixels = tiny_skia::Pixmap::new(side(width)?, side(height)?)?;
+    pixels.fill(tiny_skia::Color::WHITE);
+    resvg::render(
+        &tree,
+        tiny_skia::Transform::identity(),
+        &mut pixels.as_mut(),
+    );
+    Some(pixels)
+}
+
+/// Where a text stands on its place.
+#[derive(Clone, Copy)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+}
+
+/// A line of black text of that size, its base line at `y`.
+pub(super) fn text(text: &str, (x, y): (f64, f64), size: f64, anchor: Anchor) -> String {
+    let anchor = match anchor {
+        Anchor::Start => "start",
+        Anchor::Middle => "middle",
+    };
+    // XML cannot hold control characters.
+    let sound: String = text.chars().filter(|c| !c.is_control()).collect();
+    let escaped = sound.replace('&', "&amp;").replace('<', "&lt;");
+    format!(
+        "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{size}\">{escaped}</text>"
+    )
+}
+
+/// Width that a text of that size needs, at most if it is not all of wide letters.
+pub(super) fn width(text: &str, size: f64) -> f64 {
+    const LETTER: f64 = 0.62;
+    LETTER * size * text.chars().count() as f64
+}
