@@ -37,6 +37,14 @@ pub(super) const EMPTY: RGBColor = RGBColor(0xf4, 0xf4, 0xf4);
 /// Lines over cells without a value.
 pub(super) const HATCH: RGBColor = RGBColor(0xa8, 0xa8, 0xa8);
 
+/// Share of white in a cell on which no seed agrees.
+const LARGEST_FADE: f64 = 0.85;
+
+/// A colour as pale as the seeds disagree; `agreement` is the share of the seeds in the majority.
+pub(super) fn faded(color: RGBColor, agreement: f64) -> RGBColor {
+    lightened(color, LARGEST_FADE * (1.0 - agreement))
+}
+
 /// A colour with that share of white.
 pub(super) fn lightened(color: RGBColor, share: f64) -> RGBColor {
     mix(color, RGBColor(255, 255, 255), share)
@@ -188,6 +196,20 @@ mod tests {
     fn states_differ_from_empty_cells_and_paper() {
         let step = lightness(EMPTY) - lightness(state(Label::Unsettled));
         assert!(step > 4.0, "{step:.1}");
+    }
+
+    #[test]
+    fn fading_is_towards_white_by_disagreement() {
+        let color = state(Label::Pinned);
+        assert_eq!(faded(color, 1.0), color);
+        let shades: Vec<f64> = [1.0, 2.0 / 3.0, 1.0 / 3.0]
+            .map(|agreement| lightness(faded(color, agreement)))
+            .to_vec();
+        assert!(
+            shades.windows(2).all(|pair| pair[1] - pair[0] > 8.0),
+            "{shades:?}"
+        );
+        assert!(lightness(faded(state(Label::LargeSpout), 0.1)) < 99.0);
     }
 
     #[test]

@@ -18,7 +18,7 @@ impl Figure for PhaseDiagram {
     }
 
     fn description(&self) -> String {
-        "phase diagram: the majority label at every point, a dot where seeds disagree".to_owned()
+        "phase diagram: the majority label at every point, paler and with a dot where seeds disagree".to_owned()
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
@@ -69,7 +69,11 @@ fn fill(label: Label) -> Fill {
 fn look(point: &Point) -> Look {
     if has_majority(point) {
         Look {
-            fill: fill(point.label),
+            // In grey a pale colour may be that of another label: the mark says that it is pale.
+            fill: match fill(point.label) {
+                Fill::Color(color) => Fill::Color(palette::faded(color, point.agreement)),
+                pattern => pattern,
+            },
             agreement: point.agreement,
             group: point.label as usize,
         }
