@@ -198,7 +198,7 @@ fn draw_record(path: &Path, figures: &[String], console: &Console) -> Result<(),
             "`{name}` is no figure of a single record; `{TRACKS}` is"
         )));
     }
-    let record = store::read_record(path).map_err(Failure::failed)?;
+    let record = store::read_record(path).map_err(Failure::refused)?;
     let figure = plot::draw_tracks(&record)
         .map_err(|error| Failure::failed(format_args!("{}: {error}", path.display())))?;
     let mut stem = path.file_stem().unwrap_or_default().to_owned();

@@ -88,7 +88,7 @@ const ANIMATION_HEIGHT: usize = 720;
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let target = Target::new(arguments)?;
-    let record = store::read_record(&arguments.record).map_err(Failure::failed)?;
+    let record = store::read_record(&arguments.record).map_err(Failure::refused)?;
     target.check(&arguments.record)?;
     let states = drawable(&record);
     if states.is_empty() {

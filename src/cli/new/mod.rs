@@ -64,6 +64,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     folders::make_for(&path)?;
     store::write_atomic(&path, text.as_bytes()).map_err(Failure::failed)?;
     console.file(&path)?;
+    let kind = match arguments.kind {
+        Kind::Scene => "scene",
+        Kind::Sweep => "sweep",
+    };
+    console.note(format_args!(
+        "for help from an editor: `phase schema {kind} > {kind}.json`, and `#:schema {kind}.json` as \
+         the first line of the file"
+    ));
     Ok(Exit::Done)
 }
 
