@@ -18,5 +18,5 @@ pub mod timestep;
 pub mod vector;
 pub mod walls;
 
-pub use particles::{Particles, sphere_mass};
+pub use particles::Particles;
 pub use simulation::{BuildError, Simulation};

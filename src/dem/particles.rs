@@ -49,8 +49,3 @@ impl Particles {
         self.radius.iter().copied().fold(0.0, f64::max)
     }
 }
-
-/// Mass (kg) of a sphere of this density (kg/m3) and radius (m).
-pub fn sphere_mass(density: f64, radius: f64) -> f64 {
-    density * (4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius)
-}

@@ -6,6 +6,7 @@ mod atomic;
 mod dump;
 mod export;
 mod failures;
+mod geometry;
 mod labels;
 mod radii;
 mod record;
@@ -16,6 +17,7 @@ pub use atomic::{remove_leftovers, write_atomic};
 pub use dump::{DumpName, read_dump, write_dump};
 pub use export::{write_arrays, write_observations, write_spheres, write_vtk, write_xyz};
 pub use failures::{read_failures, write_failures};
+pub use geometry::read_geometry;
 pub use labels::{read_labels, write_labels, write_points};
 pub use radii::read_radii;
 pub use record::{

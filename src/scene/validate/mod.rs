@@ -4,7 +4,7 @@ mod start;
 mod time;
 
 use super::schema::SCENE;
-use super::{Contact, Radii, Scene, Start, Updraught};
+use super::{Contact, Geometry, Radii, Scene, Spheres, Start, Updraught};
 use crate::document::{Problem, number};
 
 /// Largest number of spheres: the engine numbers them with 32 bits, and holds them in memory.
@@ -146,6 +146,23 @@ impl Scene {
     /// The smallest radius of a sphere (m).
     pub fn smallest_radius(&self) -> f64 {
         self.radius_range().0
+    }
+
+    /// Mass of the smallest sphere (kg).
+    pub fn smallest_mass(&self) -> f64 {
+        let Spheres { shape, density, .. } = self.spheres;
+        shape.mass(density, self.smallest_radius())
+    }
+
+    /// Height (m) of the lowest thing that can hold a sphere: the floor or a fixed sphere.
+    pub(crate) fn lowest_support(&self) -> Option<f64> {
+        let floor = self.tank.as_ref().and_then(|tank| tank.floor);
+        let fixed = self.geometry.as_ref().map(Geometry::spheres);
+        let heights = fixed.iter().flat_map(|fixed| fixed.walls.iter().chain(&fixed.door));
+        floor
+            .into_iter()
+            .chain(heights.map(|sphere| sphere.position[2]))
+            .reduce(f64::min)
     }
 }
 
