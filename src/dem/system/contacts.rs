@@ -1,36 +1,195 @@
-//! Forces at contacts: which listed pairs touch, and what their laws answer.
+//! Forces at contacts: which near pairs touch, and what their laws answer.
+//!
+//! Pairs are taken in blocks. For all pairs of a block at once, touching or not, the laws are
+//! computed in a loop that the compiler turns into vector instructions; a pair that does not touch
+//! gets a force of zero. Then the forces are added up one by one in the order of the list. Adding
+//! zero to a sum that began at +0 changes no bit of it.
 
+use super::block::{BLOCK, Body, Column, Columns, Load, Row};
 use super::{Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{TangentialLaw, Touch};
+use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;
+use fearless_simd::{Simd, SimdBase, f64x4};
 
-/// A pair that touches, and its entry in the list.
-#[derive(Clone, Copy, Default)]
-pub(super) struct TouchingPair {
-    pub(super) i: u32,
-    pub(super) j: u32,
-    pub(super) entry: u32,
+/// Stands for an overlap within the limit; no touching pair has a negative one.
+const NOT_DEEP: f64 = -1.0;
+
+/// Everything about the pairs of a block.
+pub(super) struct PairBlock<H> {
+    index: [[u32; BLOCK]; 2],
+    place: [Columns; 2],
+    motion: [Columns; 2],
+    turning: [Columns; 2],
+    history: [H; BLOCK],
+    force: Columns,
+    torque: [Columns; 2],
+    /// Overlap of a pair beyond the limit (m), else [`NOT_DEEP`].
+    too_deep: Column,
 }
 
-/// What a contact needs to know of a sphere, side by side in memory.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Body {
-    pub(super) position: Vector,
-    pub(super) radius: f64,
-    pub(super) velocity: Vector,
-    pub(super) mass: f64,
-    pub(super) spin: Vector,
-    pub(super) inertia: f64,
+impl<H: Copy + Default> PairBlock<H> {
+    pub(super) fn new() -> Self {
+        let pair = || [Columns::ZERO, Columns::ZERO];
+        Self {
+            index: [[0; BLOCK]; 2],
+            place: pair(),
+            motion: pair(),
+            turning: pair(),
+            history: [H::default(); BLOCK],
+            force: Columns::ZERO,
+            torque: pair(),
+            too_deep: [NOT_DEEP; BLOCK],
+        }
+    }
+
+    #[inline(always)]
+    fn vector(columns: &Columns, k: usize) -> Vector {
+        let [x, y, z, _] = &columns.0;
+        Vector::new(x[k], y[k], z[k])
+    }
+
+    /// Fetches the partners of up to a block of pairs. Lanes without a pair repeat the one before.
+    #[inline(always)]
+    fn gather<S: Simd, T: TangentialLaw<History = H>>(
+        &mut self,
+        simd: S,
+        pairs: &[NearPair],
+        bodies: &[Body],
+    ) {
+        for (k, pair) in pairs.iter().enumerate() {
+            self.index[0][k] = pair.i;
+            self.index[1][k] = pair.j;
+        }
+        for side in 0..2 {
+            let index = &self.index[side];
+            self.place[side].gather(
+                simd,
+                index,
+                #[inline(always)]
+                |i| bodies[i].place,
+            );
+            self.motion[side].gather(
+                simd,
+                index,
+                #[inline(always)]
+                |i| bodies[i].motion,
+            );
+            if T::ROTATES {
+                self.turning[side].gather(
+                    simd,
+                    index,
+                    #[inline(always)]
+                    |i| bodies[i].turning,
+                );
+            }
+        }
+    }
+
+    /// Computes the laws for every lane.
+    #[inline(always)]
+    fn interact<N: NormalLaw, T: TangentialLaw<History = H>>(
+        &mut self,
+        normal_law: &N,
+        tangential_law: &T,
+        overlap_limit: f64,
+    ) {
+        for k in 0..BLOCK {
+            let [place, motion, turning] = [&self.place, &self.motion, &self.turning];
+            let offset = Self::vector(&place[0], k) - Self::vector(&place[1], k);
+            let radius = [place[0].0[3][k], place[1].0[3][k]];
+            let sum = radius[0] + radius[1];
+            let distance_squared = offset.norm_squared();
+            let touches = distance_squared < sum * sum;
+            let distance = distance_squared.sqrt();
+            let normal = offset * (1.0 / distance);
+            let overlap = sum - distance;
+            let inverse_sum = 1.0 / sum;
+            let effective_radius = radius[0] * radius[1] * inverse_sum;
+            let velocity = Self::vector(&motion[0], k) - Self::vector(&motion[1], k);
+            let normal_force = normal_law.force(overlap, -velocity.dot(normal), effective_radius);
+            let lesser = if radius[0] < radius[1] {
+                radius[0]
+            } else {
+                radius[1]
+            };
+            let deep = touches & ((overlap > overlap_limit * lesser) | (distance == 0.0));
+            self.too_deep[k] = if deep { overlap } else { NOT_DEEP };
+            let mut force = normal * normal_force;
+            if T::ROTATES {
+                // Both centres turn about the point where the surfaces meet, so that the pair
+                // keeps its angular momentum.
+                let lever = distance * inverse_sum;
+                let mass = [motion[0].0[3][k], motion[1].0[3][k]];
+                let touch = Touch {
+                    normal,
+                    velocity,
+                    spin: [Self::vector(&turning[0], k), Self::vector(&turning[1], k)],
+                    lever: radius.map(|radius| radius * lever),
+                    inertia: [turning[0].0[3][k], turning[1].0[3][k]],
+                    lesser_mass: if mass[0] < mass[1] { mass[0] } else { mass[1] },
+                    overlap,
+                    effective_radius,
+                    normal_force,
+                };
+                let mut history = self.history[k];
+                let traction = tangential_law.traction(&touch, &mut history);
+                self.history[k] = if touches { history } else { H::default() };
+                force += traction.force;
+                for side in 0..2 {
+                    store(&mut self.torque[side], k, touches, traction.torque[side]);
+                }
+            }
+            store(&mut self.force, k, touches, force);
+        }
+    }
+
+    /// Adds forces and torques to the partners, pair by pair.
+    #[inline(always)]
+    fn scatter<S: Simd, T: TangentialLaw<History = H>>(
+        &self,
+        simd: S,
+        pairs: &[NearPair],
+        loads: &mut [Load],
+    ) {
+        for (at, four) in (0..BLOCK).step_by(4).zip(pairs.chunks(4)) {
+            let force = self.force.rows(simd, at);
+            let torque = if T::ROTATES {
+                [self.torque[0].rows(simd, at), self.torque[1].rows(simd, at)]
+            } else {
+                [force; 2]
+            };
+            for (k, pair) in four.iter().enumerate() {
+                let one = &mut loads[pair.i as usize];
+                add(simd, &mut one.force, force[k]);
+                if T::ROTATES {
+                    add(simd, &mut one.torque, torque[0][k]);
+                }
+                let other = &mut loads[pair.j as usize];
+                add(simd, &mut other.force, -force[k]);
+                if T::ROTATES {
+                    add(simd, &mut other.torque, torque[1][k]);
+                }
+            }
+        }
+    }
 }
 
-/// What a contact adds to a sphere.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Load {
-    pub(super) force: Vector,
-    pub(super) torque: Vector,
+#[inline(always)]
+fn add<S: Simd>(simd: S, sum: &mut Row, row: f64x4<S>) {
+    (f64x4::from_slice(simd, sum) + row).store_slice(sum);
+}
+
+/// Stores what acts on a touching pair.
+#[inline(always)]
+fn store(columns: &mut Columns, k: usize, touches: bool, vector: Vector) {
+    let [x, y, z, _] = &mut columns.0;
+    x[k] = if touches { vector.x } else { 0.0 };
+    y[k] = if touches { vector.y } else { 0.0 };
+    z[k] = if touches { vector.z } else { 0.0 };
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
@@ -52,17 +211,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 .iter()
                 .zip(velocity)
                 .zip(radius.iter().zip(mass))
-                .map(|((&position, &velocity), (&radius, &mass))| Body {
-                    position,
-                    radius,
-                    velocity,
-                    mass,
+                .map(|((x, v), (&radius, &mass))| Body {
+                    place: [x.x, x.y, x.z, radius],
+                    motion: [v.x, v.y, v.z, mass],
                     ..Body::default()
                 }),
         );
         for ((body, &spin), &inertia) in self.bodies.iter_mut().zip(spin).zip(inertia) {
-            body.spin = spin;
-            body.inertia = inertia;
+            body.turning = [spin.x, spin.y, spin.z, inertia];
         }
         self.loads.clear();
         self.loads.resize(self.bodies.len(), Load::default());
@@ -73,112 +229,40 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     pub(super) fn scatter(&mut self) {
         let Particles { force, torque, .. } = &mut self.parts.particles;
         for (force, load) in force.iter_mut().zip(&self.loads) {
-            *force = load.force;
+            let [x, y, z, _] = load.force;
+            *force = Vector::new(x, y, z);
         }
         for (torque, load) in torque.iter_mut().zip(&self.loads) {
-            *torque = load.torque;
+            let [x, y, z, _] = load.torque;
+            *torque = Vector::new(x, y, z);
         }
     }
 
-    /// Goes through the list once: notes the pairs that touch and counts the shielding spheres.
     #[inline(always)]
-    pub(super) fn scan<const SHIELD: bool>(&mut self) {
-        let Some(list) = &self.list else { return };
-        if SHIELD {
-            self.shielding.fill(0);
-        }
-        // One spare slot: a pair is always written, and kept only if it touches.
-        self.touching
-            .resize(list.pairs() + 1, TouchingPair::default());
-        let mut kept = 0;
-        let bodies = &self.bodies[..];
-        for (i, bounds) in list.start().windows(2).enumerate() {
-            let Body {
-                position: centre,
-                radius: ri,
-                ..
-            } = bodies[i];
-            let mut below = 0;
-            let first = bounds[0];
-            let neighbours = &list.neighbour()[first as usize..bounds[1] as usize];
-            for (entry, &j) in (first..).zip(neighbours) {
-                let Body {
-                    position,
-                    radius: rj,
-                    ..
-                } = bodies[j as usize];
-                let offset = centre - position;
-                if N::ACTS {
-                    self.touching[kept] = TouchingPair {
-                        i: i as u32,
-                        j,
-                        entry,
-                    };
-                    let touches = offset.norm_squared() < (ri + rj) * (ri + rj);
-                    kept += usize::from(touches);
-                    if Self::REMEMBERS && !touches {
-                        self.pair_history[entry as usize] = T::History::default();
-                    }
-                }
-                if SHIELD {
-                    let (dx, dy) = (offset.x.abs(), offset.y.abs());
-                    let within = |diameter: f64| (dx < diameter) & (dy < diameter);
-                    below += u32::from(within(2.0 * ri) & (offset.z > 0.0));
-                    self.shielding[j as usize] += u32::from(within(2.0 * rj) & (offset.z < 0.0));
-                }
-            }
-            if SHIELD {
-                self.shielding[i] += below;
-            }
-        }
-        self.touching.truncate(kept);
-    }
-
-    #[inline(always)]
-    pub(super) fn pair_forces(&mut self) {
-        let (bodies, loads) = (&self.bodies[..], &mut self.loads[..]);
+    pub(super) fn pair_forces<S: Simd>(&mut self, simd: S) {
         let overlap_limit = self.parts.limits.overlap;
-        for &TouchingPair { i, j, entry } in &self.touching {
-            let (i, j) = (i as usize, j as usize);
-            let (one, other) = (&bodies[i], &bodies[j]);
-            let offset = one.position - other.position;
-            let distance = offset.norm();
-            let normal = offset * (1.0 / distance);
-            let sum = one.radius + other.radius;
-            let overlap = sum - distance;
-            let inverse_sum = 1.0 / sum;
-            let effective_radius = one.radius * other.radius * inverse_sum;
-            let velocity = one.velocity - other.velocity;
-            let normal_force = self
-                .normal
-                .force(overlap, -velocity.dot(normal), effective_radius);
-            if overlap > overlap_limit * one.radius.min(other.radius) || distance == 0.0 {
-                self.too_deep.get_or_insert((i, overlap));
+        let block = &mut self.block;
+        for pairs in self.near.pairs().chunks(BLOCK) {
+            block.gather::<S, T>(simd, pairs, &self.bodies);
+            if Self::REMEMBERS {
+                for (history, pair) in block.history.iter_mut().zip(pairs) {
+                    *history = self.pair_history[pair.entry as usize];
+                }
             }
-            let mut force = normal * normal_force;
-            if T::ROTATES {
-                // Both centres turn about the point where the surfaces meet, so that the pair
-                // keeps its angular momentum.
-                let lever = distance * inverse_sum;
-                let touch = Touch {
-                    normal,
-                    velocity,
-                    spin: [one.spin, other.spin],
-                    lever: [one.radius * lever, other.radius * lever],
-                    inertia: [one.inertia, other.inertia],
-                    lesser_mass: one.mass.min(other.mass),
-                    overlap,
-                    effective_radius,
-                    normal_force,
-                };
-                let history = &mut self.pair_history[entry as usize];
-                let traction = self.tangential.traction(&touch, history);
-                force += traction.force;
-                loads[i].torque += traction.torque[0];
-                loads[j].torque += traction.torque[1];
+            block.interact(&self.normal, &self.tangential, overlap_limit);
+            if Self::REMEMBERS {
+                for (history, pair) in block.history.iter().zip(pairs) {
+                    self.pair_history[pair.entry as usize] = *history;
+                }
             }
-            loads[i].force += force;
-            loads[j].force -= force;
+            block.scatter::<S, T>(simd, pairs, &mut self.loads);
+            let any = |any, &overlap: &f64| any | (overlap != NOT_DEEP);
+            if block.too_deep.iter().fold(false, any) && self.too_deep.is_none() {
+                let mut overlaps = pairs.iter().zip(&block.too_deep);
+                self.too_deep = overlaps
+                    .find(|&(_, &overlap)| overlap != NOT_DEEP)
+                    .map(|(pair, &overlap)| (pair.i as usize, overlap));
+            }
         }
     }
 

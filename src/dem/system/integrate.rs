@@ -6,6 +6,7 @@ use crate::dem::friction::TangentialLaw;
 use crate::dem::particles::Particles;
 use crate::record::Instability;
 use crate::scene::Integrator;
+use fearless_simd::Simd;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// v += a dt for a time `dt`, and the same for spins. True if a sphere is too fast.
@@ -42,7 +43,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         too_fast
     }
 
-    /// x += v dt. Notes whether a sphere left the skin of the list.
+    /// x += v dt. Notes whether a sphere went farther than the near pairs allow.
     #[inline(always)]
     fn drift(&mut self) {
         let dt = self.parts.dt;
@@ -50,18 +51,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             position, velocity, ..
         } = &mut self.parts.particles;
         self.age += 1;
-        let Some(list) = &self.list else {
+        self.near_age += 1;
+        if self.list.is_none() {
             for (position, &velocity) in position.iter_mut().zip(velocity.iter()) {
                 *position += velocity * dt;
             }
             return;
-        };
-        let allowance = list.allowance(self.age as f64 * dt);
+        }
+        let allowance = self.near.allowance(self.near_age as f64 * dt);
         let mut moved = false;
         for ((position, &velocity), &reference) in position
             .iter_mut()
             .zip(velocity.iter())
-            .zip(list.reference())
+            .zip(self.near.anchor().position())
         {
             *position += velocity * dt;
             moved |= !allowance.holds(*position, reference);
@@ -83,11 +85,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     #[inline(always)]
-    pub(super) fn steps(&mut self, steps: u64) -> Result<(), Instability> {
+    pub(super) fn steps<S: Simd>(&mut self, simd: S, steps: u64) -> Result<(), Instability> {
         for _ in 0..steps {
             match self.parts.integrator {
-                Integrator::SymplecticEuler => self.symplectic_euler()?,
-                Integrator::VelocityVerlet => self.velocity_verlet()?,
+                Integrator::SymplecticEuler => self.symplectic_euler(simd)?,
+                Integrator::VelocityVerlet => self.velocity_verlet(simd)?,
             }
         }
         Ok(())
@@ -95,9 +97,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// One step of symplectic Euler: v += a(x, v) dt, then x += v dt.
     #[inline(always)]
-    fn symplectic_euler(&mut self) -> Result<(), Instability> {
+    fn symplectic_euler<S: Simd>(&mut self, simd: S) -> Result<(), Instability> {
         self.step += 1;
-        self.evaluate()?;
+        self.evaluate(simd)?;
         let too_fast = self.kick(self.parts.dt);
         self.check_speeds(too_fast)?;
         self.drift();
@@ -107,16 +109,16 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// One step of velocity Verlet, with forces from the new positions and the half-step
     /// velocities. The forces of the step before serve its first half.
     #[inline(always)]
-    fn velocity_verlet(&mut self) -> Result<(), Instability> {
+    fn velocity_verlet<S: Simd>(&mut self, simd: S) -> Result<(), Instability> {
         self.step += 1;
         if self.step == 1 {
-            self.evaluate()?;
+            self.evaluate(simd)?;
         }
         let half = 0.5 * self.parts.dt;
         let too_fast = self.kick(half);
         self.check_speeds(too_fast)?;
         self.drift();
-        self.evaluate()?;
+        self.evaluate(simd)?;
         let too_fast = self.kick(half);
         self.check_speeds(too_fast)
     }

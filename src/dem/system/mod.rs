@@ -1,20 +1,22 @@
 //! A simulation compiled for its contact laws.
 
+mod block;
 mod contacts;
 mod integrate;
 
-use self::contacts::{Body, Load, TouchingPair};
+use self::block::{Body, Load};
+use self::contacts::PairBlock;
 use super::contact::NormalLaw;
 use super::effects::Effect;
 use super::friction::TangentialLaw;
 use super::guard::Limits;
-use super::neighbours::{Reach, VerletList};
+use super::neighbours::{Near, Reach, VerletList};
 use super::particles::Particles;
 use super::vector::Vector;
 use super::walls::{Cylinder, Floor, Wall};
 use crate::record::Instability;
 use crate::scene::Integrator;
-use fearless_simd::Level;
+use fearless_simd::{Level, Simd};
 
 /// What the rest of the program needs of a system, whatever its laws.
 pub(in crate::dem) trait Engine: Send {
@@ -48,12 +50,16 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     tangential: T,
     /// Absent where no pair interacts.
     list: Option<VerletList>,
+    near: Near,
+    /// Whether the near pairs must be looked for anew.
     stale: bool,
     /// Steps since the list was built.
     age: u64,
+    /// Steps since the near pairs were looked for.
+    near_age: u64,
     bodies: Vec<Body>,
     loads: Vec<Load>,
-    touching: Vec<TouchingPair>,
+    block: Box<PairBlock<T::History>>,
     shielding: Vec<u32>,
     /// Histories of listed pairs, of the floor and of the cylinder. A law without history has one
     /// of no size, and these take no memory.
@@ -81,10 +87,12 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Self {
             list: (N::ACTS || parts.shielded).then(|| VerletList::new(reach, parts.skin)),
             stale: true,
+            near: Near::new(0.3 * parts.skin),
             age: 0,
+            near_age: 0,
             bodies: Vec::new(),
             loads: Vec::new(),
-            touching: Vec::new(),
+            block: Box::new(PairBlock::new()),
             shielding: vec![0; if parts.shielded { count } else { 0 }],
             pair_history: Vec::new(),
             floor_history: histories(parts.floor.is_some()),
@@ -100,19 +108,18 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Evaluates all forces and torques at the present positions and velocities.
     #[inline(always)]
-    fn evaluate(&mut self) -> Result<(), Instability> {
+    fn evaluate<S: Simd>(&mut self, simd: S) -> Result<(), Instability> {
         if self.stale {
-            self.rebuild()?;
+            self.refresh()?;
         }
         if self.list.is_some() {
             self.gather();
-            if self.parts.shielded {
-                self.scan::<true>()
-            } else {
-                self.scan::<false>()
-            }
-            self.pair_forces();
+            self.pair_forces(simd);
             self.scatter();
+            if self.parts.shielded {
+                self.near
+                    .count_shielding(&self.parts.particles, &mut self.shielding);
+            }
         } else {
             self.parts.particles.force.fill(Vector::ZERO);
             self.parts.particles.torque.fill(Vector::ZERO);
@@ -141,6 +148,35 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
             None => Ok(()),
         }
+    }
+
+    /// Looks for near pairs anew, in a list that holds until they must be looked for again.
+    fn refresh(&mut self) -> Result<(), Instability> {
+        let Some(list) = &self.list else {
+            return self.rebuild();
+        };
+        let steps = std::mem::take(&mut self.near_age);
+        self.near.adapt(steps, list.skin());
+        let time = self.age as f64 * self.parts.dt;
+        if !list.holds(&self.parts.particles, time, self.near.margin()) {
+            self.rebuild()?;
+        }
+        self.stale = false;
+        if let Some(list) = &self.list {
+            let (near, particles) = (&mut self.near, &self.parts.particles);
+            let history = &mut self.pair_history;
+            let forget = |entry: u32| {
+                if Self::REMEMBERS {
+                    history[entry as usize] = T::History::default();
+                }
+            };
+            match (N::ACTS, self.parts.shielded) {
+                (true, true) => near.refresh::<true, true>(list, particles, forget),
+                (true, false) => near.refresh::<true, false>(list, particles, forget),
+                (false, _) => near.refresh::<false, true>(list, particles, forget),
+            }
+        }
+        Ok(())
     }
 
     /// Builds the list anew, after making sure that every sphere is somewhere.
@@ -177,8 +213,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         // every lane computes what the scalar code would.
         let level = self.level;
         fearless_simd::dispatch!(level, simd => {
-            let _ = simd;
-            self.steps(steps)
+            self.steps(simd, steps)
         })?;
         let Parts {
             particles,
@@ -208,7 +243,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
     /// Reads positions alone, and builds the list at most earlier than a step would: bits of
     /// the motion do not depend on when the list is built.
     fn elastic_energy(&mut self) -> f64 {
-        if !N::ACTS || (self.stale && self.rebuild().is_err()) {
+        if !N::ACTS || (self.stale && self.refresh().is_err()) {
             return 0.0;
         }
         let Some(list) = &self.list else { return 0.0 };

@@ -1,0 +1,82 @@
+//! Where spheres stood when a list was made, and how far they may have moved since.
+//!
+//! A rotation of all spheres about the axis is not counted: it leaves the distances of all pairs as
+//! they are.
+
+use crate::dem::particles::Particles;
+use crate::dem::vector::Vector;
+
+/// The spheres at the moment when a list was made.
+#[derive(Clone, Debug, Default)]
+pub struct Anchor {
+    position: Vec<Vector>,
+    /// Rotation rate about the z axis (rad/s).
+    rotation: f64,
+}
+
+impl Anchor {
+    /// Takes the spheres as they are now.
+    pub(super) fn drop(&mut self, particles: &Particles) {
+        self.position.clone_from(&particles.position);
+        self.rotation = mean_rotation(particles);
+    }
+
+    /// Positions at that moment.
+    #[inline]
+    pub fn position(&self) -> &[Vector] {
+        &self.position
+    }
+
+    /// The displacements that leave a list valid for a `time` (s) since that moment, if the offset
+    /// of a pair may change by `margin` (m). `half_diagonal` is that of the largest box about a
+    /// sphere in which partners count (m), zero if only distances count.
+    pub(super) fn allowance(&self, time: f64, margin: f64, half_diagonal: f64) -> Allowance {
+        let angle = self.rotation * time;
+        // The box does not turn with the pair: that moves a partner relative to it by at most the
+        // angle times the half diagonal.
+        let turned = angle.abs() * half_diagonal;
+        let displacement = (0.5 * (margin - turned)).max(0.0);
+        let (sine, cosine) = libm::sincos(angle);
+        Allowance {
+            sine,
+            cosine,
+            displacement_squared: displacement * displacement,
+        }
+    }
+}
+
+/// How far spheres may have moved since an anchor was dropped.
+#[derive(Clone, Copy, Debug)]
+pub struct Allowance {
+    sine: f64,
+    cosine: f64,
+    displacement_squared: f64,
+}
+
+impl Allowance {
+    /// Whether a sphere at `position` is still near enough to its `reference`. Not so if a
+    /// coordinate is not a number.
+    #[inline(always)]
+    pub fn holds(&self, position: Vector, reference: Vector) -> bool {
+        let turned = Vector::new(
+            self.cosine * reference.x - self.sine * reference.y,
+            self.sine * reference.x + self.cosine * reference.y,
+            reference.z,
+        );
+        (position - turned).norm_squared() <= self.displacement_squared
+    }
+}
+
+/// Rotation rate of the centres about the z axis (rad/s).
+fn mean_rotation(particles: &Particles) -> f64 {
+    let (mut momentum, mut inertia) = (0.0, 0.0);
+    for (x, v) in particles.position.iter().zip(&particles.velocity) {
+        momentum += x.x * v.y - x.y * v.x;
+        inertia += x.x * x.x + x.y * x.y;
+    }
+    if inertia > 0.0 {
+        momentum / inertia
+    } else {
+        0.0
+    }
+}

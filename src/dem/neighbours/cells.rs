@@ -1,0 +1,156 @@
+//! Cells behind the Verlet list: who may be near whom.
+
+use super::Reach;
+use crate::dem::particles::Particles;
+use crate::dem::vector::Vector;
+
+/// Spheres sorted into cells at least as wide as the reach of a pair.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Cells {
+    shape: [usize; 3],
+    /// Spheres of cell c are `first[c]..first[c + 1]` of the sorted arrays.
+    first: Vec<u32>,
+    cell_of: Vec<u32>,
+    index: Vec<u32>,
+    position: Vec<Vector>,
+    radius: Vec<f64>,
+}
+
+impl Cells {
+    pub(super) fn fill(&mut self, particles: &Particles, width: f64, reach: Reach) {
+        let count = particles.len();
+        let (low, high) = bounds(&particles.position);
+        let extent = high - low;
+        // Cells beyond a few per sphere would only cost time and memory.
+        let most = 4 * count + 64;
+        let mut width = width;
+        loop {
+            let height = if reach == Reach::Column {
+                0.0
+            } else {
+                extent.z
+            };
+            self.shape = [extent.x, extent.y, height]
+                .map(|extent| ((extent / width) as usize).saturating_add(1));
+            let [nx, ny, nz] = self.shape;
+            if nx.saturating_mul(ny).saturating_mul(nz) <= most {
+                break;
+            }
+            // The smallest of numbers would not grow.
+            width = (1.25 * width).max(f64::MIN_POSITIVE);
+        }
+        let inverse = 1.0 / width;
+        let [nx, ny, nz] = self.shape;
+        let cell = |offset: f64, cells: usize| ((offset * inverse) as usize).min(cells - 1);
+        self.cell_of.clear();
+        self.cell_of
+            .extend(particles.position.iter().map(|&centre| {
+                let offset = centre - low;
+                let (column, row, layer) =
+                    (cell(offset.x, nx), cell(offset.y, ny), cell(offset.z, nz));
+                ((layer * ny + row) * nx + column) as u32
+            }));
+        self.sort(particles);
+    }
+
+    /// Counting sort by cell; within a cell spheres stay in order of their index.
+    fn sort(&mut self, particles: &Particles) {
+        let count = particles.len();
+        let cells = self.shape.iter().product::<usize>();
+        self.first.clear();
+        self.first.resize(cells + 1, 0);
+        for &cell in &self.cell_of {
+            self.first[cell as usize + 1] += 1;
+        }
+        for cell in 0..cells {
+            self.first[cell + 1] += self.first[cell];
+        }
+        self.index.resize(count, 0);
+        self.radius.resize(count, 0.0);
+        self.position.resize(count, Vector::ZERO);
+        // `first[c]` walks through its cell and ends at the start of the next one.
+        for i in 0..count {
+            let slot = &mut self.first[self.cell_of[i] as usize];
+            let at = *slot as usize;
+            *slot += 1;
+            self.index[at] = i as u32;
+            self.radius[at] = particles.radius[i];
+            self.position[at] = particles.position[i];
+        }
+        for cell in (0..cells).rev() {
+            self.first[cell + 1] = self.first[cell];
+        }
+        self.first[0] = 0;
+    }
+
+    /// Calls `visit` with the sorted range of every row of cells about sphere `i`.
+    #[inline]
+    fn rows_about(&self, i: usize, mut visit: impl FnMut(std::ops::Range<usize>)) {
+        let [nx, ny, nz] = self.shape;
+        let cell = self.cell_of[i] as usize;
+        let (column, row, layer) = (cell % nx, cell / nx % ny, cell / (nx * ny));
+        let (left, right) = (column.saturating_sub(1), (column + 1).min(nx - 1));
+        for layer in layer.saturating_sub(1)..=(layer + 1).min(nz - 1) {
+            for row in row.saturating_sub(1)..=(row + 1).min(ny - 1) {
+                let base = (layer * ny + row) * nx;
+                visit(self.first[base + left] as usize..self.first[base + right + 1] as usize);
+            }
+        }
+    }
+
+    pub(super) fn contacts_of(
+        &self,
+        i: usize,
+        particles: &Particles,
+        skin: f64,
+        found: &mut Vec<u32>,
+    ) {
+        let centre = particles.position[i];
+        let reach = particles.radius[i] + skin;
+        self.rows_about(i, |row| {
+            for at in row {
+                let offset = self.position[at] - centre;
+                let distance = reach + self.radius[at];
+                if self.index[at] as usize > i && offset.norm_squared() < distance * distance {
+                    found.push(self.index[at]);
+                }
+            }
+        });
+    }
+
+    pub(super) fn column_of(
+        &self,
+        i: usize,
+        particles: &Particles,
+        skin: f64,
+        found: &mut Vec<u32>,
+    ) {
+        let (centre, radius) = (particles.position[i], particles.radius[i]);
+        self.rows_about(i, |row| {
+            for at in row {
+                let reach = 2.0 * radius.max(self.radius[at]) + skin;
+                if self.index[at] as usize > i
+                    && (self.position[at].x - centre.x).abs() < reach
+                    && (self.position[at].y - centre.y).abs() < reach
+                {
+                    found.push(self.index[at]);
+                }
+            }
+        });
+    }
+}
+
+/// Corners of the smallest box that holds all points.
+fn bounds(points: &[Vector]) -> (Vector, Vector) {
+    let mut low = Vector::new(f64::INFINITY, f64::INFINITY, f64::INFINITY);
+    let mut high = -low;
+    for point in points {
+        low = Vector::new(low.x.min(point.x), low.y.min(point.y), low.z.min(point.z));
+        high = Vector::new(
+            high.x.max(point.x),
+            high.y.max(point.y),
+            high.z.max(point.z),
+        );
+    }
+    (low, high)
+}

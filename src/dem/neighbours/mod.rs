@@ -1,0 +1,138 @@
+//! Lists of neighbours, on two levels.
+//!
+//! The Verlet list holds the pairs that may interact before anything has moved by half the skin, a
+//! rotation of all spheres about the axis not counted. One list serves the contacts and the
+//! updraught's counting shield. At the shield's reach, a column of any height, it has ten times
+//! as many pairs as touch; so a second list, [`Near`], holds for a few steps what of it matters:
+//! the pairs that may touch, and those whose part in the shield may change.
+//!
+//! Pairs stand in order of their indices (i < j, then by j) in both. The order in which forces are
+//! summed is therefore that of the indices alone, so that neither skin nor margin, nor the
+//! moment of a rebuild, nor the cells behind it can change a bit of the motion.
+
+mod anchor;
+mod cells;
+mod near;
+
+pub use near::{Near, NearPair};
+
+use self::anchor::Anchor;
+use self::cells::Cells;
+use super::particles::Particles;
+
+pub use self::anchor::Allowance;
+
+/// Which pairs a list must hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reach {
+    /// Pairs that may touch.
+    Contact,
+    /// Pairs in one another's vertical column, |dx| and |dy| within the larger diameter, at any
+    /// height; they include all that may touch.
+    Column,
+}
+
+/// The Verlet list.
+#[derive(Clone, Debug)]
+pub struct VerletList {
+    reach: Reach,
+    skin: f64,
+    /// Entries of sphere i are `start[i]..start[i + 1]`.
+    start: Vec<u32>,
+    neighbour: Vec<u32>,
+    anchor: Anchor,
+    /// Half the diagonal of the largest sphere's shielding box, plus the skin (m); zero if the
+    /// list holds contacts alone.
+    half_diagonal: f64,
+    cells: Cells,
+    builds: u64,
+}
+
+impl VerletList {
+    /// A list that is not built yet.
+    pub fn new(reach: Reach, skin: f64) -> Self {
+        Self {
+            reach,
+            skin,
+            start: vec![0],
+            neighbour: Vec::new(),
+            anchor: Anchor::default(),
+            half_diagonal: 0.0,
+            cells: Cells::default(),
+            builds: 0,
+        }
+    }
+
+    /// Whether the list still holds `time` (s) after its build, and will until the offset of
+    /// a pair has changed by another `margin` (m). Not so if a coordinate is not a number.
+    pub fn holds(&self, particles: &Particles, time: f64, margin: f64) -> bool {
+        let allowance = self
+            .anchor
+            .allowance(time, self.skin - margin, self.half_diagonal);
+        let reference = self.anchor.position();
+        self.builds > 0
+            && particles
+                .position
+                .iter()
+                .zip(reference)
+                .all(|(&position, &reference)| allowance.holds(position, reference))
+    }
+
+    /// How far the offset of a pair may change from the build to the end of the list (m).
+    pub fn skin(&self) -> f64 {
+        self.skin
+    }
+
+    /// How often the list was built.
+    pub fn builds(&self) -> u64 {
+        self.builds
+    }
+
+    /// Number of listed pairs.
+    pub fn pairs(&self) -> usize {
+        self.neighbour.len()
+    }
+
+    /// Bounds of the entries of each sphere: `start[i]..start[i + 1]`.
+    #[inline]
+    pub fn start(&self) -> &[u32] {
+        &self.start
+    }
+
+    /// The partner of each entry.
+    #[inline]
+    pub fn neighbour(&self) -> &[u32] {
+        &self.neighbour
+    }
+
+    /// Builds the list anew for the present positions, which must be finite.
+    pub fn build(&mut self, particles: &Particles) {
+        let count = particles.len();
+        let largest = particles.largest_radius();
+        self.cells
+            .fill(particles, 2.0 * largest + self.skin, self.reach);
+        self.start.clear();
+        self.neighbour.clear();
+        self.start.push(0);
+        for i in 0..count {
+            let first = self.neighbour.len();
+            match self.reach {
+                Reach::Contact => {
+                    self.cells
+                        .contacts_of(i, particles, self.skin, &mut self.neighbour)
+                }
+                Reach::Column => self
+                    .cells
+                    .column_of(i, particles, self.skin, &mut self.neighbour),
+            }
+            self.neighbour[first..].sort_unstable();
+            self.start.push(self.neighbour.len() as u32);
+        }
+        self.anchor.drop(particles);
+        self.half_diagonal = match self.reach {
+            Reach::Contact => 0.0,
+            Reach::Column => std::f64::consts::SQRT_2 * (2.0 * largest + self.skin),
+        };
+        self.builds += 1;
+    }
+}

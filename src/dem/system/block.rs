@@ -1,0 +1,92 @@
+//! Blocks of pairs, one array per quantity.
+//!
+//! Spheres lie in memory in rows of four numbers, so that a pair finds all it needs of a partner
+//! in three places; contact laws are computed for a block of pairs at once, which needs each
+//! quantity of all pairs side by side. The way from the one to the other is the transposition of
+//! four rows of four numbers, in registers. No number is changed by it.
+
+use fearless_simd::{Simd, SimdBase, SimdInto, f64x4};
+
+/// Pairs in a block.
+pub(super) const BLOCK: usize = 32;
+
+/// Four numbers side by side.
+pub(super) type Row = [f64; 4];
+
+/// One quantity of every pair in a block.
+pub(super) type Column = [f64; BLOCK];
+
+/// What a contact needs to know of a sphere.
+#[derive(Clone, Copy, Default)]
+#[repr(align(32))]
+pub(super) struct Body {
+    /// Centre (m) and radius (m).
+    pub(super) place: Row,
+    /// Velocity (m/s) and mass (kg).
+    pub(super) motion: Row,
+    /// Spin (rad/s) and moment of inertia (kg m2).
+    pub(super) turning: Row,
+}
+
+/// What contacts add to a sphere; the fourth numbers are zero.
+#[derive(Clone, Copy, Default)]
+#[repr(align(32))]
+pub(super) struct Load {
+    /// Force (N).
+    pub(super) force: Row,
+    /// Torque (N m).
+    pub(super) torque: Row,
+}
+
+/// The columns of one kind of row.
+#[repr(align(64))]
+pub(super) struct Columns(pub(super) [Column; 4]);
+
+impl Columns {
+    pub(super) const ZERO: Self = Self([[0.0; BLOCK]; 4]);
+
+    /// Fills the columns with the rows of `index.len()` spheres.
+    #[inline(always)]
+    pub(super) fn gather<S: Simd>(
+        &mut self,
+        simd: S,
+        index: &[u32; BLOCK],
+        row: impl Fn(usize) -> Row,
+    ) {
+        for at in (0..BLOCK).step_by(4) {
+            let index = [index[at], index[at + 1], index[at + 2], index[at + 3]];
+            let rows = [
+                row(index[0] as usize).simd_into(simd),
+                row(index[1] as usize).simd_into(simd),
+                row(index[2] as usize).simd_into(simd),
+                row(index[3] as usize).simd_into(simd),
+            ];
+            let [a, b, c, d] = transpose::<S>(rows);
+            a.store_slice(&mut self.0[0][at..at + 4]);
+            b.store_slice(&mut self.0[1][at..at + 4]);
+            c.store_slice(&mut self.0[2][at..at + 4]);
+            d.store_slice(&mut self.0[3][at..at + 4]);
+        }
+    }
+
+    /// The four rows from `at` on.
+    #[inline(always)]
+    pub(super) fn rows<S: Simd>(&self, simd: S, at: usize) -> [f64x4<S>; 4] {
+        let [a, b, c, d] = &self.0;
+        transpose([
+            f64x4::from_slice(simd, &a[at..at + 4]),
+            f64x4::from_slice(simd, &b[at..at + 4]),
+            f64x4::from_slice(simd, &c[at..at + 4]),
+            f64x4::from_slice(simd, &d[at..at + 4]),
+        ])
+    }
+}
+
+/// Rows as columns: the closures of array methods would be calls to functions without vectors, so
+/// everything is spelled out.
+#[inline(always)]
+fn transpose<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
+    let (ac, bd) = (a.interleave(c), b.interleave(d));
+    let (low, high) = (ac.0.interleave(bd.0), ac.1.interleave(bd.1));
+    [low.0, low.1, high.0, high.1]
+}
