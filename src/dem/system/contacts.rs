@@ -110,7 +110,8 @@ impl<H: Copy + Default> PairBlock<H> {
             let inverse_sum = 1.0 / sum;
             let effective_radius = radius[0] * radius[1] * inverse_sum;
             let velocity = Self::vector(&motion[0], k) - Self::vector(&motion[1], k);
-            let normal_force = normal_law.force(overlap, -velocity.dot(normal), effective_radius);
+            let approach = -velocity.dot(normal);
+            let normal_force = normal_law.force(overlap, approach, effective_radius);
             let lesser = if radius[0] < radius[1] {
                 radius[0]
             } else {
@@ -119,6 +120,9 @@ impl<H: Copy + Default> PairBlock<H> {
             let deep = touches & ((overlap > overlap_limit * lesser) | (distance == 0.0));
             self.too_deep[k] = if deep { overlap } else { NOT_DEEP };
             let mut force = normal * normal_force;
+            if N::DRAGS_SIDEWAYS {
+                force -= (velocity + normal * approach) * normal_law.sideways_drag();
+            }
             if T::ROTATES {
                 // Both centres turn about the point where the surfaces meet, so that the pair
                 // keeps its angular momentum.
@@ -259,9 +263,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             let any = |any, &overlap: &f64| any | (overlap != NOT_DEEP);
             if block.too_deep.iter().fold(false, any) && self.too_deep.is_none() {
                 let mut overlaps = pairs.iter().zip(&block.too_deep);
+                let particles = &self.parts.particles;
                 self.too_deep = overlaps
                     .find(|&(_, &overlap)| overlap != NOT_DEEP)
-                    .map(|(pair, &overlap)| (pair.i as usize, overlap));
+                    .map(|(pair, &overlap)| (particles.moving_partner(pair.i, pair.j), overlap));
             }
         }
     }
@@ -280,11 +285,15 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 continue;
             };
             let velocity = particles.velocity[i];
-            let normal_force = self.normal.force(overlap, -velocity.dot(normal), radius);
+            let approach = -velocity.dot(normal);
+            let normal_force = self.normal.force(overlap, approach, radius);
             if overlap > limits.overlap * radius {
                 self.too_deep.get_or_insert((i, overlap));
             }
             let mut force = normal * normal_force;
+            if N::DRAGS_SIDEWAYS {
+                force -= (velocity + normal * approach) * self.normal.sideways_drag();
+            }
             if T::ROTATES {
                 let touch = Touch {
                     normal,

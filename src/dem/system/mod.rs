@@ -11,7 +11,7 @@ use super::effects::Effect;
 use super::friction::TangentialLaw;
 use super::guard::Limits;
 use super::neighbours::{Near, Reach, VerletList};
-use super::particles::Particles;
+use super::particles::{Particles, Sphere, retain};
 use super::vector::Vector;
 use super::walls::{Cylinder, Floor, Wall};
 use crate::record::Instability;
@@ -26,6 +26,10 @@ pub(in crate::dem) trait Engine: Send {
     fn list(&self) -> Option<&VerletList>;
     fn elastic_energy(&mut self) -> f64;
     fn use_baseline_instructions(&mut self);
+    /// Adds a sphere; effects must not depend on how many there are.
+    fn insert(&mut self, sphere: &Sphere);
+    /// Removes the spheres that are not to be kept.
+    fn retain(&mut self, keep: &[bool]);
 }
 
 /// What a system is made of besides its laws.
@@ -238,6 +242,38 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
 
     fn list(&self) -> Option<&VerletList> {
         self.list.as_ref()
+    }
+
+    fn insert(&mut self, sphere: &Sphere) {
+        let Parts {
+            particles,
+            limits,
+            dt,
+            floor,
+            cylinder,
+            ..
+        } = &mut self.parts;
+        particles.push(sphere);
+        limits.add_sphere(sphere.radius, *dt);
+        if floor.is_some() {
+            self.floor_history.push(T::History::default());
+        }
+        if cylinder.is_some() {
+            self.cylinder_history.push(T::History::default());
+        }
+        self.list.iter_mut().for_each(VerletList::add_sphere);
+        self.stale = true;
+    }
+
+    fn retain(&mut self, keep: &[bool]) {
+        self.parts.particles.retain(keep);
+        retain(&mut self.parts.limits.speed_squared, keep);
+        retain(&mut self.floor_history, keep);
+        retain(&mut self.cylinder_history, keep);
+        if let Some(list) = &mut self.list {
+            retain(&mut self.pair_history, &list.remove_spheres(keep));
+        }
+        self.stale = true;
     }
 
     /// Reads positions alone, and builds the list at most earlier than a step would: bits of

@@ -1,0 +1,40 @@
+//! Linear spring and dashpot.
+
+use super::NormalLaw;
+
+/// F = k delta + b d(delta)/dt along the line of centres, with overlap delta, spring constant k and
+/// drag constant b (Cundall and Strack, 1979). With the drag on the whole relative velocity
+/// (Remmers, 2009) also -b times its tangential part.
+#[derive(Clone, Copy, Debug)]
+pub struct Linear<const WHOLE: bool> {
+    /// k (N/m).
+    stiffness: f64,
+    /// b (N s/m).
+    damping: f64,
+}
+
+impl<const WHOLE: bool> Linear<WHOLE> {
+    /// The law with a spring constant (N/m) and a drag constant (N s/m).
+    pub fn new(stiffness: f64, damping: f64) -> Self {
+        Self { stiffness, damping }
+    }
+}
+
+impl<const WHOLE: bool> NormalLaw for Linear<WHOLE> {
+    const DRAGS_SIDEWAYS: bool = WHOLE;
+
+    #[inline(always)]
+    fn force(&self, overlap: f64, overlap_rate: f64, _: f64) -> f64 {
+        self.stiffness * overlap + self.damping * overlap_rate
+    }
+
+    #[inline(always)]
+    fn sideways_drag(&self) -> f64 {
+        self.damping
+    }
+
+    #[inline(always)]
+    fn elastic_energy(&self, overlap: f64, _: f64) -> f64 {
+        0.5 * self.stiffness * overlap * overlap
+    }
+}
