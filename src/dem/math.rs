@@ -3,7 +3,7 @@
 /// Exponential function, within 2 units in the last place for -708 < x < 709; below that range
 /// it returns exp(-708), which no force can tell from zero. Free of branches, so that a loop over
 /// it is vectorised. Cody and Waite (1980) reduction, then the Taylor series on |r| < ln(2)/2.
-#[inline]
+#[inline(always)]
 pub fn exp(x: f64) -> f64 {
     const LOG2_E: f64 = std::f64::consts::LOG2_E;
     // ln 2 in two parts; the first has 21 trailing zero bits, so that k times it is exact.

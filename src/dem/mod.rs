@@ -11,6 +11,7 @@ mod guard;
 pub mod math;
 pub mod neighbours;
 mod particles;
+mod process;
 mod simulation;
 pub mod start;
 mod system;

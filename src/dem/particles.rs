@@ -75,6 +75,20 @@ impl Particles {
         }
     }
 
+    /// Adds the spheres of `others`, which all move, at the end.
+    pub fn append(&mut self, mut others: Self) {
+        self.position.append(&mut others.position);
+        self.velocity.append(&mut others.velocity);
+        self.force.append(&mut others.force);
+        self.spin.append(&mut others.spin);
+        self.torque.append(&mut others.torque);
+        self.radius.append(&mut others.radius);
+        self.mass.append(&mut others.mass);
+        self.inverse_mass.append(&mut others.inverse_mass);
+        self.inertia.append(&mut others.inertia);
+        self.inverse_inertia.append(&mut others.inverse_inertia);
+    }
+
     /// Removes the spheres that are not to be kept; the others stay in their order.
     pub fn retain(&mut self, keep: &[bool]) {
         self.fixed = keep[..self.fixed].iter().filter(|keep| **keep).count();

@@ -19,12 +19,12 @@ pub(super) trait DragKernel: Copy + Send + 'static {
 pub(super) struct Linear;
 
 impl DragKernel for Linear {
-    #[inline]
+    #[inline(always)]
     fn vector(c1: f64, _: f64, air: Vector) -> Vector {
         air * c1
     }
 
-    #[inline]
+    #[inline(always)]
     fn along(c1: f64, _: f64, air: f64) -> f64 {
         c1 * air
     }
@@ -35,12 +35,12 @@ impl DragKernel for Linear {
 pub(super) struct QuadraticVector;
 
 impl DragKernel for QuadraticVector {
-    #[inline]
+    #[inline(always)]
     fn vector(c1: f64, c2: f64, air: Vector) -> Vector {
         air * (c1 + c2 * air.norm())
     }
 
-    #[inline]
+    #[inline(always)]
     fn along(c1: f64, c2: f64, air: f64) -> f64 {
         (c1 + c2 * air.abs()) * air
     }
@@ -51,7 +51,7 @@ impl DragKernel for QuadraticVector {
 pub(super) struct QuadraticComponents;
 
 impl DragKernel for QuadraticComponents {
-    #[inline]
+    #[inline(always)]
     fn vector(c1: f64, c2: f64, air: Vector) -> Vector {
         Vector::new(
             Self::along(c1, c2, air.x),
@@ -60,7 +60,7 @@ impl DragKernel for QuadraticComponents {
         )
     }
 
-    #[inline]
+    #[inline(always)]
     fn along(c1: f64, c2: f64, air: f64) -> f64 {
         (c1 + c2 * air.abs()) * air
     }

@@ -1,6 +1,6 @@
 //! Gravity: F = m g, straight down or tilted.
 
-use super::Effect;
+use super::OneBody;
 use crate::dem::particles::Particles;
 use crate::scene;
 
@@ -17,8 +17,9 @@ impl Gravity {
     }
 }
 
-impl Effect for Gravity {
-    fn apply(&mut self, particles: &mut Particles, _: &[u32]) {
+impl OneBody for Gravity {
+    #[inline(always)]
+    fn add(&mut self, particles: &mut Particles, _: &[u32]) {
         let [x, z] = self.acceleration;
         for (force, mass) in particles.force.iter_mut().zip(&particles.mass) {
             force.z += mass * z;

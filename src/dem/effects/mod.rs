@@ -8,12 +8,28 @@ mod updraught;
 
 use super::particles::Particles;
 use crate::scene::Scene;
+use fearless_simd::Level;
 
 /// An effect adds to the forces and torques of the spheres.
 pub(super) trait Effect: Send {
     /// Adds its forces and torques. `shielding` holds, where the scene has an updraught, the number
     /// of spheres that shield each one from below.
-    fn apply(&mut self, particles: &mut Particles, shielding: &[u32]);
+    fn apply(&mut self, level: Level, particles: &mut Particles, shielding: &[u32]);
+}
+
+/// The loop of an effect, to be compiled once per instruction set.
+trait OneBody: Send {
+    /// As [`Effect::apply`]; implementations must be inlined always.
+    fn add(&mut self, particles: &mut Particles, shielding: &[u32]);
+}
+
+impl<E: OneBody> Effect for E {
+    fn apply(&mut self, level: Level, particles: &mut Particles, shielding: &[u32]) {
+        fearless_simd::dispatch!(level, simd => {
+            let _ = simd;
+            self.add(particles, shielding);
+        });
+    }
 }
 
 /// The effects that a scene names, in the order in which they are applied.

@@ -1,6 +1,6 @@
 //! Viscous damping of spins: torque = -c w.
 
-use super::Effect;
+use super::OneBody;
 use crate::dem::particles::Particles;
 use crate::scene;
 
@@ -16,8 +16,9 @@ impl SpinDamping {
     }
 }
 
-impl Effect for SpinDamping {
-    fn apply(&mut self, particles: &mut Particles, _: &[u32]) {
+impl OneBody for SpinDamping {
+    #[inline(always)]
+    fn add(&mut self, particles: &mut Particles, _: &[u32]) {
         for (torque, &spin) in particles.torque.iter_mut().zip(&particles.spin) {
             *torque -= spin * self.coefficient;
         }

@@ -1,9 +1,9 @@
 //! Drag toward air in rigid rotation about the axis.
 
-use super::Effect;
 use super::drag::{
     Coefficients, DragKernel, Form, Linear, QuadraticComponents, QuadraticVector, form,
 };
+use super::{Effect, OneBody};
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use crate::scene::{self, Drag};
@@ -37,8 +37,9 @@ pub(super) fn of_scene(
     }
 }
 
-impl<K: DragKernel> Effect for Swirl<K> {
-    fn apply(&mut self, particles: &mut Particles, _: &[u32]) {
+impl<K: DragKernel> OneBody for Swirl<K> {
+    #[inline(always)]
+    fn add(&mut self, particles: &mut Particles, _: &[u32]) {
         let coefficients = self
             .coefficients
             .linear

@@ -1,7 +1,7 @@
 //! Rising air with the rectangular counting shield.
 
-use super::Effect;
 use super::drag::{Coefficients, DragKernel, Form, Linear, QuadraticComponents, form};
+use super::{Effect, OneBody};
 use crate::dem::math::exp;
 use crate::dem::particles::Particles;
 use crate::scene::{self, Drag};
@@ -51,8 +51,9 @@ pub(super) fn of_scene(
     }
 }
 
-impl<K: DragKernel> Effect for Updraught<K> {
-    fn apply(&mut self, particles: &mut Particles, shielding: &[u32]) {
+impl<K: DragKernel> OneBody for Updraught<K> {
+    #[inline(always)]
+    fn add(&mut self, particles: &mut Particles, shielding: &[u32]) {
         let count = particles.len();
         let most = shielding.iter().copied().max().unwrap_or(0) as usize;
         while self.powers.len() <= most {

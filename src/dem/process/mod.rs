@@ -73,7 +73,7 @@ impl Process {
     }
 
     /// The next step after which something may happen.
-    pub(super) fn next_step(&self, step: u64) -> u64 {
+    fn next_step(&self, step: u64) -> u64 {
         let look = (step / self.steps + 1) * self.steps;
         match self.feed.due() {
             Some(due) if due > step => look.min(due),
@@ -102,8 +102,25 @@ impl Process {
         &self.milestones
     }
 
+    /// Advances an engine to a step and does on the way what is due.
+    pub(super) fn advance(
+        &mut self,
+        engine: &mut dyn Engine,
+        end: u64,
+    ) -> Result<(), Instability> {
+        while engine.step() < end {
+            let step = engine.step();
+            if step == 0 {
+                self.act(engine)?;
+            }
+            engine.advance(self.next_step(step).min(end) - step)?;
+            self.act(engine)?;
+        }
+        Ok(())
+    }
+
     /// Does what is due at the engine's present step.
-    pub(super) fn act(&mut self, engine: &mut dyn Engine) -> Result<(), Instability> {
+    fn act(&mut self, engine: &mut dyn Engine) -> Result<(), Instability> {
         let step = engine.step();
         let fed = self.feed.is_empty();
         self.feed.act(engine);

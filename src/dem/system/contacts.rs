@@ -6,13 +6,13 @@
 //! zero to a sum that began at +0 changes no bit of it.
 
 use super::block::{BLOCK, Body, Column, Columns, Load, Row};
-use super::{Parts, System};
+use super::System;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{TangentialLaw, Touch};
 use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
-use crate::dem::walls::Wall;
+use crate::dem::walls::{Wall, WallContact};
 use fearless_simd::{Simd, SimdBase, f64x4};
 
 /// Stands for an overlap within the limit; no touching pair has a negative one.
@@ -52,44 +52,38 @@ impl<H: Copy + Default> PairBlock<H> {
         Vector::new(x[k], y[k], z[k])
     }
 
-    /// Fetches the partners of up to a block of pairs. Lanes without a pair repeat the one before.
+    /// Fetches the spheres of one side. Lanes without a contact hold what an earlier block left.
     #[inline(always)]
     fn gather<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        pairs: &[NearPair],
+        side: usize,
         bodies: &[Body],
     ) {
-        for (k, pair) in pairs.iter().enumerate() {
-            self.index[0][k] = pair.i;
-            self.index[1][k] = pair.j;
-        }
-        for side in 0..2 {
-            let index = &self.index[side];
-            self.place[side].gather(
+        let index = &self.index[side];
+        self.place[side].gather(
+            simd,
+            index,
+            #[inline(always)]
+            |i| bodies[i].place,
+        );
+        self.motion[side].gather(
+            simd,
+            index,
+            #[inline(always)]
+            |i| bodies[i].motion,
+        );
+        if T::ROTATES {
+            self.turning[side].gather(
                 simd,
                 index,
                 #[inline(always)]
-                |i| bodies[i].place,
+                |i| bodies[i].turning,
             );
-            self.motion[side].gather(
-                simd,
-                index,
-                #[inline(always)]
-                |i| bodies[i].motion,
-            );
-            if T::ROTATES {
-                self.turning[side].gather(
-                    simd,
-                    index,
-                    #[inline(always)]
-                    |i| bodies[i].turning,
-                );
-            }
         }
     }
 
-    /// Computes the laws for every lane.
+    /// Computes the laws for every pair.
     #[inline(always)]
     fn interact<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
@@ -148,6 +142,91 @@ impl<H: Copy + Default> PairBlock<H> {
                 }
             }
             store(&mut self.force, k, touches, force);
+        }
+    }
+
+    /// Computes the laws for every sphere at a wall.
+    #[inline(always)]
+    fn interact_with_wall<W: Wall, N: NormalLaw, T: TangentialLaw<History = H>>(
+        &mut self,
+        wall: W,
+        normal_law: &N,
+        tangential_law: &T,
+        overlap_limit: f64,
+    ) {
+        let [place, motion, turning] = [&self.place[0], &self.motion[0], &self.turning[0]];
+        for k in 0..BLOCK {
+            let radius = place.0[3][k];
+            let WallContact {
+                touches,
+                overlap,
+                normal,
+            } = wall.contact(Self::vector(place, k), radius);
+            let velocity = Self::vector(motion, k);
+            let approach = -velocity.dot(normal);
+            let normal_force = normal_law.force(overlap, approach, radius);
+            let deep = touches & (overlap > overlap_limit * radius);
+            self.too_deep[k] = if deep { overlap } else { NOT_DEEP };
+            let mut force = normal * normal_force;
+            if N::DRAGS_SIDEWAYS {
+                force -= (velocity + normal * approach) * normal_law.sideways_drag();
+            }
+            if T::ROTATES {
+                let touch = Touch {
+                    normal,
+                    velocity,
+                    spin: [Self::vector(turning, k), Vector::ZERO],
+                    lever: [radius, 0.0],
+                    inertia: [turning.0[3][k], 0.0],
+                    lesser_mass: motion.0[3][k],
+                    overlap,
+                    effective_radius: radius,
+                    normal_force,
+                };
+                let mut history = self.history[k];
+                let traction = tangential_law.traction(&touch, &mut history);
+                self.history[k] = if touches { history } else { H::default() };
+                force += traction.force;
+                store(&mut self.torque[0], k, touches, traction.torque[0]);
+            }
+            store(&mut self.force, k, touches, force);
+        }
+    }
+
+    /// The first of so many contacts that is too deep: its lane and overlap.
+    #[inline(always)]
+    fn first_too_deep(&self, contacts: usize) -> Option<(usize, f64)> {
+        let any = |any, &overlap: &f64| any | (overlap != NOT_DEEP);
+        if !self.too_deep.iter().fold(false, any) {
+            return None;
+        }
+        (0..contacts)
+            .find(|&k| self.too_deep[k] != NOT_DEEP)
+            .map(|k| (k, self.too_deep[k]))
+    }
+
+    /// Adds forces and torques of a wall to the spheres.
+    #[inline(always)]
+    fn scatter_to_spheres<S: Simd, T: TangentialLaw<History = H>>(
+        &self,
+        simd: S,
+        spheres: &[u32],
+        loads: &mut [Load],
+    ) {
+        for (at, four) in (0..BLOCK).step_by(4).zip(spheres.chunks(4)) {
+            let force = self.force.rows(simd, at);
+            let torque = if T::ROTATES {
+                self.torque[0].rows(simd, at)
+            } else {
+                force
+            };
+            for (k, &i) in four.iter().enumerate() {
+                let load = &mut loads[i as usize];
+                add(simd, &mut load.force, force[k]);
+                if T::ROTATES {
+                    add(simd, &mut load.torque, torque[k]);
+                }
+            }
         }
     }
 
@@ -247,7 +326,12 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let overlap_limit = self.parts.limits.overlap;
         let block = &mut self.block;
         for pairs in self.near.pairs().chunks(BLOCK) {
-            block.gather::<S, T>(simd, pairs, &self.bodies);
+            for (k, pair) in pairs.iter().enumerate() {
+                block.index[0][k] = pair.i;
+                block.index[1][k] = pair.j;
+            }
+            block.gather::<S, T>(simd, 0, &self.bodies);
+            block.gather::<S, T>(simd, 1, &self.bodies);
             if Self::REMEMBERS {
                 for (history, pair) in block.history.iter_mut().zip(pairs) {
                     *history = self.pair_history[pair.entry as usize];
@@ -260,57 +344,43 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 }
             }
             block.scatter::<S, T>(simd, pairs, &mut self.loads);
-            let any = |any, &overlap: &f64| any | (overlap != NOT_DEEP);
-            if block.too_deep.iter().fold(false, any) && self.too_deep.is_none() {
-                let mut overlaps = pairs.iter().zip(&block.too_deep);
-                let particles = &self.parts.particles;
-                self.too_deep = overlaps
-                    .find(|&(_, &overlap)| overlap != NOT_DEEP)
-                    .map(|(pair, &overlap)| (particles.moving_partner(pair.i, pair.j), overlap));
+            if let Some((k, overlap)) = block.first_too_deep(pairs.len()) {
+                let NearPair { i, j, .. } = pairs[k];
+                let sphere = self.parts.particles.moving_partner(i, j);
+                self.too_deep.get_or_insert((sphere, overlap));
             }
         }
     }
 
+    /// Forces of a wall on the spheres near it.
     #[inline(always)]
-    pub(super) fn wall_forces<W: Wall>(&mut self, wall: W, histories: &mut [T::History]) {
-        let Parts {
-            particles, limits, ..
-        } = &mut self.parts;
-        for i in 0..particles.len() {
-            let radius = particles.radius[i];
-            let Some((overlap, normal)) = wall.touch(particles.position[i], radius) else {
-                if Self::REMEMBERS {
-                    histories[i] = T::History::default();
+    pub(super) fn wall_forces<S: Simd, W: Wall>(
+        &mut self,
+        simd: S,
+        wall: W,
+        near: &[u32],
+        histories: &mut [T::History],
+    ) {
+        let overlap_limit = self.parts.limits.overlap;
+        let block = &mut self.block;
+        for spheres in near.chunks(BLOCK) {
+            block.index[0][..spheres.len()].copy_from_slice(spheres);
+            block.gather::<S, T>(simd, 0, &self.bodies);
+            if Self::REMEMBERS {
+                for (history, &i) in block.history.iter_mut().zip(spheres) {
+                    *history = histories[i as usize];
                 }
-                continue;
-            };
-            let velocity = particles.velocity[i];
-            let approach = -velocity.dot(normal);
-            let normal_force = self.normal.force(overlap, approach, radius);
-            if overlap > limits.overlap * radius {
-                self.too_deep.get_or_insert((i, overlap));
             }
-            let mut force = normal * normal_force;
-            if N::DRAGS_SIDEWAYS {
-                force -= (velocity + normal * approach) * self.normal.sideways_drag();
+            block.interact_with_wall(wall, &self.normal, &self.tangential, overlap_limit);
+            if Self::REMEMBERS {
+                for (history, &i) in block.history.iter().zip(spheres) {
+                    histories[i as usize] = *history;
+                }
             }
-            if T::ROTATES {
-                let touch = Touch {
-                    normal,
-                    velocity,
-                    spin: [particles.spin[i], Vector::ZERO],
-                    lever: [radius, 0.0],
-                    inertia: [particles.inertia[i], 0.0],
-                    lesser_mass: particles.mass[i],
-                    overlap,
-                    effective_radius: radius,
-                    normal_force,
-                };
-                let traction = self.tangential.traction(&touch, &mut histories[i]);
-                force += traction.force;
-                particles.torque[i] += traction.torque[0];
+            block.scatter_to_spheres::<S, T>(simd, spheres, &mut self.loads);
+            if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
+                self.too_deep.get_or_insert((spheres[k] as usize, overlap));
             }
-            particles.force[i] += force;
         }
     }
 }

@@ -24,12 +24,22 @@ pub(in crate::dem) trait Engine: Send {
     fn particles(&self) -> &Particles;
     fn step(&self) -> u64;
     fn list(&self) -> Option<&VerletList>;
-    fn elastic_energy(&mut self) -> f64;
+    /// What the contacts hold at the present positions.
+    fn contacts(&mut self) -> Contacts;
     fn use_baseline_instructions(&mut self);
     /// Adds a sphere; effects must not depend on how many there are.
     fn insert(&mut self, sphere: &Sphere);
     /// Removes the spheres that are not to be kept.
     fn retain(&mut self, keep: &[bool]);
+}
+
+/// What contacts hold.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::dem) struct Contacts {
+    /// Elastic energy (J).
+    pub(in crate::dem) elastic_energy: f64,
+    /// Contacts of all moving spheres, one between two of them counted for each.
+    pub(in crate::dem) of_moving_spheres: usize,
 }
 
 /// What a system is made of besides its laws.
@@ -65,6 +75,9 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     loads: Vec<Load>,
     block: Box<PairBlock<T::History>>,
     shielding: Vec<u32>,
+    /// Spheres that may touch the floor and the cylinder.
+    near_floor: Vec<u32>,
+    near_cylinder: Vec<u32>,
     /// Histories of listed pairs, of the floor and of the cylinder. A law without history has one
     /// of no size, and these take no memory.
     pair_history: Vec<T::History>,
@@ -98,6 +111,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             loads: Vec::new(),
             block: Box::new(PairBlock::new()),
             shielding: vec![0; if parts.shielded { count } else { 0 }],
+            near_floor: Vec::new(),
+            near_cylinder: Vec::new(),
             pair_history: Vec::new(),
             floor_history: histories(parts.floor.is_some()),
             cylinder_history: histories(parts.cylinder.is_some()),
@@ -119,6 +134,18 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if self.list.is_some() {
             self.gather();
             self.pair_forces(simd);
+            if let (true, Some(floor)) = (N::ACTS, self.parts.floor) {
+                let near = std::mem::take(&mut self.near_floor);
+                let mut history = std::mem::take(&mut self.floor_history);
+                self.wall_forces(simd, floor, &near, &mut history);
+                (self.near_floor, self.floor_history) = (near, history);
+            }
+            if let (true, Some(cylinder)) = (N::ACTS, self.parts.cylinder) {
+                let near = std::mem::take(&mut self.near_cylinder);
+                let mut history = std::mem::take(&mut self.cylinder_history);
+                self.wall_forces(simd, cylinder, &near, &mut history);
+                (self.near_cylinder, self.cylinder_history) = (near, history);
+            }
             self.scatter();
             if self.parts.shielded {
                 self.near
@@ -128,20 +155,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.parts.particles.force.fill(Vector::ZERO);
             self.parts.particles.torque.fill(Vector::ZERO);
         }
-        if N::ACTS {
-            if let Some(floor) = self.parts.floor {
-                let mut history = std::mem::take(&mut self.floor_history);
-                self.wall_forces(floor, &mut history);
-                self.floor_history = history;
-            }
-            if let Some(cylinder) = self.parts.cylinder {
-                let mut history = std::mem::take(&mut self.cylinder_history);
-                self.wall_forces(cylinder, &mut history);
-                self.cylinder_history = history;
-            }
-        }
         for effect in &mut self.parts.effects {
-            effect.apply(&mut self.parts.particles, &self.shielding);
+            effect.apply(self.level, &mut self.parts.particles, &self.shielding);
         }
         match self.too_deep.take() {
             Some((sphere, overlap)) => {
@@ -178,6 +193,15 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 (true, true) => near.refresh::<true, true>(list, particles, forget),
                 (true, false) => near.refresh::<true, false>(list, particles, forget),
                 (false, _) => near.refresh::<false, true>(list, particles, forget),
+            }
+            let margin = near.margin();
+            if let Some(wall) = self.parts.floor {
+                let (near, history) = (&mut self.near_floor, &mut self.floor_history);
+                find_near_wall(wall, particles, margin, near, history);
+            }
+            if let Some(wall) = self.parts.cylinder {
+                let (near, history) = (&mut self.near_cylinder, &mut self.cylinder_history);
+                find_near_wall(wall, particles, margin, near, history);
             }
         }
         Ok(())
@@ -278,37 +302,65 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
 
     /// Reads positions alone, and builds the list at most earlier than a step would: bits of
     /// the motion do not depend on when the list is built.
-    fn elastic_energy(&mut self) -> f64 {
+    fn contacts(&mut self) -> Contacts {
+        let mut contacts = Contacts::default();
         if !N::ACTS || (self.stale && self.refresh().is_err()) {
-            return 0.0;
+            return contacts;
         }
-        let Some(list) = &self.list else { return 0.0 };
         let Particles {
-            position, radius, ..
+            position,
+            radius,
+            fixed,
+            ..
         } = &self.parts.particles;
         let mut energy = 0.0;
+        let count = &mut contacts.of_moving_spheres;
+        let mut pairs = self.near.pairs().iter().peekable();
         for i in 0..radius.len() {
             let (centre, ri) = (position[i], radius[i]);
-            let entries = list.start()[i] as usize..list.start()[i + 1] as usize;
-            for &j in &list.neighbour()[entries] {
-                let rj = radius[j as usize];
-                let distance_squared = (centre - position[j as usize]).norm_squared();
+            while let Some(pair) = pairs.next_if(|pair| pair.i as usize == i) {
+                let j = pair.j as usize;
+                let rj = radius[j];
+                let distance_squared = (centre - position[j]).norm_squared();
                 if distance_squared < (ri + rj) * (ri + rj) {
                     let overlap = ri + rj - distance_squared.sqrt();
                     energy += self.normal.elastic_energy(overlap, ri * rj / (ri + rj));
+                    *count += usize::from(i >= *fixed) + usize::from(j >= *fixed);
                 }
             }
             let walls = [
-                self.parts.floor.and_then(|floor| floor.touch(centre, ri)),
+                self.parts.floor.map(|floor| floor.contact(centre, ri)),
                 self.parts
                     .cylinder
-                    .and_then(|cylinder| cylinder.touch(centre, ri)),
+                    .map(|cylinder| cylinder.contact(centre, ri)),
             ];
-            for (overlap, _) in walls.into_iter().flatten() {
-                energy += self.normal.elastic_energy(overlap, ri);
+            for contact in walls.into_iter().flatten() {
+                if contact.touches {
+                    energy += self.normal.elastic_energy(contact.overlap, ri);
+                    *count += 1;
+                }
             }
         }
-        energy
+        contacts.elastic_energy = energy;
+        contacts
+    }
+}
+
+/// Finds the spheres near a wall, and forgets the histories of the others.
+fn find_near_wall<W: Wall, H: Default>(
+    wall: W,
+    particles: &Particles,
+    margin: f64,
+    near: &mut Vec<u32>,
+    histories: &mut [H],
+) {
+    near.clear();
+    for (i, (&centre, &radius)) in particles.position.iter().zip(&particles.radius).enumerate() {
+        if wall.is_near(centre, radius, margin) {
+            near.push(i as u32);
+        } else {
+            histories[i] = H::default();
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The cylindrical wall about the z axis.
 
-use super::Wall;
+use super::{Wall, WallContact};
 use crate::dem::vector::Vector;
 
 /// A vertical cylinder about the z axis, with the spheres inside.
@@ -12,14 +12,21 @@ pub struct Cylinder {
 
 impl Wall for Cylinder {
     #[inline(always)]
-    fn touch(&self, centre: Vector, radius: f64) -> Option<(f64, Vector)> {
+    fn contact(&self, centre: Vector, radius: f64) -> WallContact {
         let reach = self.radius - radius;
         let distance_squared = centre.x * centre.x + centre.y * centre.y;
-        if distance_squared <= reach * reach {
-            return None;
-        }
         let distance = distance_squared.sqrt();
-        let normal = Vector::new(-centre.x / distance, -centre.y / distance, 0.0);
-        Some((distance - reach, normal))
+        WallContact {
+            touches: !(distance_squared <= reach * reach),
+            overlap: distance - reach,
+            normal: Vector::new(-centre.x / distance, -centre.y / distance, 0.0),
+        }
+    }
+
+    #[inline(always)]
+    fn is_near(&self, centre: Vector, radius: f64, margin: f64) -> bool {
+        // A reach below zero touches when its square says so.
+        let reach = (self.radius - radius).abs() - margin;
+        reach < 0.0 || centre.x * centre.x + centre.y * centre.y > reach * reach
     }
 }

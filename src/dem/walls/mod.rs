@@ -8,8 +8,22 @@ pub use plane::Floor;
 
 use super::vector::Vector;
 
+/// Where a sphere is with respect to a wall.
+#[derive(Clone, Copy, Debug)]
+pub struct WallContact {
+    /// Whether it touches; the rest means nothing if it does not.
+    pub touches: bool,
+    /// Overlap (m, positive).
+    pub overlap: f64,
+    /// Unit normal into the tank.
+    pub normal: Vector,
+}
+
 /// A wall at rest.
 pub trait Wall: Copy + Send + 'static {
-    /// Overlap (m, positive) and unit normal into the tank, if a sphere there touches the wall.
-    fn touch(&self, centre: Vector, radius: f64) -> Option<(f64, Vector)>;
+    /// How a sphere there touches the wall. Free of branches, for a block of spheres at once.
+    fn contact(&self, centre: Vector, radius: f64) -> WallContact;
+
+    /// Whether a sphere there touches the wall, or will after a way of `margin` (m).
+    fn is_near(&self, centre: Vector, radius: f64, margin: f64) -> bool;
 }

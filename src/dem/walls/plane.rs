@@ -1,6 +1,6 @@
 //! The horizontal floor.
 
-use super::Wall;
+use super::{Wall, WallContact};
 use crate::dem::vector::Vector;
 
 /// A horizontal floor.
@@ -12,8 +12,17 @@ pub struct Floor {
 
 impl Wall for Floor {
     #[inline(always)]
-    fn touch(&self, centre: Vector, radius: f64) -> Option<(f64, Vector)> {
+    fn contact(&self, centre: Vector, radius: f64) -> WallContact {
         let overlap = radius - (centre.z - self.height);
-        (overlap > 0.0).then_some((overlap, Vector::new(0.0, 0.0, 1.0)))
+        WallContact {
+            touches: overlap > 0.0,
+            overlap,
+            normal: Vector::new(0.0, 0.0, 1.0),
+        }
+    }
+
+    #[inline(always)]
+    fn is_near(&self, centre: Vector, radius: f64, margin: f64) -> bool {
+        radius - (centre.z - self.height) > -margin
     }
 }

@@ -1,5 +1,6 @@
 //! What a scene must satisfy beyond the kinds of its values.
 
+mod silo;
 mod start;
 mod time;
 
@@ -23,6 +24,8 @@ impl Scene {
             self.check_spheres(&mut problems);
             self.check_start(&mut problems);
             self.check_times(&mut problems);
+            self.check_silo(&mut problems);
+            self.check_mindlin(&mut problems);
         }
         if problems.is_empty() {
             self.check_time_step(&mut problems);
