@@ -13,7 +13,7 @@ use super::{effects, timestep};
 use super::vector::Vector;
 use crate::observe::{Flow, FrameView};
 use crate::record::{Instability, Milestone};
-use crate::scene::{Contact, ContactDrag, Friction, Scene, Start};
+use crate::scene::{Contact, Friction, Scene, Start};
 
 /// Why a scene cannot be run.
 #[derive(Debug, thiserror::Error)]
@@ -21,9 +21,9 @@ pub enum BuildError {
     /// The spheres cannot be placed.
     #[error(transparent)]
     Start(#[from] StartError),
-    /// Mindlin friction takes its stiffness from a Hertz contact.
-    #[error("mindlin friction needs the hertz contact law; add [contact] with law = \"hertz\"")]
-    MindlinWithoutHertz,
+    /// The friction law does not go with the contact law, or there is no contact.
+    #[error("this friction does not go with the contact law; add [contact] with law = \"hertz\"")]
+    FrictionWithoutContact,
 }
 
 /// Skin of the neighbour list, in radii of the largest sphere: where lists are long-lived and not
@@ -92,36 +92,7 @@ impl Simulation {
             skin: skin * radius.iter().copied().fold(0.0, f64::max),
             particles,
         };
-        let engine = match scene.contact {
-            None => with_normal(NoContact, scene, parts)?,
-            Some(Contact::Hertz {
-                young_modulus,
-                poisson_ratio,
-                dissipation_factor,
-                ..
-            }) => {
-                let dissipation_time = timestep::dissipation_time(scene);
-                let law = Hertz::new(
-                    young_modulus,
-                    poisson_ratio,
-                    dissipation_time,
-                    dissipation_factor,
-                );
-                with_normal(law, scene, parts)?
-            }
-            Some(Contact::Linear {
-                stiffness,
-                damping,
-                drag,
-            }) => match drag {
-                ContactDrag::Normal => {
-                    with_normal(Linear::<false>::new(stiffness, damping), scene, parts)?
-                }
-                ContactDrag::Whole => {
-                    with_normal(Linear::<true>::new(stiffness, damping), scene, parts)?
-                }
-            },
-        };
+        let engine = engine(scene, parts)?;
         Ok(Self {
             engine,
             process,
@@ -256,42 +227,66 @@ fn waiting(spheres: &Particles, scene: &Scene) -> Vec<Sphere> {
     (0..spheres.len()).map(sphere).collect()
 }
 
-fn with_normal<N: NormalLaw>(
-    normal: N,
-    scene: &Scene,
-    parts: Parts,
-) -> Result<Box<dyn Engine>, BuildError> {
+/// The engine compiled for the scene's contact and friction. Each pair of laws costs time to compile,
+/// so only those are here that go together.
+fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
     fn boxed<N: NormalLaw, T: TangentialLaw>(
         normal: N,
         tangential: T,
         parts: Parts,
-    ) -> Box<dyn Engine> {
-        Box::new(System::new(normal, tangential, parts))
+    ) -> Result<Box<dyn Engine>, BuildError> {
+        Ok(Box::new(System::new(normal, tangential, parts)))
     }
     let dt = scene.time.dt;
-    Ok(match scene.friction {
-        None => boxed(normal, Frictionless, parts),
-        Some(Friction::Spin { coefficient }) => {
-            boxed(normal, SpinFriction::new(coefficient, dt), parts)
-        }
-        Some(Friction::Coulomb {
-            coefficient,
-            regularisation,
-        }) => boxed(normal, Coulomb::new(coefficient, regularisation), parts),
-        Some(Friction::Mindlin { coefficient }) => {
-            let Some(Contact::Hertz {
+    match (&scene.contact, &scene.friction) {
+        (None, None) => boxed(NoContact, Frictionless, parts),
+        (
+            &Some(Contact::Hertz {
                 young_modulus,
                 poisson_ratio,
+                dissipation_factor,
                 ..
-            }) = scene.contact
-            else {
-                return Err(BuildError::MindlinWithoutHertz);
-            };
-            boxed(
-                normal,
-                Mindlin::new(coefficient, young_modulus, poisson_ratio, dt),
-                parts,
-            )
+            }),
+            friction,
+        ) => {
+            let normal = Hertz::new(
+                young_modulus,
+                poisson_ratio,
+                timestep::dissipation_time(scene),
+                dissipation_factor,
+            );
+            match *friction {
+                None => boxed(normal, Frictionless, parts),
+                Some(Friction::Spin { coefficient }) => {
+                    boxed(normal, SpinFriction::new(coefficient, dt), parts)
+                }
+                Some(Friction::Coulomb {
+                    coefficient,
+                    regularisation,
+                }) => boxed(normal, Coulomb::new(coefficient, regularisation), parts),
+                Some(Friction::Mindlin { coefficient }) => {
+                    let law = Mindlin::new(coefficient, young_modulus, poisson_ratio, dt);
+                    boxed(normal, law, parts)
+                }
+            }
         }
-    })
+        (
+            &Some(Contact::Linear {
+                stiffness,
+                damping,
+                drag,
+            }),
+            friction @ (None | Some(Friction::Coulomb { .. })),
+        ) => {
+            let normal = Linear::new(stiffness, damping, drag);
+            match *friction {
+                Some(Friction::Coulomb {
+                    coefficient,
+                    regularisation,
+                }) => boxed(normal, Coulomb::new(coefficient, regularisation), parts),
+                _ => boxed(normal, Frictionless, parts),
+            }
+        }
+        (None | Some(Contact::Linear { .. }), Some(_)) => Err(BuildError::FrictionWithoutContact),
+    }
 }

@@ -274,7 +274,7 @@ mod tests {
         };
         let faulty: Simulate<'_> = &|scene, control| match acceleration(scene) {
             1.0 => panic!("one is too few"),
-            3.0 => Err(RunError::Build(crate::dem::BuildError::MindlinWithoutHertz)),
+            3.0 => Err(RunError::Build(crate::dem::BuildError::FrictionWithoutContact)),
             _ => run::run(scene, control),
         };
         let plan = Plan::new(&folder, jobs.clone(), 2).unwrap();

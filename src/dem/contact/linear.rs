@@ -1,27 +1,37 @@
 //! Linear spring and dashpot.
 
 use super::NormalLaw;
+use crate::scene::ContactDrag;
 
 /// F = k delta + b d(delta)/dt along the line of centres, with overlap delta, spring constant k and
 /// drag constant b (Cundall and Strack, 1979). With the drag on the whole relative velocity
 /// (Remmers, 2009) also -b times its tangential part.
 #[derive(Clone, Copy, Debug)]
-pub struct Linear<const WHOLE: bool> {
+pub struct Linear {
     /// k (N/m).
     stiffness: f64,
     /// b (N s/m).
     damping: f64,
+    /// b of the tangential part (N s/m), which may be zero.
+    sideways_drag: f64,
 }
 
-impl<const WHOLE: bool> Linear<WHOLE> {
+impl Linear {
     /// The law with a spring constant (N/m) and a drag constant (N s/m).
-    pub fn new(stiffness: f64, damping: f64) -> Self {
-        Self { stiffness, damping }
+    pub fn new(stiffness: f64, damping: f64, drag: ContactDrag) -> Self {
+        Self {
+            stiffness,
+            damping,
+            sideways_drag: match drag {
+                ContactDrag::Normal => 0.0,
+                ContactDrag::Whole => damping,
+            },
+        }
     }
 }
 
-impl<const WHOLE: bool> NormalLaw for Linear<WHOLE> {
-    const DRAGS_SIDEWAYS: bool = WHOLE;
+impl NormalLaw for Linear {
+    const DRAGS_SIDEWAYS: bool = true;
 
     #[inline(always)]
     fn force(&self, overlap: f64, overlap_rate: f64, _: f64) -> f64 {
@@ -30,7 +40,7 @@ impl<const WHOLE: bool> NormalLaw for Linear<WHOLE> {
 
     #[inline(always)]
     fn sideways_drag(&self) -> f64 {
-        self.damping
+        self.sideways_drag
     }
 
     #[inline(always)]

@@ -7,6 +7,7 @@
 
 use super::anchor::{Allowance, Anchor};
 use super::{Particles, VerletList};
+use crate::dem::vector::Vector;
 
 /// A pair that may touch, and its entry in the Verlet list.
 #[derive(Clone, Copy, Debug, Default)]
@@ -60,6 +61,18 @@ impl Near {
     #[inline]
     pub fn anchor(&self) -> &Anchor {
         &self.anchor
+    }
+
+    /// Notes that a sphere was added at the end.
+    pub fn add_sphere(&mut self, position: Vector) {
+        self.anchor.add_sphere(position);
+    }
+
+    /// Notes that the spheres that are not to be kept were removed. The pairs must be looked for
+    /// anew.
+    pub fn remove_spheres(&mut self, keep: &[bool]) {
+        self.anchor.remove_spheres(keep);
+        self.pairs.clear();
     }
 
     /// The displacements that the list allows `time` (s) after its refresh.

@@ -286,6 +286,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
             self.cylinder_history.push(T::History::default());
         }
         self.list.iter_mut().for_each(VerletList::add_sphere);
+        self.near.add_sphere(sphere.position);
         self.stale = true;
     }
 
@@ -297,6 +298,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         if let Some(list) = &mut self.list {
             retain(&mut self.pair_history, &list.remove_spheres(keep));
         }
+        self.near.remove_spheres(keep);
         self.stale = true;
     }
 

@@ -5,7 +5,7 @@ mod start;
 mod time;
 
 use super::schema::SCENE;
-use super::{Contact, Geometry, Radii, Scene, Spheres, Start, Updraught};
+use super::{Contact, Friction, Geometry, Radii, Scene, Spheres, Start, Updraught};
 use crate::document::{Problem, number};
 
 /// Largest number of spheres: the engine numbers them with 32 bits, and holds them in memory.
@@ -25,7 +25,6 @@ impl Scene {
             self.check_start(&mut problems);
             self.check_times(&mut problems);
             self.check_silo(&mut problems);
-            self.check_mindlin(&mut problems);
         }
         if problems.is_empty() {
             self.check_time_step(&mut problems);
@@ -59,6 +58,13 @@ impl Scene {
             let message = "[friction] acts at contacts, but there is no [contact]";
             let help = "add [contact] with `law = \"hertz\"`, or remove [friction]";
             problems.push(Problem::new("friction", message).help(help));
+        }
+        if let (Some(Contact::Linear { .. }), Some(law)) = (&self.contact, &self.friction)
+            && !matches!(law, Friction::Coulomb { .. })
+        {
+            let message = "this friction law goes with the hertz contact only";
+            let help = "use `law = \"coulomb\"` here, or `law = \"hertz\"` in [contact]";
+            problems.push(Problem::new("friction.law", message).help(help));
         }
         if self.spin_damping.is_some() && self.friction.is_none() {
             let message = "[spin_damping] acts on spins, but without [friction] there are none";

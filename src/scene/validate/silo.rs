@@ -2,7 +2,7 @@
 
 use super::{rounded, time};
 use crate::document::{Problem, number};
-use crate::scene::{Contact, Friction, Geometry, Hopper, Scene, Shape, Start};
+use crate::scene::{Friction, Geometry, Hopper, Scene, Shape, Start};
 
 impl Scene {
     pub(super) fn check_silo(&self, problems: &mut Vec<Problem>) {
@@ -83,8 +83,7 @@ impl Scene {
         }
         if let Some(Friction::Spin { .. }) = self.friction {
             let message = "the spin friction is made for the tank and knows no fixed spheres";
-            let help = "use `law = \"coulomb\"` or `\"mindlin\"`";
-            problems.push(Problem::new("friction.law", message).help(help));
+            problems.push(Problem::new("friction.law", message).help("use `law = \"coulomb\"`"));
         }
         if let Geometry::Hopper(hopper) = geometry {
             check_hopper(hopper, problems);
@@ -163,14 +162,6 @@ impl Scene {
         }
     }
 
-    pub(super) fn check_mindlin(&self, problems: &mut Vec<Problem>) {
-        let is_linear = matches!(self.contact, Some(Contact::Linear { .. }));
-        if is_linear && matches!(self.friction, Some(Friction::Mindlin { .. })) {
-            let message = "mindlin friction takes its stiffness from a hertz contact";
-            let help = "use `law = \"hertz\"` in [contact], or `law = \"coulomb\"` here";
-            problems.push(Problem::new("friction.law", message).help(help));
-        }
-    }
 }
 
 fn check_hopper(hopper: &Hopper, problems: &mut Vec<Problem>) {
