@@ -4,6 +4,7 @@
 //! inner loops are compiled for the laws in use, and what the scene does not name allocates and
 //! computes nothing.
 
+mod block;
 pub mod contact;
 mod effects;
 pub mod friction;

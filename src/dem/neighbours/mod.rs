@@ -32,14 +32,21 @@ pub enum Reach {
     Column,
 }
 
+/// Steps from one build to the next that the skin adapts to.
+const LIFE: std::ops::Range<u64> = 30..80;
+
 /// The Verlet list.
 #[derive(Clone, Debug)]
 pub struct VerletList {
     reach: Reach,
     skin: f64,
+    narrowest: f64,
+    widest: f64,
     /// Entries of sphere i are `start[i]..start[i + 1]`.
     start: Vec<u32>,
     neighbour: Vec<u32>,
+    /// The sphere whose entry it is, of every entry.
+    owner: Vec<u32>,
     anchor: Anchor,
     /// Half the diagonal of the largest sphere's shielding box, plus the skin (m); zero if the
     /// list holds contacts alone.
@@ -51,13 +58,19 @@ pub struct VerletList {
 }
 
 impl VerletList {
-    /// A list that is not built yet.
+    /// A list that is not built yet. Its skin (m) starts from a guess and adapts.
     pub fn new(reach: Reach, skin: f64) -> Self {
         Self {
             reach,
             skin,
+            narrowest: 0.5 * skin,
+            widest: match reach {
+                Reach::Contact => skin,
+                Reach::Column => 4.0 * skin,
+            },
             start: vec![0],
             neighbour: Vec::new(),
+            owner: Vec::new(),
             anchor: Anchor::default(),
             half_diagonal: 0.0,
             cells: Cells::default(),
@@ -145,6 +158,24 @@ impl VerletList {
         &self.neighbour
     }
 
+    /// The sphere of each entry, of lower index than the partner.
+    #[inline]
+    pub fn owner(&self) -> &[u32] {
+        &self.owner
+    }
+
+    /// Widens or narrows the skin after a list that held for this many steps.
+    pub fn adapt(&mut self, steps: u64) {
+        if self.builds == 0 {
+            return;
+        }
+        if steps < LIFE.start {
+            self.skin = (1.25 * self.skin).min(self.widest);
+        } else if steps >= LIFE.end {
+            self.skin = (0.8 * self.skin).max(self.narrowest);
+        }
+    }
+
     /// Builds the list anew for the present positions, which must be finite.
     pub fn build(&mut self, particles: &Particles) {
         let count = particles.len();
@@ -153,6 +184,7 @@ impl VerletList {
             .fill(particles, 2.0 * largest + self.skin, self.reach);
         self.start.clear();
         self.neighbour.clear();
+        self.owner.clear();
         self.start.push(0);
         for i in 0..count {
             let first = self.neighbour.len();
@@ -167,6 +199,7 @@ impl VerletList {
             }
             self.neighbour[first..].sort_unstable();
             self.start.push(self.neighbour.len() as u32);
+            self.owner.resize(self.neighbour.len(), i as u32);
         }
         self.anchor.drop(particles);
         self.half_diagonal = match self.reach {

@@ -4,10 +4,15 @@
 //! that cannot touch, and one that is farther than that inside or outside the shield's box keeps
 //! its part in the shield. The margin adapts: refreshing takes a look at the whole Verlet list, and
 //! a wide margin leaves more pairs to look at in every step.
+//!
+//! Pairs are looked at in blocks: what is true of each is found for all at once, as bits of one
+//! number, and then written or counted one by one without a branch.
 
 use super::anchor::{Allowance, Anchor};
 use super::{Particles, VerletList};
 use crate::dem::vector::Vector;
+use crate::dem::block::{BLOCK, Body, Columns};
+use fearless_simd::Simd;
 
 /// A pair that may touch, and its entry in the Verlet list.
 #[derive(Clone, Copy, Debug, Default)]
@@ -24,8 +29,11 @@ pub struct NearPair {
 const LIFE: std::ops::Range<u64> = 7..14;
 
 /// The inner list.
-#[derive(Clone, Debug, Default)]
 pub struct Near {
+    /// Whether pairs may touch.
+    contacts: bool,
+    /// Whether spheres shield one another.
+    shield: bool,
     /// How far the offset of a pair may change (m).
     margin: f64,
     anchor: Anchor,
@@ -35,14 +43,22 @@ pub struct Near {
     undecided: Vec<[u32; 2]>,
     /// Spheres that shield each one, of the pairs that are decided.
     shielding: Vec<u32>,
+    glance: Box<Glance>,
 }
 
 impl Near {
     /// A list that is not made yet; its margin (m) starts from a guess.
-    pub fn new(margin: f64) -> Self {
+    pub fn new(contacts: bool, shield: bool, margin: f64) -> Self {
         Self {
+            contacts,
+            shield,
             margin,
-            ..Self::default()
+            anchor: Anchor::default(),
+            half_diagonal: 0.0,
+            pairs: Vec::new(),
+            undecided: Vec::new(),
+            shielding: Vec::new(),
+            glance: Box::new(Glance::new()),
         }
     }
 
@@ -57,7 +73,7 @@ impl Near {
         &self.pairs
     }
 
-    /// Positions at the latest refresh.
+    /// The spheres at the latest refresh.
     #[inline]
     pub fn anchor(&self) -> &Anchor {
         &self.anchor
@@ -80,91 +96,180 @@ impl Near {
         self.anchor.allowance(time, self.margin, self.half_diagonal)
     }
 
-    /// Widens or narrows the margin after a list that held for this many steps.
+    /// Widens or narrows the margin after a list that held for this many steps, for a Verlet list
+    /// of that skin (m).
     pub fn adapt(&mut self, steps: u64, skin: f64) {
-        self.margin = self.margin.min(0.5 * skin);
         if steps < LIFE.start {
-            self.margin = (1.25 * self.margin).min(0.5 * skin);
+            self.margin *= 1.25;
         } else if steps >= LIFE.end {
             self.margin *= 0.8;
         }
+        self.margin = self.margin.clamp(0.02 * skin, 0.5 * skin);
     }
 
-    /// Makes the list anew from a valid Verlet list. `forget` is called with each entry that is not
-    /// near.
+    /// Makes the list anew from a valid Verlet list; `bodies` are the particles in rows. `forget` is
+    /// called with each entry that is not near.
     #[inline(always)]
-    pub fn refresh<const CONTACTS: bool, const SHIELD: bool>(
+    pub(in crate::dem) fn refresh<S: Simd>(
         &mut self,
+        simd: S,
         list: &VerletList,
         particles: &Particles,
+        bodies: &[Body],
         mut forget: impl FnMut(u32),
     ) {
-        let (position, radius) = (&particles.position[..], &particles.radius[..]);
-        let margin = self.margin;
-        // One spare slot each: a pair is always written, and kept only if it belongs there.
         let (mut near, mut open) = (0, 0);
-        if CONTACTS {
-            self.pairs.resize(list.pairs() + 1, NearPair::default());
-        }
-        if SHIELD {
-            self.undecided.resize(list.pairs() + 1, [0; 2]);
-            self.shielding.clear();
-            self.shielding.resize(radius.len(), 0);
-        }
-        for (i, bounds) in list.start().windows(2).enumerate() {
-            let (centre, ri) = (position[i], radius[i]);
-            let first = bounds[0];
-            let neighbours = &list.neighbour()[first as usize..bounds[1] as usize];
-            let mut below = 0;
-            for (entry, &j) in (first..).zip(neighbours) {
-                let rj = radius[j as usize];
-                let offset = centre - position[j as usize];
-                if CONTACTS {
-                    let reach = ri + rj + margin;
-                    let is_near = offset.norm_squared() < reach * reach;
-                    let i = i as u32;
-                    self.pairs[near] = NearPair { i, j, entry };
-                    near += usize::from(is_near);
-                    if !is_near {
-                        forget(entry);
-                    }
-                }
-                if SHIELD {
-                    let distance = offset.x.abs().max(offset.y.abs());
-                    let within = |reach: f64, depth: f64| (distance < reach) & (depth > 0.0);
-                    let possibly = |r: f64, dz: f64| within(2.0 * r + margin, dz + margin);
-                    let certainly = |r: f64, dz: f64| within(2.0 * r - margin, dz - margin);
-                    let sure = [certainly(ri, offset.z), certainly(rj, -offset.z)];
-                    let decided =
-                        (possibly(ri, offset.z) == sure[0]) & (possibly(rj, -offset.z) == sure[1]);
-                    self.undecided[open] = [i as u32, j];
-                    open += usize::from(!decided);
-                    below += u32::from(decided & sure[0]);
-                    self.shielding[j as usize] += u32::from(decided & sure[1]);
+        self.shielding.clear();
+        self.shielding.resize(bodies.len(), 0);
+        let glance = &mut *self.glance;
+        let blocks = list
+            .owner()
+            .chunks(BLOCK)
+            .zip(list.neighbour().chunks(BLOCK));
+        for (first, (owners, partners)) in (0..).step_by(BLOCK).zip(blocks) {
+            glance.index[0][..owners.len()].copy_from_slice(owners);
+            glance.index[1][..owners.len()].copy_from_slice(partners);
+            glance.gather(simd, bodies);
+            glance.classify(self.margin);
+            // A pair is always written, and kept only if it belongs there.
+            make_room(&mut self.pairs, near);
+            make_room(&mut self.undecided, open);
+            let (pairs, undecided) = (&mut self.pairs[near..], &mut self.undecided[open..]);
+            let (mut kept, mut left) = (0, 0);
+            for (k, (&i, &j)) in owners.iter().zip(partners).enumerate() {
+                let facts = glance.facts[k];
+                let entry = first + k as u32;
+                pairs[kept] = NearPair { i, j, entry };
+                undecided[left] = [i, j];
+                kept += (facts & NEAR) as usize;
+                left += (facts / UNDECIDED & 1) as usize;
+                self.shielding[i as usize] += (facts / SHIELDS_FIRST & 1) as u32;
+                self.shielding[j as usize] += (facts / SHIELDS_SECOND & 1) as u32;
+                if facts & NEAR == 0 {
+                    forget(entry);
                 }
             }
-            if SHIELD {
-                self.shielding[i] += below;
-            }
+            near += kept;
+            open += left;
         }
-        self.pairs.truncate(near);
+        self.pairs.truncate(if self.contacts { near } else { 0 });
+        // Whole blocks, filled up with a sphere that does not shield itself.
         self.undecided.truncate(open);
+        let blocks = if self.shield { open.div_ceil(BLOCK) } else { 0 };
+        self.undecided.resize(blocks * BLOCK, [0; 2]);
         self.anchor.drop(particles);
         self.half_diagonal = list.half_diagonal;
     }
 
     /// Counts the spheres that shield each one at the present positions.
     #[inline(always)]
-    pub fn count_shielding(&self, particles: &Particles, shielding: &mut [u32]) {
-        let (position, radius) = (&particles.position[..], &particles.radius[..]);
+    pub(in crate::dem) fn count_shielding<S: Simd>(
+        &mut self,
+        simd: S,
+        bodies: &[Body],
+        shielding: &mut [u32],
+    ) {
         shielding.copy_from_slice(&self.shielding);
-        for &[i, j] in &self.undecided {
-            let (i, j) = (i as usize, j as usize);
-            let offset = position[i] - position[j];
-            let (dx, dy) = (offset.x.abs(), offset.y.abs());
-            let within = |diameter: f64| (dx < diameter) & (dy < diameter);
-            shielding[i] += u32::from(within(2.0 * radius[i]) & (offset.z > 0.0));
-            shielding[j] += u32::from(within(2.0 * radius[j]) & (offset.z < 0.0));
+        let glance = &mut *self.glance;
+        for pairs in self.undecided.chunks_exact(BLOCK) {
+            for k in 0..BLOCK {
+                [glance.index[0][k], glance.index[1][k]] = pairs[k];
+            }
+            glance.gather(simd, bodies);
+            glance.look();
+            for k in 0..BLOCK {
+                let [i, j] = pairs[k];
+                shielding[i as usize] += (glance.facts[k] / SHIELDS_FIRST & 1) as u32;
+                shielding[j as usize] += (glance.facts[k] / SHIELDS_SECOND & 1) as u32;
+            }
         }
     }
+}
+
+/// Makes sure that a block can be written from there on.
+#[inline(always)]
+fn make_room<P: Copy + Default>(list: &mut Vec<P>, from: usize) {
+    if list.len() < from + BLOCK + 1 {
+        list.resize(2 * from + BLOCK + 1, P::default());
+    }
+}
+
+/// What may be true of a pair: near enough to touch,
+const NEAR: u64 = 1;
+/// its part in the shield may change,
+const UNDECIDED: u64 = 2;
+/// the second sphere shields the first,
+const SHIELDS_FIRST: u64 = 4;
+/// or the first the second.
+const SHIELDS_SECOND: u64 = 8;
+
+/// A block of pairs to look at.
+struct Glance {
+    index: [[u32; BLOCK]; 2],
+    place: [Columns; 2],
+    facts: [u64; BLOCK],
+}
+
+impl Glance {
+    fn new() -> Self {
+        Self {
+            index: [[0; BLOCK]; 2],
+            place: [Columns::ZERO, Columns::ZERO],
+            facts: [0; BLOCK],
+        }
+    }
+
+    #[inline(always)]
+    fn gather<S: Simd>(&mut self, simd: S, bodies: &[Body]) {
+        for side in 0..2 {
+            self.place[side].gather(
+                simd,
+                &self.index[side],
+                #[inline(always)]
+                |i| bodies[i].place,
+            );
+        }
+    }
+
+    /// What is certain while offsets change by less than the margin (m).
+    #[inline(always)]
+    fn classify(&mut self, margin: f64) {
+        let [[xi, yi, zi, ri], [xj, yj, zj, rj]] = [&self.place[0].0, &self.place[1].0];
+        for k in 0..BLOCK {
+            let (dx, dy, dz) = (xi[k] - xj[k], yi[k] - yj[k], zi[k] - zj[k]);
+            let reach = ri[k] + rj[k] + margin;
+            let near = dx * dx + dy * dy + dz * dz < reach * reach;
+            let (dx, dy) = (dx.abs(), dy.abs());
+            let within = |r: f64, depth: f64, margin: f64| {
+                let reach = 2.0 * r + margin;
+                (dx < reach) & (dy < reach) & (depth > -margin)
+            };
+            let first = within(ri[k], dz, -margin);
+            let second = within(rj[k], -dz, -margin);
+            let decided =
+                (first == within(ri[k], dz, margin)) & (second == within(rj[k], -dz, margin));
+            self.facts[k] = bit(near, NEAR)
+                | bit(!decided, UNDECIDED)
+                | bit(decided & first, SHIELDS_FIRST)
+                | bit(decided & second, SHIELDS_SECOND);
+        }
+    }
+
+    /// What is so now.
+    #[inline(always)]
+    fn look(&mut self) {
+        let [[xi, yi, zi, ri], [xj, yj, zj, rj]] = [&self.place[0].0, &self.place[1].0];
+        for k in 0..BLOCK {
+            let dz = zi[k] - zj[k];
+            let (dx, dy) = ((xi[k] - xj[k]).abs(), (yi[k] - yj[k]).abs());
+            let within = |diameter: f64| (dx < diameter) & (dy < diameter);
+            self.facts[k] = bit(within(2.0 * ri[k]) & (dz > 0.0), SHIELDS_FIRST)
+                | bit(within(2.0 * rj[k]) & (dz < 0.0), SHIELDS_SECOND);
+        }
+    }
+}
+
+#[inline(always)]
+fn bit(fact: bool, bit: u64) -> u64 {
+    if fact { bit } else { 0 }
 }

@@ -5,8 +5,8 @@
 //! gets a force of zero. Then the forces are added up one by one in the order of the list. Adding
 //! zero to a sum that began at +0 changes no bit of it.
 
-use super::block::{BLOCK, Body, Column, Columns, Load, Row};
 use super::System;
+use crate::dem::block::{BLOCK, Body, Column, Columns, Load, Row};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{TangentialLaw, Touch};
 use crate::dem::neighbours::NearPair;
@@ -276,35 +276,24 @@ fn store(columns: &mut Columns, k: usize, touches: bool, vector: Vector) {
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Copies the state of the spheres into the order of memory that contacts read best.
+    /// Copies the state of the spheres into rows; radius, mass and inertia are there already.
     #[inline(always)]
     pub(super) fn gather(&mut self) {
         let Particles {
             position,
             velocity,
-            radius,
-            mass,
             spin,
-            inertia,
             ..
         } = &self.parts.particles;
-        self.bodies.clear();
-        self.bodies.extend(
-            position
-                .iter()
-                .zip(velocity)
-                .zip(radius.iter().zip(mass))
-                .map(|((x, v), (&radius, &mass))| Body {
-                    place: [x.x, x.y, x.z, radius],
-                    motion: [v.x, v.y, v.z, mass],
-                    ..Body::default()
-                }),
-        );
-        for ((body, &spin), &inertia) in self.bodies.iter_mut().zip(spin).zip(inertia) {
-            body.turning = [spin.x, spin.y, spin.z, inertia];
+        let motion = position.iter().zip(velocity);
+        for (body, (x, v)) in self.bodies.iter_mut().zip(motion) {
+            body.place[..3].copy_from_slice(&[x.x, x.y, x.z]);
+            body.motion[..3].copy_from_slice(&[v.x, v.y, v.z]);
         }
-        self.loads.clear();
-        self.loads.resize(self.bodies.len(), Load::default());
+        for (body, spin) in self.bodies.iter_mut().zip(spin) {
+            body.turning[..3].copy_from_slice(&[spin.x, spin.y, spin.z]);
+        }
+        self.loads.fill(Load::default());
     }
 
     /// Copies forces and torques of the contacts back to the spheres.

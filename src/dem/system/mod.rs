@@ -1,11 +1,10 @@
 //! A simulation compiled for its contact laws.
 
-mod block;
 mod contacts;
 mod integrate;
 
-use self::block::{Body, Load};
 use self::contacts::PairBlock;
+use super::block::{Body, Load};
 use super::contact::NormalLaw;
 use super::effects::Effect;
 use super::friction::TangentialLaw;
@@ -101,14 +100,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         };
         let histories =
             |present: bool| vec![T::History::default(); if present { count } else { 0 }];
+        let interact = N::ACTS || parts.shielded;
         Self {
-            list: (N::ACTS || parts.shielded).then(|| VerletList::new(reach, parts.skin)),
+            list: interact.then(|| VerletList::new(reach, parts.skin)),
             stale: true,
-            near: Near::new(0.3 * parts.skin),
+            near: Near::new(N::ACTS, parts.shielded, 0.3 * parts.skin),
             age: 0,
             near_age: 0,
-            bodies: Vec::new(),
-            loads: Vec::new(),
+            bodies: if interact {
+                bodies_of(&parts.particles)
+            } else {
+                Vec::new()
+            },
+            loads: vec![Load::default(); if interact { count } else { 0 }],
             block: Box::new(PairBlock::new()),
             shielding: vec![0; if parts.shielded { count } else { 0 }],
             near_floor: Vec::new(),
@@ -128,11 +132,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Evaluates all forces and torques at the present positions and velocities.
     #[inline(always)]
     fn evaluate<S: Simd>(&mut self, simd: S) -> Result<(), Instability> {
-        if self.stale {
-            self.refresh()?;
-        }
         if self.list.is_some() {
             self.gather();
+        }
+        if self.stale {
+            self.refresh(simd)?;
+        }
+        if self.list.is_some() {
             self.pair_forces(simd);
             if let (true, Some(floor)) = (N::ACTS, self.parts.floor) {
                 let near = std::mem::take(&mut self.near_floor);
@@ -149,7 +155,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.scatter();
             if self.parts.shielded {
                 self.near
-                    .count_shielding(&self.parts.particles, &mut self.shielding);
+                    .count_shielding(simd, &self.bodies, &mut self.shielding);
             }
         } else {
             self.parts.particles.force.fill(Vector::ZERO);
@@ -170,12 +176,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Looks for near pairs anew, in a list that holds until they must be looked for again.
-    fn refresh(&mut self) -> Result<(), Instability> {
+    #[inline(always)]
+    fn refresh<S: Simd>(&mut self, simd: S) -> Result<(), Instability> {
         let Some(list) = &self.list else {
             return self.rebuild();
         };
-        let steps = std::mem::take(&mut self.near_age);
-        self.near.adapt(steps, list.skin());
+        self.near.adapt(self.near_age, list.skin());
+        self.near_age = 0;
         let time = self.age as f64 * self.parts.dt;
         if !list.holds(&self.parts.particles, time, self.near.margin()) {
             self.rebuild()?;
@@ -189,11 +196,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     history[entry as usize] = T::History::default();
                 }
             };
-            match (N::ACTS, self.parts.shielded) {
-                (true, true) => near.refresh::<true, true>(list, particles, forget),
-                (true, false) => near.refresh::<true, false>(list, particles, forget),
-                (false, _) => near.refresh::<false, true>(list, particles, forget),
-            }
+            near.refresh::<S>(simd, list, particles, &self.bodies, forget);
             let margin = near.margin();
             if let Some(wall) = self.parts.floor {
                 let (near, history) = (&mut self.near_floor, &mut self.floor_history);
@@ -208,6 +211,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Builds the list anew, after making sure that every sphere is somewhere.
+    #[inline(always)]
     fn rebuild(&mut self) -> Result<(), Instability> {
         let Parts {
             particles,
@@ -217,10 +221,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         } = &self.parts;
         limits.check_positions(particles, self.step, *dt)?;
         self.stale = false;
-        self.age = 0;
+        let age = std::mem::take(&mut self.age);
         let Some(list) = &mut self.list else {
             return Ok(());
         };
+        list.adapt(age);
         if !Self::REMEMBERS {
             list.build(particles);
             self.pair_history
@@ -306,8 +311,16 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
     /// the motion do not depend on when the list is built.
     fn contacts(&mut self) -> Contacts {
         let mut contacts = Contacts::default();
-        if !N::ACTS || (self.stale && self.refresh().is_err()) {
+        if !N::ACTS {
             return contacts;
+        }
+        if self.stale {
+            self.gather();
+            let level = self.level;
+            let refreshed = fearless_simd::dispatch!(level, simd => self.refresh(simd));
+            if refreshed.is_err() {
+                return contacts;
+            }
         }
         let Particles {
             position,
@@ -346,6 +359,17 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         contacts.elastic_energy = energy;
         contacts
     }
+}
+
+/// Spheres in rows.
+fn bodies_of(particles: &Particles) -> Vec<Body> {
+    let inertia = |i: usize| particles.inertia.get(i).copied().unwrap_or(0.0);
+    let body = |i: usize| Body {
+        place: [0.0, 0.0, 0.0, particles.radius[i]],
+        motion: [0.0, 0.0, 0.0, particles.mass[i]],
+        turning: [0.0, 0.0, 0.0, inertia(i)],
+    };
+    (0..particles.len()).map(body).collect()
 }
 
 /// Finds the spheres near a wall, and forgets the histories of the others.

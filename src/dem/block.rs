@@ -8,46 +8,46 @@
 use fearless_simd::{Simd, SimdBase, SimdInto, f64x4};
 
 /// Pairs in a block.
-pub(super) const BLOCK: usize = 32;
+pub(in crate::dem) const BLOCK: usize = 32;
 
 /// Four numbers side by side.
-pub(super) type Row = [f64; 4];
+pub(in crate::dem) type Row = [f64; 4];
 
 /// One quantity of every pair in a block.
-pub(super) type Column = [f64; BLOCK];
+pub(in crate::dem) type Column = [f64; BLOCK];
 
 /// What a contact needs to know of a sphere.
 #[derive(Clone, Copy, Default)]
 #[repr(align(32))]
-pub(super) struct Body {
+pub(in crate::dem) struct Body {
     /// Centre (m) and radius (m).
-    pub(super) place: Row,
+    pub(in crate::dem) place: Row,
     /// Velocity (m/s) and mass (kg).
-    pub(super) motion: Row,
+    pub(in crate::dem) motion: Row,
     /// Spin (rad/s) and moment of inertia (kg m2).
-    pub(super) turning: Row,
+    pub(in crate::dem) turning: Row,
 }
 
 /// What contacts add to a sphere; the fourth numbers are zero.
 #[derive(Clone, Copy, Default)]
 #[repr(align(32))]
-pub(super) struct Load {
+pub(in crate::dem) struct Load {
     /// Force (N).
-    pub(super) force: Row,
+    pub(in crate::dem) force: Row,
     /// Torque (N m).
-    pub(super) torque: Row,
+    pub(in crate::dem) torque: Row,
 }
 
 /// The columns of one kind of row.
 #[repr(align(64))]
-pub(super) struct Columns(pub(super) [Column; 4]);
+pub(in crate::dem) struct Columns(pub(in crate::dem) [Column; 4]);
 
 impl Columns {
-    pub(super) const ZERO: Self = Self([[0.0; BLOCK]; 4]);
+    pub(in crate::dem) const ZERO: Self = Self([[0.0; BLOCK]; 4]);
 
     /// Fills the columns with the rows of `index.len()` spheres.
     #[inline(always)]
-    pub(super) fn gather<S: Simd>(
+    pub(in crate::dem) fn gather<S: Simd>(
         &mut self,
         simd: S,
         index: &[u32; BLOCK],
@@ -71,7 +71,7 @@ impl Columns {
 
     /// The four rows from `at` on.
     #[inline(always)]
-    pub(super) fn rows<S: Simd>(&self, simd: S, at: usize) -> [f64x4<S>; 4] {
+    pub(in crate::dem) fn rows<S: Simd>(&self, simd: S, at: usize) -> [f64x4<S>; 4] {
         let [a, b, c, d] = &self.0;
         transpose([
             f64x4::from_slice(simd, &a[at..at + 4]),
