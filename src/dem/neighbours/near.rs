@@ -89,6 +89,8 @@ impl Near {
     pub fn remove_spheres(&mut self, keep: &[bool]) {
         self.anchor.remove_spheres(keep);
         self.pairs.clear();
+        // Lanes without a pair repeat one of the past, whose spheres may be gone.
+        self.glance.index = [[0; BLOCK]; 2];
     }
 
     /// The displacements that the list allows `time` (s) after its refresh.

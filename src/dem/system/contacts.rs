@@ -46,6 +46,11 @@ impl<H: Copy + Default> PairBlock<H> {
         }
     }
 
+    /// Forgets the pairs of the past, which lanes without a pair repeat.
+    pub(super) fn forget(&mut self) {
+        self.index = [[0; BLOCK]; 2];
+    }
+
     #[inline(always)]
     fn vector(columns: &Columns, k: usize) -> Vector {
         let [x, y, z, _] = &columns.0;

@@ -210,6 +210,16 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Ok(())
     }
 
+    /// Fits everything that has an entry per sphere to the spheres that there are now.
+    fn renumber(&mut self) {
+        if self.list.is_some() {
+            self.bodies = bodies_of(&self.parts.particles);
+            self.loads.clear();
+            self.loads.resize(self.bodies.len(), Load::default());
+        }
+        self.stale = true;
+    }
+
     /// Builds the list anew, after making sure that every sphere is somewhere.
     #[inline(always)]
     fn rebuild(&mut self) -> Result<(), Instability> {
@@ -292,7 +302,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         }
         self.list.iter_mut().for_each(VerletList::add_sphere);
         self.near.add_sphere(sphere.position);
-        self.stale = true;
+        self.renumber();
     }
 
     fn retain(&mut self, keep: &[bool]) {
@@ -304,7 +314,8 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
             retain(&mut self.pair_history, &list.remove_spheres(keep));
         }
         self.near.remove_spheres(keep);
-        self.stale = true;
+        self.block.forget();
+        self.renumber();
     }
 
     /// Reads positions alone, and builds the list at most earlier than a step would: bits of
