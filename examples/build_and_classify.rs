@@ -6,7 +6,7 @@
 
 use phase::classify::{Sieves, classify};
 use phase::scene::{
-    Contact, Drag, DragForm, DragLaw, Gravity, Integrator, Radii, Scene, Spheres, Start, Swirl,
+    Contact, Drag, DragForm, DragLaw, Gravity, Integrator, Radii, Scene, Shape, Spheres, Start, Swirl,
     Tank, Time,
 };
 use phase::{run, store};

@@ -15,6 +15,17 @@ pub enum ReplayError {
          spheres.radius as one number, or as a file with one radius per sphere"
     )]
     Radii(usize),
+    /// The spheres are not those of the scene.
+    #[error(
+        "it has {found} spheres, but spheres.count of the scene is {expected}; give the scene that \
+         was run"
+    )]
+    Count {
+        /// Spheres of the dump.
+        found: usize,
+        /// Spheres of the scene.
+        expected: usize,
+    },
     /// The frames are not those of the scene.
     #[error(
         "it has {found} frames, but time.duration and time.frame_interval of the scene make \
@@ -52,6 +63,12 @@ pub fn replay(dump: &Array3<f64>, scene: &Scene) -> Result<RunRecord, ReplayErro
     let expected = frames as usize + 1;
     if found != expected && found + 1 != expected {
         return Err(ReplayError::Frames { found, expected });
+    }
+    if count != scene.spheres.count {
+        return Err(ReplayError::Count {
+            found: count,
+            expected: scene.spheres.count,
+        });
     }
     let radius = radii(scene, count)?;
     let Spheres { shape, density, .. } = scene.spheres;

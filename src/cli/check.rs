@@ -2,7 +2,7 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
-use super::{classify, format, job};
+use super::{classify, format, job, kind};
 use phase::classify::Sieves;
 use phase::dem::timestep::{self, Limit};
 use phase::scene::{Friction, Scene};
@@ -35,7 +35,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
-    let is_sweep = is_sweep(&arguments.file);
+    let is_sweep = kind::is_sweep(&arguments.file);
     let sweep = if is_sweep {
         phase::sweep::load(&arguments.file).map_err(Failure::refused)?
     } else {
@@ -78,16 +78,6 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         forecast: forecast.map(|forecast| ForecastAnswer::new(&forecast, workers)),
     })?;
     Ok(Exit::Done)
-}
-
-/// Whether a file is a sweep rather than a scene, which shows in its keys. What cannot be read is
-/// left to the loader to complain of.
-fn is_sweep(file: &Path) -> bool {
-    let text = std::fs::read_to_string(file).unwrap_or_default();
-    let table: toml::Table = toml::from_str(&text).unwrap_or_default();
-    ["axis", "scene", "sieves", "plot", "seeds"]
-        .iter()
-        .any(|key| table.contains_key(*key))
 }
 
 /// The sweep of just one scene.

@@ -5,15 +5,16 @@ mod dumps;
 
 use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
-use super::format;
+use super::{format, kind};
 use phase::classify::{Label, Sieves};
 use phase::scene::Scene;
 use phase::store;
 use phase::sweep::{
-    Folder, Job, LabelTable, Labelling, PlotSettings, Sweep, changes, differing_keys, work,
+    Folder, Job, LabelRow, LabelTable, Labelling, PlotSettings, Sweep, changes, differing_keys,
+    irreplaceable, work,
 };
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::path::{Path, PathBuf};
 
 /// Label the runs of a results folder from their records, without any new simulation.
@@ -52,7 +53,7 @@ pub(crate) struct Arguments {
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
     let edited = match &arguments.sweep {
-        Some(file) => Some(phase::sweep::load(file).map_err(Failure::refused)?),
+        Some(file) => Some(kind::load_sweep(file)?),
         None => None,
     };
     let folders = match &arguments.scene {
@@ -163,6 +164,8 @@ pub(super) struct Summary {
     pub(super) problems: Vec<String>,
     /// Labels other than before; none if there were no labels before.
     changes: Option<Vec<Change>>,
+    /// Runs that had no label before; none if there were no labels before.
+    new: Option<usize>,
 }
 
 /// Labels that changed.
@@ -190,7 +193,32 @@ pub(super) fn label_folder(
             format::count(jobs.len(), "job")
         ));
     }
+    let kept = labelling.table.rows.iter().map(|row| row.id.as_str());
+    refuse_to_lose_labels(folder, kept)?;
     write_tables(labelling, folder, console)
+}
+
+/// Refuses to replace a table of labels that cannot be made again, as of results that were published
+/// without their records. The new table has the runs that are `kept`.
+pub(super) fn refuse_to_lose_labels<'a>(
+    folder: &Folder,
+    kept: impl IntoIterator<Item = &'a str>,
+) -> Result<(), Failure> {
+    let path = folder.labels();
+    // What cannot be read is nothing to keep.
+    let Ok(table) = store::read_labels(&path) else {
+        return Ok(());
+    };
+    match irreplaceable(&table, folder, kept) {
+        0 => Ok(()),
+        lost => Err(Failure::refused(format_args!(
+            "{}: the records of {lost} of its {} labels are not in {}, so that these labels would \
+             be lost; bring the records back, use another folder, or remove the table first",
+            path.display(),
+            table.rows.len(),
+            folder.records().display()
+        ))),
+    }
 }
 
 /// Writes labels.csv and points.csv of a folder and prints what they say.
@@ -212,9 +240,10 @@ fn write_tables(
     store::write_points(&table, &folder.points()).map_err(Failure::failed)?;
     let labels = counts(&table);
     console.result(describe_counts(&labels, table.rows.len()))?;
+    let new = before.as_ref().map(|before| new_rows(before, &table));
     let changes = before.map(|before| changes_since(&before, &table));
-    if let Some(changes) = &changes {
-        console.result(describe_changes(changes, table.rows.len()))?;
+    if let (Some(changes), Some(new)) = (&changes, new) {
+        console.result(describe_changes(changes, table.rows.len() - new, new))?;
     }
     console.file(&folder.labels())?;
     console.file(&folder.points())?;
@@ -228,6 +257,7 @@ fn write_tables(
         not_run: missing,
         problems,
         changes,
+        new,
     };
     Ok(Labelled { table, summary })
 }
@@ -278,10 +308,21 @@ fn changes_since(before: &LabelTable, after: &LabelTable) -> Vec<Change> {
         .collect()
 }
 
-/// How many labels changed, and from what to what.
-fn describe_changes(changes: &[Change], runs: usize) -> String {
+/// How many rows are of runs that had none before.
+fn new_rows(before: &LabelTable, after: &LabelTable) -> usize {
+    let known: HashSet<&str> = before.rows.iter().map(|row| row.id.as_str()).collect();
+    let is_new = |row: &&LabelRow| !known.contains(row.id.as_str());
+    after.rows.iter().filter(is_new).count()
+}
+
+/// How many labels of the runs that had one changed, and from what to what; and how many runs had
+/// none.
+fn describe_changes(changes: &[Change], runs: usize, new: usize) -> String {
     let changed: usize = changes.iter().map(|change| change.runs).sum();
     let mut text = format!("{changed} of {} changed", format::count(runs, "label"));
+    if new > 0 {
+        text += &format!(", {new} new");
+    }
     for Change { from, to, runs } in changes {
         let arrow = format!("{from} -> {to}");
         text += &format!("\n  {arrow:<26} {runs:>6}");

@@ -63,6 +63,16 @@ enum Format {
 }
 
 impl Format {
+    /// What the file that stands for the whole is, and what it begins with, if that is always so.
+    fn signature(self) -> (&'static str, &'static [u8]) {
+        match self {
+            Self::Xyz | Self::Npy => ("", b""),
+            Self::Vtk => ("a ParaView series", b"<?xml"),
+            Self::Csv => ("a table of spheres", store::SPHERES_SIGNATURE),
+            Self::Dump => ("a dump", b"\x93NUMPY"),
+        }
+    }
+
     /// Extension of the file that stands for the whole.
     fn extension(self) -> &'static str {
         match self {
@@ -81,12 +91,34 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             "a dump holds every frame, as the sieves need them: leave out --every",
         ));
     }
-    let mut written: HashMap<PathBuf, &Path> = HashMap::new();
-    for path in &arguments.records {
+    let targets = targets(arguments)?;
+    for (path, target) in arguments.records.iter().zip(&targets) {
         let record = store::read_record(path).map_err(Failure::failed)?;
+        export(&record, path, target, arguments, console)?;
+    }
+    console.answer_files()?;
+    Ok(Exit::Done)
+}
+
+/// Where every record goes. Refuses before anything is written what cannot go well.
+fn targets(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
+    let extension = arguments.to.extension();
+    if let Some(out) = arguments.out.as_ref().filter(|out| !out.is_dir())
+        && out.extension().is_some_and(|it| it != extension)
+    {
+        return Err(Failure::refused(format_args!(
+            "{}: give a folder, or of a single record a file that ends in .{extension}",
+            out.display()
+        )));
+    }
+    let mut written: HashMap<PathBuf, &Path> = HashMap::new();
+    let mut targets = Vec::new();
+    for path in &arguments.records {
+        // The name of a dump says what the record holds.
+        let record = store::read_record(path).map_err(Failure::refused)?;
         let target = target(arguments, path, &record);
         if let Some(other) = written.insert(target.clone(), path) {
-            return Err(Failure::failed(format_args!(
+            return Err(Failure::refused(format_args!(
                 "{} and {} would both be written to {}; export them one by one, each to its own \
                  --out",
                 other.display(),
@@ -94,10 +126,13 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
                 target.display()
             )));
         }
-        export(&record, path, &target, arguments, console)?;
+        let (kind, signature) = arguments.to.signature();
+        if target.exists() && !signature.is_empty() {
+            folders::refuse_to_replace(&target, kind, signature)?;
+        }
+        targets.push(target);
     }
-    console.answer_files()?;
-    Ok(Exit::Done)
+    Ok(targets)
 }
 
 /// Where an export goes: the file that stands for it, or the folder of its arrays.
@@ -148,6 +183,12 @@ fn export(
         console.note(
             "a dump of snapshots cannot be classified, which takes every frame: run it again with \
              `phase run --trajectory`",
+        );
+    }
+    if arguments.to == Format::Dump && record.radius.iter().any(|it| *it != record.radius[0]) {
+        console.note(
+            "the name of a dump says one radius, here the mean: `phase classify --scene` needs a \
+             scene that lists the radius of each sphere",
         );
     }
     folders::make_for(target)?;

@@ -1,12 +1,38 @@
 //! Folders for what commands write.
 
 use super::exit::Failure;
+use phase::store;
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 /// Makes a folder and those above it, unless they are there.
 pub(super) fn make(folder: &Path) -> Result<(), Failure> {
-    std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::failed(format_args!("{}: {error}", folder.display())))
+    std::fs::create_dir_all(folder).map_err(|error| {
+        Failure::failed(format_args!(
+            "{}: {error}{}",
+            folder.display(),
+            store::advice(&error)
+        ))
+    })
+}
+
+/// Refuses to write over a file that does not begin with `signature`: it is something other than
+/// `kind`, which the command would write there.
+pub(super) fn refuse_to_replace(path: &Path, kind: &str, signature: &[u8]) -> Result<(), Failure> {
+    let Ok(mut file) = File::open(path) else {
+        return Ok(());
+    };
+    let mut start = vec![0; signature.len()];
+    let is_file = file.metadata().is_ok_and(|data| data.is_file());
+    let is_empty = file.metadata().is_ok_and(|data| data.len() == 0);
+    if is_file && (is_empty || file.read_exact(&mut start).is_ok() && start == signature) {
+        return Ok(());
+    }
+    Err(Failure::refused(format_args!(
+        "{}: this is not {kind}, and would be lost; choose another name with --out",
+        path.display()
+    )))
 }
 
 /// Makes the folder of a file.

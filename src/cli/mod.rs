@@ -10,6 +10,7 @@ mod folders;
 mod format;
 mod interrupt;
 mod job;
+mod kind;
 mod man;
 mod new;
 mod plot;

@@ -177,7 +177,7 @@ fn draw(
     let source = plot::Source {
         sweep,
         table,
-        record: &|id| store::read_record(&folder.record(id)),
+        record: &|id| folder.read_record(id),
         points,
         program: &Program::current(),
     };

@@ -5,7 +5,7 @@ mod again;
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::progress::{Progress, Work};
-use super::{folders, format, interrupt};
+use super::{folders, format, interrupt, kind};
 use again::Original;
 use phase::document::Problem;
 use phase::record::{Outcome, RunRecord};
@@ -62,7 +62,7 @@ pub(crate) struct Arguments {
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let (mut scene, default_path, original) = match (&arguments.scene, &arguments.from) {
         (Some(file), _) => {
-            let mut scene = phase::scene::load(file).map_err(Failure::refused)?;
+            let mut scene = kind::load_scene(file)?;
             scene.seed = arguments.seed.unwrap_or(scene.seed);
             (scene, default_record(file), None)
         }
@@ -80,6 +80,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if let Some(original) = &original {
         original.refuse_to_replace(&path)?;
     }
+    folders::refuse_to_replace(&path, "a record", store::HDF5_SIGNATURE)?;
     folders::make_for(&path)?;
     let Some((record, seconds)) = run(&scene, console)? else {
         console.note("interrupted; nothing was stored");

@@ -4,14 +4,14 @@ use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
 use super::job::NamedJob;
 use super::progress::{Progress, Work};
-use super::{classify, format, interrupt, plot};
+use super::{classify, format, interrupt, kind, plot};
 use phase::record::Outcome;
 use phase::sweep::{
     Event, Failure as JobFailure, Folder, FolderError, Job, Plan, Pool, PoolError, Report,
     Standing, Sweep, describe, differing_keys, work,
 };
 use serde::Serialize;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -63,9 +63,9 @@ pub(super) fn at_least_one(text: &str) -> Result<usize, String> {
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    let mut sweep = phase::sweep::load(&arguments.file).map_err(Failure::refused)?;
+    let mut sweep = kind::load_sweep(&arguments.file)?;
     if !arguments.seed.is_empty() {
-        sweep.seeds.clone_from(&arguments.seed);
+        sweep.seeds = distinct(&arguments.seed)?;
     }
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
     let jobs = sweep.jobs().map_err(Failure::refused)?;
@@ -85,6 +85,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         FolderError::Locked(_) => Failure::refused(error),
         _ => Failure::failed(error),
     })?;
+    if !arguments.force && !arguments.no_classify {
+        classify::refuse_to_lose_labels(&folder, jobs.iter().map(|job| job.id.as_str()))?;
+    }
     tell_of_other_sweep(&folder, &sweep, console);
     let plan = if arguments.force {
         Plan::afresh(jobs.clone())
@@ -120,6 +123,17 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     answer.files = console.files();
     console.answer(&answer)?;
     Ok(if failed { Exit::Failed } else { Exit::Done })
+}
+
+/// Seeds, each of which is there once.
+fn distinct(seeds: &[u64]) -> Result<Vec<u64>, Failure> {
+    let mut seen = HashSet::new();
+    match seeds.iter().find(|seed| !seen.insert(**seed)) {
+        None => Ok(seeds.to_vec()),
+        Some(seed) => Err(Failure::refused(format_args!(
+            "--seed {seed} is there twice, and would count its runs twice; give it once"
+        ))),
+    }
 }
 
 /// `results/<stem of the sweep file>`.

@@ -82,8 +82,8 @@ impl Columns {
     }
 }
 
-/// Rows as columns: the closures of array methods would be calls to functions without vectors, so
-/// everything is spelled out.
+/// Rows as columns. Spelled out, as closures given to array methods would be calls of functions that
+/// are compiled without these vectors.
 #[inline(always)]
 fn transpose<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
     let (ac, bd) = (a.interleave(c), b.interleave(d));

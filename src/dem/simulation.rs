@@ -8,9 +8,9 @@ use super::particles::{Particles, Sphere};
 use super::process::{Feed, Process};
 use super::start::{self, StartError};
 use super::system::{Engine, Parts, System};
+use super::vector::Vector;
 use super::walls::{Cylinder, Floor};
 use super::{effects, timestep};
-use super::vector::Vector;
 use crate::observe::{Flow, FrameView};
 use crate::record::{Instability, Milestone};
 use crate::scene::{Contact, Friction, Scene, Start};
@@ -26,9 +26,12 @@ pub enum BuildError {
     FrictionWithoutContact,
 }
 
-/// Skin of the neighbour list, in radii of the largest sphere: where lists are long-lived and not
-/// yet long.
-const SKIN: f64 = 1.0;
+/// First skin of a neighbour list for contacts, in radii of the largest sphere: where lists are
+/// long-lived and not yet long.
+const CONTACT_SKIN: f64 = 0.5;
+
+/// The same with the columns of an updraught's shield, whose list grows less with its skin.
+const COLUMN_SKIN: f64 = 1.0;
 
 /// A running simulation.
 pub struct Simulation {
@@ -48,11 +51,15 @@ impl Simulation {
     /// # Errors
     /// If the spheres cannot be placed, or laws do not fit together.
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
-        Self::with_skin(scene, SKIN)
+        let skin = match scene.updraught {
+            None => CONTACT_SKIN,
+            Some(_) => COLUMN_SKIN,
+        };
+        Self::with_skin(scene, skin)
     }
 
-    /// The same with another skin of the neighbour list, in radii of the largest sphere: 0 builds
-    /// it at every step, a large one lists all pairs. Nothing but the speed depends on it: a
+    /// The same with another first skin of the neighbour list, in radii of the largest sphere: 0
+    /// builds it at every step, a large one lists all pairs. Nothing but the speed depends on it: a
     /// test compares the bits.
     ///
     /// # Errors
@@ -74,7 +81,9 @@ impl Simulation {
         let process = Process::of_scene(scene, feed);
         if process.is_some() {
             let moving = particles.len() - particles.fixed;
-            particles.number = (0..particles.fixed as u32).chain(0..moving as u32).collect();
+            particles.number = (0..particles.fixed as u32)
+                .chain(0..moving as u32)
+                .collect();
         }
         let tank = scene.tank.as_ref();
         let parts = Parts {
@@ -213,7 +222,10 @@ impl Simulation {
 
 /// The spheres of a scene that come in later.
 fn waiting(spheres: &Particles, scene: &Scene) -> Vec<Sphere> {
-    let gravity = scene.gravity.as_ref().map_or([0.0; 2], |it| it.components());
+    let gravity = scene
+        .gravity
+        .as_ref()
+        .map_or([0.0; 2], |it| it.components());
     let sphere = |i: usize| Sphere {
         number: i as u32,
         position: spheres.position[i],
@@ -234,28 +246,29 @@ fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
         normal: N,
         tangential: T,
         parts: Parts,
-    ) -> Result<Box<dyn Engine>, BuildError> {
-        Ok(Box::new(System::new(normal, tangential, parts)))
+    ) -> Box<dyn Engine> {
+        Box::new(System::new(normal, tangential, parts))
     }
     let dt = scene.time.dt;
-    match (&scene.contact, &scene.friction) {
-        (None, None) => boxed(NoContact, Frictionless, parts),
-        (
-            &Some(Contact::Hertz {
-                young_modulus,
-                poisson_ratio,
-                dissipation_factor,
-                ..
-            }),
-            friction,
-        ) => {
+    match scene.contact {
+        None => match scene.friction {
+            None => Ok(boxed(NoContact, Frictionless, parts)),
+            Some(_) => Err(BuildError::FrictionWithoutContact),
+        },
+        Some(Contact::Hertz {
+            young_modulus,
+            poisson_ratio,
+            dissipation_factor,
+            ..
+        }) => {
+            let dissipation_time = timestep::dissipation_time(scene);
             let normal = Hertz::new(
                 young_modulus,
                 poisson_ratio,
-                timestep::dissipation_time(scene),
+                dissipation_time,
                 dissipation_factor,
             );
-            match *friction {
+            Ok(match scene.friction {
                 None => boxed(normal, Frictionless, parts),
                 Some(Friction::Spin { coefficient }) => {
                     boxed(normal, SpinFriction::new(coefficient, dt), parts)
@@ -268,25 +281,26 @@ fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
                     let law = Mindlin::new(coefficient, young_modulus, poisson_ratio, dt);
                     boxed(normal, law, parts)
                 }
-            }
+            })
         }
-        (
-            &Some(Contact::Linear {
-                stiffness,
-                damping,
-                drag,
-            }),
-            friction @ (None | Some(Friction::Coulomb { .. })),
-        ) => {
+        Some(Contact::Linear {
+            stiffness,
+            damping,
+            drag,
+        }) => {
             let normal = Linear::new(stiffness, damping, drag);
-            match *friction {
+            match scene.friction {
+                None => Ok(boxed(normal, Frictionless, parts)),
                 Some(Friction::Coulomb {
                     coefficient,
                     regularisation,
-                }) => boxed(normal, Coulomb::new(coefficient, regularisation), parts),
-                _ => boxed(normal, Frictionless, parts),
+                }) => Ok(boxed(
+                    normal,
+                    Coulomb::new(coefficient, regularisation),
+                    parts,
+                )),
+                Some(_) => Err(BuildError::FrictionWithoutContact),
             }
         }
-        (None | Some(Contact::Linear { .. }), Some(_)) => Err(BuildError::FrictionWithoutContact),
     }
 }

@@ -66,14 +66,17 @@ pub(crate) struct Range {
 }
 
 impl Range {
-    /// Every finite number.
-    pub(crate) const ANY: Self = Self::between(f64::MIN, f64::MAX);
+    /// Every number that could be meant.
+    pub(crate) const ANY: Self = Self::between(-Self::HUGE, Self::HUGE);
     /// Above zero.
-    pub(crate) const POSITIVE: Self = Self::above(0.0, f64::MAX);
+    pub(crate) const POSITIVE: Self = Self::above(0.0, Self::HUGE);
     /// Zero or more.
-    pub(crate) const NOT_NEGATIVE: Self = Self::between(0.0, f64::MAX);
+    pub(crate) const NOT_NEGATIVE: Self = Self::between(0.0, Self::HUGE);
     /// From zero to one.
     pub(crate) const FRACTION: Self = Self::between(0.0, 1.0);
+
+    /// A number of this size is beyond anything that could be meant; no message speaks of it.
+    pub(crate) const HUGE: f64 = 1e30;
 
     /// From `low` to `high`, both allowed.
     pub(crate) const fn between(low: f64, high: f64) -> Self {
@@ -108,7 +111,7 @@ impl Range {
         } else {
             format!("above {}", number(self.low))
         };
-        match (self.low > f64::MIN, self.high < f64::MAX) {
+        match (self.low > -Self::HUGE, self.high < Self::HUGE) {
             (false, false) => "a number".to_owned(),
             (true, false) => format!("a number {low}"),
             (false, true) => format!("a number of at most {}", number(self.high)),
@@ -124,7 +127,6 @@ impl Kind {
             Self::Text => "a text in quotes".to_owned(),
             Self::Flag => "true or false".to_owned(),
             Self::Number(range) => range.words(),
-            Self::Whole(0) => "a whole number".to_owned(),
             Self::Whole(least) => format!("a whole number of at least {least}"),
             Self::Choice(words) => match words {
                 [word] => format!("\"{word}\""),
@@ -212,7 +214,10 @@ impl Kind {
                 }
             }
             (Self::Number(range), Value::Number(number)) => {
-                if !number.as_f64().is_some_and(|number| range.contains(number)) {
+                let number = number.as_f64().unwrap_or(f64::NAN);
+                if number.abs() > Range::HUGE {
+                    problems.push(misfit().help("no number may be beyond 1e30"));
+                } else if !range.contains(number) {
                     problems.push(misfit());
                 }
             }

@@ -68,7 +68,7 @@ fn shape(kind: &Kind, docs: Entry<'_>) -> Value {
 
 fn of_number(range: Range) -> Value {
     let mut schema = json!({ "type": "number" });
-    if range.low > f64::MIN {
+    if range.low > -Range::HUGE {
         let low = if range.low_allowed {
             "minimum"
         } else {
@@ -76,7 +76,7 @@ fn of_number(range: Range) -> Value {
         };
         schema[low] = json!(range.low);
     }
-    if range.high < f64::MAX {
+    if range.high < Range::HUGE {
         schema["maximum"] = json!(range.high);
     }
     schema

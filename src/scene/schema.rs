@@ -4,6 +4,12 @@
 
 use crate::document::schema::{Kind, Range, needed, optional};
 
+// Wider than any experiment, narrow enough that masses, energies and numbers of steps made of them
+// neither vanish nor overflow.
+const LENGTH: Kind = Kind::Number(Range::between(1e-9, 1e9));
+const PLACE: Kind = Kind::Number(Range::between(-1e9, 1e9));
+const DENSITY: Kind = Kind::Number(Range::between(1e-9, 1e15));
+const SECONDS: Kind = Kind::Number(Range::between(1e-15, 1e15));
 const NUMBER: Kind = Kind::Number(Range::ANY);
 const POSITIVE: Kind = Kind::Number(Range::POSITIVE);
 const NOT_NEGATIVE: Kind = Kind::Number(Range::NOT_NEGATIVE);
@@ -50,17 +56,17 @@ pub(crate) const SCENE: Kind = Kind::Table(&[
 const SPHERES: Kind = Kind::Table(&[
     needed("count", COUNT),
     needed("radius", RADII),
-    needed("density", POSITIVE),
+    needed("density", DENSITY),
     optional("shape", Kind::Choice(&["sphere", "disc"])),
 ]);
 
 const RADII: Kind = Kind::Either(&[
-    POSITIVE,
+    LENGTH,
     Kind::List(&Kind::Table(&[
-        needed("radius", POSITIVE),
+        needed("radius", LENGTH),
         needed("share", POSITIVE),
     ])),
-    Kind::List(&POSITIVE),
+    Kind::List(&LENGTH),
     Kind::Table(&[needed("file", Kind::Text)]),
 ]);
 
@@ -108,7 +114,7 @@ const FRICTION: Kind = Kind::Tagged(
     ],
 );
 
-const TANK: Kind = Kind::Table(&[optional("radius", POSITIVE), optional("floor", NUMBER)]);
+const TANK: Kind = Kind::Table(&[optional("radius", LENGTH), optional("floor", PLACE)]);
 
 const GEOMETRY: Kind = Kind::Tagged(
     "kind",
@@ -123,13 +129,13 @@ const GEOMETRY: Kind = Kind::Tagged(
         (
             "hopper",
             &[
-                needed("half_width", POSITIVE),
-                needed("top", NUMBER),
-                needed("foot", NUMBER),
+                needed("half_width", LENGTH),
+                needed("top", PLACE),
+                needed("foot", PLACE),
                 needed("slope", Kind::Number(Range::between(0.0, 1.5))),
-                needed("opening", POSITIVE),
-                needed("spacing", POSITIVE),
-                needed("radius", POSITIVE),
+                needed("opening", LENGTH),
+                needed("spacing", LENGTH),
+                needed("radius", LENGTH),
             ],
         ),
         (
@@ -142,10 +148,8 @@ const GEOMETRY: Kind = Kind::Tagged(
     ],
 );
 
-const FIXED_SPHERE: Kind = Kind::Table(&[
-    needed("position", Kind::Vector),
-    needed("radius", POSITIVE),
-]);
+const FIXED_SPHERE: Kind =
+    Kind::Table(&[needed("position", Kind::Vector), needed("radius", LENGTH)]);
 
 const START: Kind = Kind::Tagged(
     "kind",
@@ -153,8 +157,8 @@ const START: Kind = Kind::Tagged(
         (
             "random",
             &[
-                needed("z_min", NUMBER),
-                needed("z_max", NUMBER),
+                needed("z_min", PLACE),
+                needed("z_max", PLACE),
                 optional("speed", NOT_NEGATIVE),
                 optional("spin", NOT_NEGATIVE),
             ],
@@ -177,7 +181,7 @@ const START_SPHERE: Kind = Kind::Table(&[
     needed("position", Kind::Vector),
     optional("velocity", Kind::Vector),
     optional("spin", Kind::Vector),
-    optional("radius", POSITIVE),
+    optional("radius", LENGTH),
 ]);
 
 const DRAG: Kind = Kind::Table(&[
@@ -194,15 +198,15 @@ const UPDRAUGHT: Kind = Kind::Table(&[
     needed("speed", NUMBER),
     optional("strength", NOT_NEGATIVE),
     needed("decay", NOT_NEGATIVE),
-    needed("origin", NUMBER),
+    needed("origin", PLACE),
     needed("alpha", Kind::Number(Range::FRACTION)),
     optional("reference_omega", POSITIVE),
 ]);
 
 const TIME: Kind = Kind::Table(&[
-    needed("dt", POSITIVE),
-    needed("duration", POSITIVE),
-    needed("frame_interval", POSITIVE),
+    needed("dt", SECONDS),
+    needed("duration", SECONDS),
+    needed("frame_interval", SECONDS),
     optional(
         "integrator",
         Kind::Choice(&["symplectic-euler", "velocity-verlet"]),

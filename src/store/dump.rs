@@ -12,11 +12,10 @@ use super::export::write_array;
 use crate::observe::Snapshot;
 use crate::record::{Outcome, RunRecord};
 use crate::run;
-use ndarray::Array3;
-use ndarray_npy::ReadNpyExt;
+use ndarray::{Array3, ArrayView3};
+use ndarray_npy::{ReadNpyExt, ViewNpyError, ViewNpyExt};
 use std::fmt;
-use std::fs::File;
-use std::io::BufReader;
+use std::fs;
 use std::path::Path;
 
 /// What the name of a dump says.
@@ -141,9 +140,15 @@ pub fn read_dump(path: &Path) -> Result<Array3<f64>, StoreError> {
         path: path.to_owned(),
         reason,
     };
-    let file = File::open(path).map_err(|error| StoreError::reading(path, error))?;
-    let values = Array3::<f64>::read_npy(BufReader::new(file))
-        .map_err(|error| not_a_dump(error.to_string()))?;
+    let bytes = fs::read(path).map_err(|error| StoreError::reading(path, error))?;
+    // A header may promise more numbers than there are; a view asks for no memory before it knows.
+    let values = match ArrayView3::<f64>::view_npy(&bytes) {
+        Ok(view) => Ok(view.to_owned()),
+        Err(ViewNpyError::MisalignedData) => {
+            Array3::read_npy(&bytes[..]).map_err(|error| not_a_dump(error.to_string()))
+        }
+        Err(error) => Err(not_a_dump(error.to_string())),
+    }?;
     match values.dim() {
         (frames, count, 4) if frames > 0 && count > 0 => Ok(values),
         shape => Err(not_a_dump(format!("its shape is {shape:?}"))),

@@ -152,7 +152,10 @@ mod tests {
                 "silo.dat:4: line 1 announces 1 + 0 spheres, but here is one more; correct the \
                  numbers or remove the line",
             ),
-            ("1 0\n0 0\n", "silo.dat:2: 2 values, but a sphere has three: x, height and radius"),
+            (
+                "1 0\n0 0\n",
+                "silo.dat:2: 2 values, but a sphere has three: x, height and radius",
+            ),
             ("1 0\n0 NaN 1\n", "silo.dat:2: `NaN` is not a finite number"),
             ("1 0\n0 high 1\n", "silo.dat:2: `high` is not a number"),
             (

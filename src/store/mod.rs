@@ -15,13 +15,16 @@ mod text;
 
 pub use atomic::{remove_leftovers, write_atomic};
 pub use dump::{DumpName, read_dump, write_dump};
-pub use export::{write_arrays, write_observations, write_spheres, write_vtk, write_xyz};
+pub use export::{
+    SPHERES_SIGNATURE, write_arrays, write_observations, write_spheres, write_vtk, write_xyz,
+};
 pub use failures::{read_failures, write_failures};
 pub use geometry::read_geometry;
 pub use labels::{read_labels, write_labels, write_points};
 pub use radii::read_radii;
 pub use record::{
-    RecordHeader, content_digest, motion_digest, read_record, read_record_header, write_record,
+    HDF5_SIGNATURE, RecordHeader, content_digest, motion_digest, read_record, read_record_header,
+    write_record,
 };
 pub use start::read_start;
 
@@ -60,7 +63,7 @@ pub enum StoreError {
         source: io::Error,
     },
     /// The record is not what was once written.
-    #[error("{} is damaged: {reason}; delete it and run the sweep again", path.display())]
+    #[error("{} is damaged: {reason}; the run must be made again", path.display())]
     Damaged {
         /// The record.
         path: PathBuf,
@@ -85,6 +88,17 @@ pub enum StoreError {
         path: PathBuf,
         /// What shows it.
         reason: String,
+    },
+    /// The record is of another run than its name says.
+    #[error(
+        "{} holds another run than its name says ({found}); remove it and run the sweep again",
+        path.display()
+    )]
+    OtherRun {
+        /// The record.
+        path: PathBuf,
+        /// Identity of the run it holds.
+        found: String,
     },
     /// The record has a form that this program does not know.
     #[error(
@@ -163,12 +177,16 @@ impl StoreError {
 }
 
 /// What to do about an error of the system, where that is not obvious from its text.
-fn advice(error: &io::Error) -> &'static str {
+/// Begins with a semicolon, or is empty.
+pub fn advice(error: &io::Error) -> &'static str {
     match error.kind() {
         io::ErrorKind::NotFound => "; check the path",
         io::ErrorKind::PermissionDenied => "; check the permissions of the file and its folder",
         io::ErrorKind::InvalidData => "; save the file as UTF-8 text",
         io::ErrorKind::IsADirectory => "; give a file, not a folder",
+        io::ErrorKind::NotADirectory => "; a part of the path is a file, not a folder",
+        io::ErrorKind::AlreadyExists => "; a file of that name is in the way",
+        io::ErrorKind::ReadOnlyFilesystem => "; choose a place that can be written to",
         _ => "",
     }
 }

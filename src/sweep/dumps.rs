@@ -5,6 +5,7 @@ use crate::classify::{self, Sieves};
 use crate::replay;
 use crate::scene::{Radii, Scene};
 use crate::store::{self, DumpName};
+use std::collections::HashMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -26,9 +27,9 @@ pub fn find_dumps(folder: &Path) -> io::Result<Vec<PathBuf>> {
 }
 
 impl Labelling {
-    /// Labels dumps of runs of a scene, with that many workers. Radius, density and Omega are those
-    /// that the name of a dump says; the scene says everything else, and these too where a name
-    /// says nothing. The table has them as its axes, and the name of the dump as its id.
+    /// Labels dumps of runs of a scene, with that many workers. Radius, density, Omega and seed are
+    /// those that the name of a dump says; the scene says everything else. The table has the first
+    /// three as its axes, and the name of the dump as its id.
     ///
     /// # Errors
     /// If the system gives no threads.
@@ -52,6 +53,7 @@ impl Labelling {
                 Err(problem) => labelling.problems.push(problem),
             }
         }
+        refuse_repeated(&mut labelling);
         labelling.table.rows.sort_by(|a, b| {
             let order = |row: &LabelRow| row.values.clone();
             let values = order(a).partial_cmp(&order(b)).expect("finite numbers");
@@ -59,6 +61,24 @@ impl Labelling {
         });
         Ok(labelling)
     }
+}
+
+/// Two dumps of the same point and seed are one run, and must not count twice.
+fn refuse_repeated(labelling: &mut Labelling) {
+    let mut seen = HashMap::new();
+    labelling.table.rows.retain(|row| {
+        let run: Vec<u64> = row.values.iter().map(|value| value.to_bits()).collect();
+        match seen.insert((run, row.seed), row.id.clone()) {
+            None => true,
+            Some(other) => {
+                labelling.problems.push(format!(
+                    "{}: says the same radius, density, Omega and seed as {other}; keep one of them",
+                    row.id
+                ));
+                false
+            }
+        }
+    });
 }
 
 fn label(path: &Path, scene: &Scene, sieves: &Sieves) -> Result<LabelRow, String> {
@@ -83,15 +103,11 @@ fn label(path: &Path, scene: &Scene, sieves: &Sieves) -> Result<LabelRow, String
 fn scene_of(path: &Path, base: &Scene) -> Result<(Scene, DumpName), String> {
     let mut scene = base.clone();
     let file = path.file_name().unwrap_or_default().to_string_lossy();
-    let Some(name) = DumpName::parse(&file) else {
-        let name = DumpName {
-            radius: scene.spheres.radius.mean(),
-            density: scene.spheres.density,
-            omega: scene.swirl.as_ref().map_or(0.0, |swirl| swirl.omega),
-            seed: scene.seed,
-        };
-        return Ok((scene, name));
-    };
+    let name = DumpName::parse(&file).ok_or_else(|| {
+        "its name must say radius, density and Omega, as in dump_r00.003_p03750.0_f006.0.npy (and a \
+         seed other than 1 as _s2 before the dot)"
+            .to_owned()
+    })?;
     if let Radii::One(radius) = &mut scene.spheres.radius {
         *radius = name.radius;
     }
@@ -107,5 +123,8 @@ fn scene_of(path: &Path, base: &Scene) -> Result<(Scene, DumpName), String> {
             ));
         }
     }
-    Ok((scene, name))
+    match scene.problems().first() {
+        None => Ok((scene, name)),
+        Some(problem) => Err(format!("with what its name says, {problem}")),
+    }
 }

@@ -1,7 +1,8 @@
 //! The results folder of a sweep: what lies where in it.
 
 use super::Sweep;
-use crate::store;
+use crate::record::RunRecord;
+use crate::store::{self, StoreError};
 use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -17,8 +18,14 @@ pub struct Folder {
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
     /// The path is not a folder.
-    #[error("{}: there is no such folder", .0.display())]
+    #[error("{}: there is no such folder; check the path", .0.display())]
     Missing(PathBuf),
+    /// The path is a file.
+    #[error(
+        "{}: this is a file; give the results folder that `phase sweep` made, or one of them all",
+        .0.display()
+    )]
+    NotAFolder(PathBuf),
     /// Neither the folder nor those in it are results of a sweep.
     #[error(
         "{}: neither this folder nor one in it holds a sweep.json; give the results folder that \
@@ -42,7 +49,7 @@ pub enum FolderError {
     )]
     Locked(PathBuf),
     /// The file system says no.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}{}", path.display(), store::advice(source))]
     Io {
         /// The file or folder.
         path: PathBuf,
@@ -73,7 +80,11 @@ impl Folder {
     /// If there is none.
     pub fn find(path: &Path) -> Result<Vec<Self>, FolderError> {
         if !path.is_dir() {
-            return Err(FolderError::Missing(path.to_owned()));
+            let path = path.to_owned();
+            return Err(match path.exists() {
+                true => FolderError::NotAFolder(path),
+                false => FolderError::Missing(path),
+            });
         }
         let folder = Self::new(path);
         if folder.sweep().is_file() {
@@ -115,6 +126,19 @@ impl Folder {
     /// The record of the run with that identity.
     pub fn record(&self, id: &str) -> PathBuf {
         self.records().join(format!("{id}.h5"))
+    }
+
+    /// Reads the record of the run with that identity.
+    ///
+    /// # Errors
+    /// Those of [`store::read_record`], or [`StoreError::OtherRun`] if the record is of another run.
+    pub fn read_record(&self, id: &str) -> Result<RunRecord, StoreError> {
+        let path = self.record(id);
+        let record = store::read_record(&path)?;
+        match record.scene.identity() {
+            found if found == id => Ok(record),
+            found => Err(StoreError::OtherRun { path, found }),
+        }
     }
 
     /// The table of labels, one row per job.

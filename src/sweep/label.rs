@@ -2,8 +2,7 @@
 
 use super::{Folder, Job, LabelRow, LabelTable, Sweep, work};
 use crate::classify::{self, Label};
-use crate::store;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Labels of the runs in a results folder.
 #[derive(Clone, Debug)]
@@ -52,7 +51,9 @@ fn label(folder: &Folder, sweep: &Sweep, job: &Job) -> Result<Option<LabelRow>, 
     if !path.exists() {
         return Ok(None);
     }
-    let record = store::read_record(&path).map_err(|error| error.to_string())?;
+    let record = folder
+        .read_record(&job.id)
+        .map_err(|error| error.to_string())?;
     let verdict = classify::classify(&record, &sweep.sieves)
         .map_err(|error| format!("{}: {error}", path.display()))?;
     Ok(Some(LabelRow {
@@ -61,6 +62,18 @@ fn label(folder: &Folder, sweep: &Sweep, job: &Job) -> Result<Option<LabelRow>, 
         seed: job.seed,
         verdict,
     }))
+}
+
+/// How many labels of a table are of runs that are neither among those `kept` nor have a record in
+/// the folder: without the table they would be gone.
+pub fn irreplaceable<'a>(
+    table: &LabelTable,
+    folder: &Folder,
+    kept: impl IntoIterator<Item = &'a str>,
+) -> usize {
+    let kept: HashSet<&str> = kept.into_iter().collect();
+    let is_lost = |id: &str| !kept.contains(id) && !folder.record(id).exists();
+    table.rows.iter().filter(|row| is_lost(&row.id)).count()
 }
 
 /// How many runs went from one label to another, by label. Runs that only one of the tables has

@@ -25,7 +25,7 @@ pub use failure::{Failure, describe};
 pub use folder::{Folder, FolderError, Lock};
 pub use forecast::{Forecast, ForecastError, forecast};
 pub use job::{Job, PointError};
-pub use label::{Labelling, changes};
+pub use label::{Labelling, changes, irreplaceable};
 pub use labels::{LabelRow, LabelTable, Point};
 pub(crate) use load::SweepFile;
 pub use load::{from_str, load};

@@ -5,8 +5,8 @@ use crate::dem::timestep::Impact;
 use crate::dem::vector::Vector;
 use crate::dem::{Particles, Simulation};
 use crate::scene::{
-    Contact, Gravity, Guards, Integrator, Output, Radii, Scene, Shape, Spheres, Start, StartSphere, Tank,
-    Time,
+    Contact, Gravity, Guards, Integrator, Output, Radii, Scene, Shape, Spheres, Start, StartSphere,
+    Tank, Time,
 };
 use serde::Deserialize;
 

@@ -113,9 +113,24 @@ fn what_is_no_dump_of_the_scene_is_refused() {
         .code(1)
         .complains("it has 201 frames")
         .complains("make 301");
-    place.write("dumps/other.npy", "text");
+    let odd = "dumps/dump_r00.004_p03750.0_f009.0.npy";
+    place.write(odd, "text");
     classify(&["dumps", "--scene", "scene.toml"])
         .code(1)
         .says("8 runs labelled")
-        .complains("other.npy is no dump");
+        .complains("f009.0.npy is no dump");
+    std::fs::remove_file(place.path(odd)).unwrap();
+    std::fs::copy(
+        place.path("dumps/dump_r00.004_p03750.0_f004.0.npy"),
+        place.path("dumps/dump_r0.004_p3750_f4.npy"),
+    )
+    .unwrap();
+    classify(&["dumps", "--scene", "scene.toml"])
+        .code(1)
+        .says("8 runs labelled")
+        .complains("the same radius, density, Omega and seed");
+    place.write("more.toml", &scene_file().replace("count = 8", "count = 9"));
+    classify(&["dumps", "--scene", "more.toml"])
+        .code(1)
+        .complains("it has 8 spheres, but spheres.count of the scene is 9");
 }

@@ -123,9 +123,10 @@ fn exports_go_where_they_are_sent() {
         place.read("again/run-1.csv")
     });
 
-    export(&["run-1.h5", "--to", "npy", "--out", "dumps"])
-        .code(1)
-        .complains("would both be written to dumps/run-1");
+    export(&["run-1.h5", "--to", "npy", "--out", "twice"])
+        .code(2)
+        .complains("would both be written to twice/run-1");
+    assert!(!place.path("twice").exists());
     export(&["--to", "dump", "--every", "2"])
         .code(2)
         .complains("leave out --every");
@@ -134,6 +135,6 @@ fn exports_go_where_they_are_sent() {
         .complains("possible values: xyz, vtk, npy, csv, dump");
     place
         .phase(&["export", "scene.toml", "--to", "xyz"])
-        .code(1)
+        .code(2)
         .complains("is not a run record");
 }

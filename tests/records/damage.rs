@@ -44,8 +44,10 @@ fn any_missing_end() {
     let good = good();
     for missing in [1, 2, 8, 39, 40, 41, 1000, good.len() - 8] {
         let error = refusal(&good[..good.len() - missing]);
+        // Of its first eight bytes nobody can tell whose they are.
+        let known = missing < good.len() - 8;
         assert!(
-            matches!(error, StoreError::Damaged { .. }),
+            matches!(error, StoreError::Damaged { .. }) == known,
             "{missing}: {error}"
         );
     }
@@ -53,7 +55,7 @@ fn any_missing_end() {
     assert!(
         error
             .to_string()
-            .ends_with("run.h5 is damaged: it is empty; delete it and run the sweep again")
+            .ends_with("run.h5 is damaged: it is empty; the run must be made again")
     );
 }
 

@@ -3,6 +3,7 @@
 use super::{Labelled, write_tables};
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
+use crate::cli::kind;
 use phase::classify::Sieves;
 use phase::sweep::{Folder, FolderError, Labelling, find_dumps};
 use std::path::{Path, PathBuf};
@@ -15,7 +16,7 @@ pub(super) fn label(
     workers: usize,
     console: &Console,
 ) -> Result<Labelled, Failure> {
-    let scene = phase::scene::load(scene).map_err(Failure::refused)?;
+    let scene = kind::load_scene(scene)?;
     sieves.check(&scene).map_err(Failure::refused)?;
     let dumps = dumps_in(folder)?;
     let labelling =

@@ -45,7 +45,8 @@ impl Anchor {
         // The box does not turn with the pair: that moves a partner relative to it by at most the
         // angle times the half diagonal.
         let turned = angle.abs() * half_diagonal;
-        let displacement = (0.5 * (margin - turned)).max(0.0);
+        // A hair less than half, for what rounding adds.
+        let displacement = (0.499_999_999 * (margin - turned)).max(0.0);
         let (sine, cosine) = libm::sincos(angle);
         Allowance {
             sine,

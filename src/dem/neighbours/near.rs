@@ -10,9 +10,10 @@
 
 use super::anchor::{Allowance, Anchor};
 use super::{Particles, VerletList};
-use crate::dem::vector::Vector;
 use crate::dem::block::{BLOCK, Body, Columns};
-use fearless_simd::Simd;
+use crate::dem::vector::Vector;
+use fearless_simd::{Level, Simd};
+use std::ops::Range;
 
 /// A pair that may touch, and its entry in the Verlet list.
 #[derive(Clone, Copy, Debug, Default)]
@@ -25,8 +26,12 @@ pub struct NearPair {
     pub entry: u32,
 }
 
-/// Steps from one refresh to the next that the margin adapts to.
-const LIFE: std::ops::Range<u64> = 7..14;
+/// Steps from one refresh to the next that the margin adapts to, for the long lists of the shield.
+const COLUMN_LIFE: Range<u64> = 7..14;
+
+/// The same for lists of contacts, which are short, while a pair that is near costs as much as one
+/// that touches.
+const CONTACT_LIFE: Range<u64> = 2..5;
 
 /// The inner list.
 pub struct Near {
@@ -101,9 +106,14 @@ impl Near {
     /// Widens or narrows the margin after a list that held for this many steps, for a Verlet list
     /// of that skin (m).
     pub fn adapt(&mut self, steps: u64, skin: f64) {
-        if steps < LIFE.start {
+        let life = if self.shield {
+            COLUMN_LIFE
+        } else {
+            CONTACT_LIFE
+        };
+        if steps < life.start {
             self.margin *= 1.25;
-        } else if steps >= LIFE.end {
+        } else if steps >= life.end {
             self.margin *= 0.8;
         }
         self.margin = self.margin.clamp(0.02 * skin, 0.5 * skin);
@@ -111,14 +121,26 @@ impl Near {
 
     /// Makes the list anew from a valid Verlet list; `bodies` are the particles in rows. `forget` is
     /// called with each entry that is not near.
-    #[inline(always)]
-    pub(in crate::dem) fn refresh<S: Simd>(
+    pub(in crate::dem) fn refresh(
         &mut self,
-        simd: S,
+        level: Level,
         list: &VerletList,
         particles: &Particles,
         bodies: &[Body],
-        mut forget: impl FnMut(u32),
+        forget: Option<&mut dyn FnMut(u32)>,
+    ) {
+        fearless_simd::dispatch!(level, simd => self.find(simd, list, bodies, forget));
+        self.anchor.drop(particles);
+        self.half_diagonal = list.half_diagonal;
+    }
+
+    #[inline(always)]
+    fn find<S: Simd>(
+        &mut self,
+        simd: S,
+        list: &VerletList,
+        bodies: &[Body],
+        mut forget: Option<&mut dyn FnMut(u32)>,
     ) {
         let (mut near, mut open) = (0, 0);
         self.shielding.clear();
@@ -143,11 +165,11 @@ impl Near {
                 let entry = first + k as u32;
                 pairs[kept] = NearPair { i, j, entry };
                 undecided[left] = [i, j];
-                kept += (facts & NEAR) as usize;
-                left += (facts / UNDECIDED & 1) as usize;
-                self.shielding[i as usize] += (facts / SHIELDS_FIRST & 1) as u32;
-                self.shielding[j as usize] += (facts / SHIELDS_SECOND & 1) as u32;
-                if facts & NEAR == 0 {
+                kept += has(facts, NEAR) as usize;
+                left += has(facts, UNDECIDED) as usize;
+                self.shielding[i as usize] += has(facts, SHIELDS_FIRST);
+                self.shielding[j as usize] += has(facts, SHIELDS_SECOND);
+                if let Some(forget) = forget.as_mut().filter(|_| facts & NEAR == 0) {
                     forget(entry);
                 }
             }
@@ -159,8 +181,6 @@ impl Near {
         self.undecided.truncate(open);
         let blocks = if self.shield { open.div_ceil(BLOCK) } else { 0 };
         self.undecided.resize(blocks * BLOCK, [0; 2]);
-        self.anchor.drop(particles);
-        self.half_diagonal = list.half_diagonal;
     }
 
     /// Counts the spheres that shield each one at the present positions.
@@ -181,8 +201,8 @@ impl Near {
             glance.look();
             for k in 0..BLOCK {
                 let [i, j] = pairs[k];
-                shielding[i as usize] += (glance.facts[k] / SHIELDS_FIRST & 1) as u32;
-                shielding[j as usize] += (glance.facts[k] / SHIELDS_SECOND & 1) as u32;
+                shielding[i as usize] += has(glance.facts[k], SHIELDS_FIRST);
+                shielding[j as usize] += has(glance.facts[k], SHIELDS_SECOND);
             }
         }
     }
@@ -269,6 +289,12 @@ impl Glance {
                 | bit(within(2.0 * rj[k]) & (dz < 0.0), SHIELDS_SECOND);
         }
     }
+}
+
+/// 1 if that is among the facts.
+#[inline(always)]
+fn has(facts: u64, bit: u64) -> u32 {
+    u32::from(facts & bit != 0)
 }
 
 #[inline(always)]

@@ -95,7 +95,10 @@ impl Barrier {
     fn new(fixed: &[FixedSphere], narrow: f64) -> Self {
         let lines = lines(fixed, narrow);
         let ends = || lines.iter().flatten();
-        let longest = lines.iter().map(|[a, b]| length(*a, *b)).fold(0.0, f64::max);
+        let longest = lines
+            .iter()
+            .map(|[a, b]| length(*a, *b))
+            .fold(0.0, f64::max);
         let bound = |axis: usize, pick: fn(f64, f64) -> f64, none: f64| {
             ends().map(|point| point[axis]).fold(none, pick)
         };

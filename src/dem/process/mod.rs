@@ -103,11 +103,7 @@ impl Process {
     }
 
     /// Advances an engine to a step and does on the way what is due.
-    pub(super) fn advance(
-        &mut self,
-        engine: &mut dyn Engine,
-        end: u64,
-    ) -> Result<(), Instability> {
+    pub(super) fn advance(&mut self, engine: &mut dyn Engine, end: u64) -> Result<(), Instability> {
         while engine.step() < end {
             let step = engine.step();
             if step == 0 {

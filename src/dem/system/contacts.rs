@@ -32,6 +32,20 @@ pub(super) struct PairBlock<H> {
 }
 
 impl<H: Copy + Default> PairBlock<H> {
+    /// Whether the law has a history. Its loop is then not turned into vector instructions, and is
+    /// faster if it passes over what does not touch.
+    const REMEMBERS: bool = size_of::<H>() > 0;
+
+    /// Notes that nothing acts at a contact.
+    #[inline(always)]
+    fn leave_out(&mut self, k: usize) {
+        self.history[k] = H::default();
+        self.too_deep[k] = NOT_DEEP;
+        for columns in [&mut self.force].into_iter().chain(&mut self.torque) {
+            store(columns, k, false, Vector::ZERO);
+        }
+    }
+
     pub(super) fn new() -> Self {
         let pair = || [Columns::ZERO, Columns::ZERO];
         Self {
@@ -103,6 +117,10 @@ impl<H: Copy + Default> PairBlock<H> {
             let sum = radius[0] + radius[1];
             let distance_squared = offset.norm_squared();
             let touches = distance_squared < sum * sum;
+            if Self::REMEMBERS && !touches {
+                self.leave_out(k);
+                continue;
+            }
             let distance = distance_squared.sqrt();
             let normal = offset * (1.0 / distance);
             let overlap = sum - distance;
@@ -159,14 +177,18 @@ impl<H: Copy + Default> PairBlock<H> {
         tangential_law: &T,
         overlap_limit: f64,
     ) {
-        let [place, motion, turning] = [&self.place[0], &self.motion[0], &self.turning[0]];
         for k in 0..BLOCK {
+            let [place, motion, turning] = [&self.place[0], &self.motion[0], &self.turning[0]];
             let radius = place.0[3][k];
             let WallContact {
                 touches,
                 overlap,
                 normal,
             } = wall.contact(Self::vector(place, k), radius);
+            if Self::REMEMBERS && !touches {
+                self.leave_out(k);
+                continue;
+            }
             let velocity = Self::vector(motion, k);
             let approach = -velocity.dot(normal);
             let normal_force = normal_law.force(overlap, approach, radius);

@@ -6,12 +6,19 @@ use crate::dem::friction::TangentialLaw;
 use crate::dem::particles::Particles;
 use crate::record::Instability;
 use crate::scene::Integrator;
-use fearless_simd::Simd;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// v += a dt for a time `dt`, and the same for spins. True if a sphere is too fast.
-    #[inline(always)]
     fn kick(&mut self, dt: f64) -> bool {
+        let level = self.level;
+        fearless_simd::dispatch!(level, simd => {
+            let _ = simd;
+            self.kick_all(dt)
+        })
+    }
+
+    #[inline(always)]
+    fn kick_all(&mut self, dt: f64) -> bool {
         let Particles {
             velocity,
             force,
@@ -44,8 +51,16 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// x += v dt. Notes whether a sphere went farther than the near pairs allow.
-    #[inline(always)]
     fn drift(&mut self) {
+        let level = self.level;
+        fearless_simd::dispatch!(level, simd => {
+            let _ = simd;
+            self.drift_all();
+        });
+    }
+
+    #[inline(always)]
+    fn drift_all(&mut self) {
         let dt = self.parts.dt;
         let Particles {
             position, velocity, ..
@@ -85,22 +100,20 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Ok(())
     }
 
-    #[inline(always)]
-    pub(super) fn steps<S: Simd>(&mut self, simd: S, steps: u64) -> Result<(), Instability> {
+    pub(super) fn steps(&mut self, steps: u64) -> Result<(), Instability> {
         for _ in 0..steps {
             match self.parts.integrator {
-                Integrator::SymplecticEuler => self.symplectic_euler(simd)?,
-                Integrator::VelocityVerlet => self.velocity_verlet(simd)?,
+                Integrator::SymplecticEuler => self.symplectic_euler()?,
+                Integrator::VelocityVerlet => self.velocity_verlet()?,
             }
         }
         Ok(())
     }
 
     /// One step of symplectic Euler: v += a(x, v) dt, then x += v dt.
-    #[inline(always)]
-    fn symplectic_euler<S: Simd>(&mut self, simd: S) -> Result<(), Instability> {
+    fn symplectic_euler(&mut self) -> Result<(), Instability> {
         self.step += 1;
-        self.evaluate(simd)?;
+        self.evaluate()?;
         let too_fast = self.kick(self.parts.dt);
         self.check_speeds(too_fast)?;
         self.drift();
@@ -109,17 +122,16 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// One step of velocity Verlet, with forces from the new positions and the half-step
     /// velocities. The forces of the step before serve its first half.
-    #[inline(always)]
-    fn velocity_verlet<S: Simd>(&mut self, simd: S) -> Result<(), Instability> {
+    fn velocity_verlet(&mut self) -> Result<(), Instability> {
         self.step += 1;
         if self.step == 1 {
-            self.evaluate(simd)?;
+            self.evaluate()?;
         }
         let half = 0.5 * self.parts.dt;
         let too_fast = self.kick(half);
         self.check_speeds(too_fast)?;
         self.drift();
-        self.evaluate(simd)?;
+        self.evaluate()?;
         let too_fast = self.kick(half);
         self.check_speeds(too_fast)
     }

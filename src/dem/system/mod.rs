@@ -130,34 +130,22 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Evaluates all forces and torques at the present positions and velocities.
-    #[inline(always)]
-    fn evaluate<S: Simd>(&mut self, simd: S) -> Result<(), Instability> {
+    ///
+    /// The hot loops are compiled once per instruction set, and no more than once: this is most of
+    /// what a build has to do. Wider vectors change no bit: every lane computes what the scalar code
+    /// would.
+    fn evaluate(&mut self) -> Result<(), Instability> {
         if self.list.is_some() {
             self.gather();
-        }
-        if self.stale {
-            self.refresh(simd)?;
-        }
-        if self.list.is_some() {
-            self.pair_forces(simd);
-            if let (true, Some(floor)) = (N::ACTS, self.parts.floor) {
-                let near = std::mem::take(&mut self.near_floor);
-                let mut history = std::mem::take(&mut self.floor_history);
-                self.wall_forces(simd, floor, &near, &mut history);
-                (self.near_floor, self.floor_history) = (near, history);
+            if self.stale {
+                self.refresh()?;
             }
-            if let (true, Some(cylinder)) = (N::ACTS, self.parts.cylinder) {
-                let near = std::mem::take(&mut self.near_cylinder);
-                let mut history = std::mem::take(&mut self.cylinder_history);
-                self.wall_forces(simd, cylinder, &near, &mut history);
-                (self.near_cylinder, self.cylinder_history) = (near, history);
-            }
-            self.scatter();
-            if self.parts.shielded {
-                self.near
-                    .count_shielding(simd, &self.bodies, &mut self.shielding);
-            }
+            let level = self.level;
+            fearless_simd::dispatch!(level, simd => self.contact_forces(simd));
         } else {
+            if self.stale {
+                self.rebuild()?;
+            }
             self.parts.particles.force.fill(Vector::ZERO);
             self.parts.particles.torque.fill(Vector::ZERO);
         }
@@ -175,9 +163,31 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
-    /// Looks for near pairs anew, in a list that holds until they must be looked for again.
+    /// Forces and torques of pairs and walls, and the counts of shielding spheres.
     #[inline(always)]
-    fn refresh<S: Simd>(&mut self, simd: S) -> Result<(), Instability> {
+    fn contact_forces<S: Simd>(&mut self, simd: S) {
+        self.pair_forces(simd);
+        if let (true, Some(floor)) = (N::ACTS, self.parts.floor) {
+            let near = std::mem::take(&mut self.near_floor);
+            let mut history = std::mem::take(&mut self.floor_history);
+            self.wall_forces(simd, floor, &near, &mut history);
+            (self.near_floor, self.floor_history) = (near, history);
+        }
+        if let (true, Some(cylinder)) = (N::ACTS, self.parts.cylinder) {
+            let near = std::mem::take(&mut self.near_cylinder);
+            let mut history = std::mem::take(&mut self.cylinder_history);
+            self.wall_forces(simd, cylinder, &near, &mut history);
+            (self.near_cylinder, self.cylinder_history) = (near, history);
+        }
+        self.scatter();
+        if self.parts.shielded {
+            self.near
+                .count_shielding(simd, &self.bodies, &mut self.shielding);
+        }
+    }
+
+    /// Looks for near pairs anew, in a list that holds until they must be looked for again.
+    fn refresh(&mut self) -> Result<(), Instability> {
         let Some(list) = &self.list else {
             return self.rebuild();
         };
@@ -191,12 +201,12 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if let Some(list) = &self.list {
             let (near, particles) = (&mut self.near, &self.parts.particles);
             let history = &mut self.pair_history;
-            let forget = |entry: u32| {
-                if Self::REMEMBERS {
-                    history[entry as usize] = T::History::default();
-                }
+            let mut forget = |entry: u32| history[entry as usize] = T::History::default();
+            let forget: Option<&mut dyn FnMut(u32)> = match Self::REMEMBERS {
+                true => Some(&mut forget),
+                false => None,
             };
-            near.refresh::<S>(simd, list, particles, &self.bodies, forget);
+            near.refresh(self.level, list, particles, &self.bodies, forget);
             let margin = near.margin();
             if let Some(wall) = self.parts.floor {
                 let (near, history) = (&mut self.near_floor, &mut self.floor_history);
@@ -221,7 +231,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Builds the list anew, after making sure that every sphere is somewhere.
-    #[inline(always)]
     fn rebuild(&mut self) -> Result<(), Instability> {
         let Parts {
             particles,
@@ -252,12 +261,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
 impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
     fn advance(&mut self, steps: u64) -> Result<(), Instability> {
-        // The hot loops are compiled once per instruction set. Wider vectors change no bit:
-        // every lane computes what the scalar code would.
-        let level = self.level;
-        fearless_simd::dispatch!(level, simd => {
-            self.steps(simd, steps)
-        })?;
+        self.steps(steps)?;
         let Parts {
             particles,
             limits,
@@ -327,9 +331,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         }
         if self.stale {
             self.gather();
-            let level = self.level;
-            let refreshed = fearless_simd::dispatch!(level, simd => self.refresh(simd));
-            if refreshed.is_err() {
+            if self.refresh().is_err() {
                 return contacts;
             }
         }

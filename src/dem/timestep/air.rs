@@ -35,8 +35,7 @@ pub(super) fn drag_limit(scene: &Scene) -> Option<Limit> {
 pub(super) fn spin_damping_limit(scene: &Scene) -> Option<Limit> {
     let damping = scene.spin_damping.as_ref()?;
     let radius = scene.smallest_radius();
-    let inertia =
-        scene.spheres.shape.inertia_factor() * scene.smallest_mass() * radius * radius;
+    let inertia = scene.spheres.shape.inertia_factor() * scene.smallest_mass() * radius * radius;
     Some(Limit {
         name: "spin damping",
         seconds: 2.0 * inertia / damping.coefficient,

@@ -1,5 +1,6 @@
 //! What a scene must satisfy beyond the kinds of its values.
 
+mod output;
 mod silo;
 mod start;
 mod time;
@@ -25,6 +26,7 @@ impl Scene {
             self.check_start(&mut problems);
             self.check_times(&mut problems);
             self.check_silo(&mut problems);
+            self.check_output(&mut problems);
         }
         if problems.is_empty() {
             self.check_time_step(&mut problems);
@@ -167,7 +169,9 @@ impl Scene {
     pub(crate) fn lowest_support(&self) -> Option<f64> {
         let floor = self.tank.as_ref().and_then(|tank| tank.floor);
         let fixed = self.geometry.as_ref().map(Geometry::spheres);
-        let heights = fixed.iter().flat_map(|fixed| fixed.walls.iter().chain(&fixed.door));
+        let heights = fixed
+            .iter()
+            .flat_map(|fixed| fixed.walls.iter().chain(&fixed.door));
         floor
             .into_iter()
             .chain(heights.map(|sphere| sphere.position[2]))

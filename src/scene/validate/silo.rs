@@ -33,11 +33,23 @@ impl Scene {
         let shape = "or use `shape = \"sphere\"`";
         if self.tank.as_ref().is_some_and(|tank| tank.radius.is_some()) {
             let help = format!("use [geometry] for walls, {shape}");
-            refuse("tank.radius".to_owned(), "a cylinder stands across it", &help);
+            refuse(
+                "tank.radius".to_owned(),
+                "a cylinder stands across it",
+                &help,
+            );
         }
         if self.swirl.is_some() || self.updraught.is_some() {
-            let path = if self.swirl.is_some() { "swirl" } else { "updraught" };
-            refuse(path.to_owned(), "this air moves in space", &format!("remove it, {shape}"));
+            let path = if self.swirl.is_some() {
+                "swirl"
+            } else {
+                "updraught"
+            };
+            refuse(
+                path.to_owned(),
+                "this air moves in space",
+                &format!("remove it, {shape}"),
+            );
         }
         let off = |place: &[f64; 3]| place[1] != 0.0;
         let place = format!("set the second number to 0, {shape}");
@@ -75,7 +87,9 @@ impl Scene {
     }
 
     fn check_geometry(&self, problems: &mut Vec<Problem>) {
-        let Some(geometry) = &self.geometry else { return };
+        let Some(geometry) = &self.geometry else {
+            return;
+        };
         if self.contact.is_none() {
             let message = "[geometry] holds spheres by contact, but there is no [contact]";
             let help = "add [contact] with `law = \"linear\"` or `\"hertz\"`";
@@ -121,10 +135,19 @@ impl Scene {
         };
         if !time::multiple(*interval, self.time.dt) {
             let dt = self.time.dt;
-            problems.push(time::not_multiple("start.interval", *interval, "time.dt", dt));
+            problems.push(time::not_multiple(
+                "start.interval",
+                *interval,
+                "time.dt",
+                dt,
+            ));
         }
         let largest = self.radius_range().1;
-        let fixed = self.geometry.as_ref().map(Geometry::spheres).unwrap_or_default();
+        let fixed = self
+            .geometry
+            .as_ref()
+            .map(Geometry::spheres)
+            .unwrap_or_default();
         let in_the_way = fixed.walls.iter().chain(&fixed.door).find(|sphere| {
             let [x, y, z] = std::array::from_fn(|axis| sphere.position[axis] - position[axis]);
             let aside = (x.abs() - spread).max(0.0);
@@ -161,7 +184,6 @@ impl Scene {
             }
         }
     }
-
 }
 
 fn check_hopper(hopper: &Hopper, problems: &mut Vec<Problem>) {

@@ -7,7 +7,7 @@ mod xyz;
 
 pub(in crate::store) use npy::write_array;
 pub use npy::write_arrays;
-pub use table::{write_observations, write_spheres};
+pub use table::{SPHERES_SIGNATURE, write_observations, write_spheres};
 pub use vtk::write_vtk;
 pub use xyz::write_xyz;
 

@@ -21,6 +21,8 @@ mod read;
 mod seal;
 mod write;
 
+pub use seal::HDF5_SIGNATURE;
+
 use super::{StoreError, write_atomic};
 use crate::record::{Outcome, Program, RunRecord};
 use crate::scene::{Output, Scene};

@@ -3,12 +3,13 @@
 //! HDF5's own checksums cover its tables but not the data, and a file that lacks its last byte
 //! still opens.
 
-use super::StoreError;
+use super::{FORMAT, StoreError};
 use std::path::Path;
 
 const MARK: &[u8; 8] = b"\nblake3:";
 const LENGTH: usize = MARK.len() + blake3::OUT_LEN;
-const HDF5_SIGNATURE: &[u8; 8] = b"\x89HDF\r\n\x1a\n";
+/// What every HDF5 file begins with.
+pub const HDF5_SIGNATURE: &[u8; 8] = b"\x89HDF\r\n\x1a\n";
 
 /// Appends the checksum.
 pub(super) fn append(bytes: &mut Vec<u8>) {
@@ -32,14 +33,19 @@ pub(super) fn verify(bytes: &mut Vec<u8>, path: &Path) -> Result<(), StoreError>
     if bytes.is_empty() {
         return Err(StoreError::damaged(path, "it is empty"));
     }
-    if bytes.starts_with(HDF5_SIGNATURE) {
-        return Err(StoreError::damaged(
-            path,
-            "the checksum at its end is missing",
-        ));
+    let is_hdf5 = bytes.starts_with(HDF5_SIGNATURE);
+    let mut texts = bytes.windows(FORMAT.len());
+    if is_hdf5 && texts.any(|text| text == FORMAT.as_bytes()) {
+        let reason = "the checksum at its end is missing";
+        return Err(StoreError::damaged(path, reason));
     }
+    let reason = if is_hdf5 {
+        "it is an HDF5 file of another program, or the beginning of one"
+    } else {
+        "it is not an HDF5 file"
+    };
     Err(StoreError::NotARecord {
         path: path.to_owned(),
-        reason: "it is not an HDF5 file".to_owned(),
+        reason: reason.to_owned(),
     })
 }

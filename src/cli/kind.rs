@@ -1,0 +1,43 @@
+//! Whether a file is a scene or a sweep.
+
+use super::exit::Failure;
+use phase::scene::Scene;
+use phase::sweep::Sweep;
+use std::path::Path;
+
+/// Reads a scene file.
+pub(super) fn load_scene(file: &Path) -> Result<Scene, Failure> {
+    if is_sweep(file) {
+        return Err(Failure::refused(format_args!(
+            "{}: this is a sweep, not a scene; `phase sweep {0}` runs it",
+            file.display()
+        )));
+    }
+    phase::scene::load(file).map_err(Failure::refused)
+}
+
+/// Reads a sweep file.
+pub(super) fn load_sweep(file: &Path) -> Result<Sweep, Failure> {
+    if !is_sweep(file) && keys(file).contains_key("spheres") {
+        return Err(Failure::refused(format_args!(
+            "{}: this is a scene, not a sweep; `phase run {0}` runs it, and a sweep names it with \
+             `scene = \"...\"`",
+            file.display()
+        )));
+    }
+    phase::sweep::load(file).map_err(Failure::refused)
+}
+
+/// Whether a file is a sweep rather than a scene, which shows in its keys. What cannot be read is
+/// left to the loader to complain of.
+pub(super) fn is_sweep(file: &Path) -> bool {
+    let table = keys(file);
+    ["axis", "scene", "sieves", "plot", "seeds"]
+        .iter()
+        .any(|key| table.contains_key(*key))
+}
+
+fn keys(file: &Path) -> toml::Table {
+    let text = std::fs::read_to_string(file).unwrap_or_default();
+    toml::from_str(&text).unwrap_or_default()
+}
