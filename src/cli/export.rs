@@ -114,9 +114,7 @@ fn targets(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
     let mut written: HashMap<PathBuf, &Path> = HashMap::new();
     let mut targets = Vec::new();
     for path in &arguments.records {
-        // The name of a dump says what the record holds.
-        let record = store::read_record(path).map_err(Failure::refused)?;
-        let target = target(arguments, path, &record);
+        let target = target(arguments, path).map_err(Failure::refused)?;
         if let Some(other) = written.insert(target.clone(), path) {
             return Err(Failure::refused(format_args!(
                 "{} and {} would both be written to {}; export them one by one, each to its own \
@@ -136,7 +134,9 @@ fn targets(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// Where an export goes: the file that stands for it, or the folder of its arrays.
-fn target(arguments: &Arguments, record_path: &Path, record: &RunRecord) -> PathBuf {
+fn target(arguments: &Arguments, record_path: &Path) -> Result<PathBuf, StoreError> {
+    // Whether it is a record at all shows before anything is written.
+    store::read_record_header(record_path)?;
     let extension = arguments.to.extension();
     let beside = record_path.parent().unwrap_or(Path::new(""));
     let folder = match &arguments.out {
@@ -145,17 +145,21 @@ fn target(arguments: &Arguments, record_path: &Path, record: &RunRecord) -> Path
                 && !extension.is_empty()
                 && out.extension().is_some_and(|it| it == extension) =>
         {
-            return out.clone();
+            return Ok(out.clone());
         }
         Some(folder) => folder.as_path(),
         None => beside,
     };
     let stem = record_path.file_stem().unwrap_or("record".as_ref());
-    match arguments.to {
-        Format::Dump => folder.join(DumpName::of_record(record).to_string()),
+    Ok(match arguments.to {
+        // The name of a dump says what the record holds.
+        Format::Dump => {
+            let record = store::read_record(record_path)?;
+            folder.join(DumpName::of_record(&record).to_string())
+        }
         Format::Npy => folder.join(stem),
         _ => folder.join(stem).with_added_extension(extension),
-    }
+    })
 }
 
 fn export(

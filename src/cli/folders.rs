@@ -30,7 +30,7 @@ pub(super) fn refuse_to_replace(path: &Path, kind: &str, signature: &[u8]) -> Re
         return Ok(());
     }
     Err(Failure::refused(format_args!(
-        "{}: this is not {kind}, and would be lost; choose another name with --out",
+        "{}: this is not {kind}, and would be lost; choose another name for what is written",
         path.display()
     )))
 }

@@ -105,13 +105,13 @@ fn files_that_are_no_pictures_stay() {
     for way in ["--out", "--animate"] {
         view(&[way, "notes.png"])
             .code(2)
-            .complains("notes.png: this file exists and is no PNG");
+            .complains("notes.png: this is not a PNG picture");
     }
     assert_eq!(place.read("notes.png"), "mine");
     place.write("notes.gif", "mine");
     view(&["--animate", "notes.gif"])
         .code(2)
-        .complains("this file exists and is no GIF");
+        .complains("this is not a GIF");
     assert_eq!(place.read("notes.gif"), "mine");
     std::fs::create_dir(place.path("folder.png")).unwrap();
     view(&["--out", "folder.png"])

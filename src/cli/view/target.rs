@@ -2,8 +2,7 @@
 
 use super::Arguments;
 use crate::cli::exit::Failure;
-use std::fs::File;
-use std::io::Read;
+use crate::cli::folders;
 use std::path::{Path, PathBuf};
 
 /// A kind of file.
@@ -25,8 +24,8 @@ impl Kind {
 
     fn name(self) -> &'static str {
         match self {
-            Self::Png => "PNG",
-            Self::Gif => "GIF",
+            Self::Png => "a PNG picture",
+            Self::Gif => "a GIF",
         }
     }
 }
@@ -76,18 +75,6 @@ impl Target {
         if self.path.is_dir() {
             return refused("this is a folder; name a file in it");
         }
-        // What cannot be read, writing will complain of.
-        let mut begin = Vec::new();
-        if let Ok(file) = File::open(&self.path) {
-            let signature = self.kind.signature();
-            let read = file.take(signature.len() as u64).read_to_end(&mut begin);
-            if read.is_ok() && !begin.is_empty() && begin != signature {
-                return refused(&format!(
-                    "this file exists and is no {}; remove it, or choose another name",
-                    self.kind.name()
-                ));
-            }
-        }
-        Ok(())
+        folders::refuse_to_replace(&self.path, self.kind.name(), self.kind.signature())
     }
 }
