@@ -6,7 +6,7 @@
 
 use phase::classify::{Sieves, classify};
 use phase::scene::{
-    Contact, Drag, DragForm, DragLaw, Gravity, Integrator, Radii, Scene, Spheres, Start, Swirl,
+    Contact, Drag, DragForm, DragLaw, Gravity, Integrator, Radii, Scene, Shape, Spheres, Start, Swirl,
     Tank, Time,
 };
 use phase::{run, store};
@@ -19,6 +19,7 @@ fn tank(omega: f64) -> Scene {
         count: 64,
         radius: Radii::One(0.004),
         density: 3750.0,
+        shape: Shape::Sphere,
     };
     let start = Start::Random {
         z_min: 0.01,

@@ -2,6 +2,7 @@
 
 use crate::observe::{Observations, Snapshot};
 use crate::scene::Scene;
+use serde::{Deserialize, Serialize};
 
 /// Everything kept of one run.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +17,8 @@ pub struct RunRecord {
     pub radius: Vec<f64>,
     /// Mass of every sphere (kg).
     pub mass: Vec<f64>,
+    /// What happened once, in order of time; only in scenes where spheres come or go.
+    pub milestones: Vec<Milestone>,
     /// Observables of every frame.
     pub observations: Observations,
     /// All spheres now and then; the last one is the end of the run.
@@ -93,6 +96,41 @@ pub enum Outcome {
     Unstable(Instability),
 }
 
+/// Something that happened once in a run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Milestone {
+    /// What it was.
+    pub kind: MilestoneKind,
+    /// When (s).
+    pub time: f64,
+}
+
+/// What may happen once in a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MilestoneKind {
+    /// The last sphere came in.
+    Filled,
+    /// The spheres came to rest; the time is that from which they were.
+    AtRest,
+    /// The door opened.
+    DoorOpened,
+    /// The last sphere left.
+    Emptied,
+}
+
+impl MilestoneKind {
+    /// Name, as in records and reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Filled => "filled",
+            Self::AtRest => "at rest",
+            Self::DoorOpened => "door opened",
+            Self::Emptied => "emptied",
+        }
+    }
+}
+
 /// What broke, when and where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{guard} guard at step {step} (t = {time:.6} s), sphere {sphere}: {detail}")]
@@ -120,15 +158,18 @@ pub enum Guard {
     Overlap,
     /// A sphere moved too far in one step.
     Displacement,
+    /// A disc passed between two fixed ones where there is no way through.
+    WallPassed,
 }
 
 impl Guard {
     /// All guards.
-    pub const ALL: [Self; 4] = [
+    pub const ALL: [Self; 5] = [
         Self::NotANumber,
         Self::OutOfBounds,
         Self::Overlap,
         Self::Displacement,
+        Self::WallPassed,
     ];
 
     /// Name, as in records and tables.
@@ -138,6 +179,7 @@ impl Guard {
             Self::OutOfBounds => "out-of-bounds",
             Self::Overlap => "overlap",
             Self::Displacement => "displacement",
+            Self::WallPassed => "wall-passed",
         }
     }
 }

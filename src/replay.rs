@@ -1,10 +1,9 @@
 //! A run as far as the thesis's dump tells it: observables from positions and energies alone.
 
-use crate::dem::sphere_mass;
 use crate::observe::{FrameView, Observer};
 use crate::record::{Guard, Instability, Outcome, Program, RunRecord};
 use crate::run;
-use crate::scene::{Radii, Scene, Start};
+use crate::scene::{Radii, Scene, Spheres, Start};
 use ndarray::{Array3, ArrayView2, Axis};
 
 /// Why a dump cannot be a run of a scene.
@@ -72,8 +71,8 @@ pub fn replay(dump: &Array3<f64>, scene: &Scene) -> Result<RunRecord, ReplayErro
         });
     }
     let radius = radii(scene, count)?;
-    let density = scene.spheres.density;
-    let mass: Vec<f64> = radius.iter().map(|r| sphere_mass(density, *r)).collect();
+    let Spheres { shape, density, .. } = scene.spheres;
+    let mass: Vec<f64> = radius.iter().map(|r| shape.mass(density, *r)).collect();
     let mut observer = Observer::new(scene, &radius);
     let outcome = outcome(dump, scene);
     let mut kinetic = Vec::with_capacity(found);
@@ -101,6 +100,7 @@ pub fn replay(dump: &Array3<f64>, scene: &Scene) -> Result<RunRecord, ReplayErro
                 mass: &mass,
                 inertia: &[],
                 elastic_energy: f64::NAN,
+                flow: None,
             },
         );
         kinetic.push(moving_energy(&spheres, &mass, scene) as f32);
@@ -113,6 +113,7 @@ pub fn replay(dump: &Array3<f64>, scene: &Scene) -> Result<RunRecord, ReplayErro
         outcome,
         radius,
         mass,
+        milestones: Vec::new(),
         observations,
         snapshots: Vec::new(),
         trajectory: Vec::new(),

@@ -46,7 +46,7 @@ pub fn run(
     let started = cpu_time::of_this_thread();
     let (steps, frames) = frames(scene);
     let mut simulation = Simulation::new(scene)?;
-    let mut observer = Observer::new(scene, &simulation.particles().radius);
+    let mut observer = Observer::new(scene, simulation.radius());
     let mut snapshots = Vec::new();
     let mut trajectory = Vec::new();
     let every = match scene.output.snapshot_interval / scene.time.frame_interval {
@@ -63,7 +63,7 @@ pub fn run(
                 return Err(RunError::Interrupted);
             }
         }
-        let ended = frame == frames || outcome != Outcome::Completed;
+        let ended = frame == frames || outcome != Outcome::Completed || simulation.ended();
         let time = simulation.time();
         let view = simulation.frame();
         if outcome == Outcome::Completed {
@@ -79,13 +79,13 @@ pub fn run(
             break;
         }
     }
-    let particles = simulation.particles();
     Ok(RunRecord {
         scene: scene.clone(),
         program: Program::current(),
         outcome,
-        radius: particles.radius.clone(),
-        mass: particles.mass.clone(),
+        radius: simulation.radius().to_vec(),
+        mass: simulation.mass().to_vec(),
+        milestones: simulation.milestones().to_vec(),
         observations: observer.finish(),
         snapshots,
         trajectory,

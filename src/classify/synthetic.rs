@@ -40,6 +40,7 @@ pub(super) fn quiet(frames: usize) -> RunRecord {
         outcome: Outcome::Completed,
         radius: vec![RADIUS; COUNT],
         mass: vec![1e-3; COUNT],
+        milestones: Vec::new(),
         observations,
         snapshots: Vec::new(),
         trajectory: Vec::new(),

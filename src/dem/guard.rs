@@ -27,17 +27,9 @@ impl Limits {
             .position
             .iter()
             .fold(0.0, |most: f64, centre| most.max(centre.z.abs()));
-        let speed_squared = particles
-            .radius
-            .iter()
-            .map(|radius| {
-                let speed = guards.displacement * radius / scene.time.dt;
-                speed * speed
-            })
-            .collect();
-        Self {
+        let mut limits = Self {
             overlap: guards.overlap,
-            speed_squared,
+            speed_squared: Vec::new(),
             displacement: guards.displacement,
             horizontal: guards
                 .horizontal
@@ -48,7 +40,17 @@ impl Limits {
                 .or(floor
                     .map(|floor| 10.0 * floor.abs().max(highest).max(tank_radius.unwrap_or(1.0))))
                 .unwrap_or(f64::MAX),
+        };
+        for radius in &particles.radius {
+            limits.add_sphere(*radius, scene.time.dt);
         }
+        limits
+    }
+
+    /// The limits of another sphere.
+    pub(super) fn add_sphere(&mut self, radius: f64, dt: f64) {
+        let speed = self.displacement * radius / dt;
+        self.speed_squared.push(speed * speed);
     }
 
     /// Refuses positions that are not a number or out of bounds.

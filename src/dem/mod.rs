@@ -12,6 +12,7 @@ mod guard;
 pub mod math;
 pub mod neighbours;
 mod particles;
+mod process;
 mod simulation;
 pub mod start;
 mod system;
@@ -19,5 +20,5 @@ pub mod timestep;
 pub mod vector;
 pub mod walls;
 
-pub use particles::{Particles, sphere_mass};
+pub use particles::Particles;
 pub use simulation::{BuildError, Simulation};

@@ -6,6 +6,11 @@ use super::vector::Vector;
 /// use for it: spins, torques and moments of inertia exist only with friction.
 #[derive(Clone, Debug, Default)]
 pub struct Particles {
+    /// How many of the spheres, the first ones, never move.
+    pub fixed: usize,
+    /// Number of each sphere in the scene, counted from 0, fixed ones by themselves; empty where no
+    /// sphere comes or goes, which makes numbers and indices the same.
+    pub number: Vec<u32>,
     /// Centres (m).
     pub position: Vec<Vector>,
     /// Velocities (m/s).
@@ -44,13 +49,105 @@ impl Particles {
         !self.inertia.is_empty()
     }
 
+    /// Adds a sphere that moves, at the end.
+    pub fn push(&mut self, sphere: &Sphere) {
+        let Sphere {
+            number,
+            position,
+            velocity,
+            radius,
+            mass,
+            inertia,
+            force,
+        } = *sphere;
+        self.number.push(number);
+        self.position.push(position);
+        self.velocity.push(velocity);
+        self.force.push(force);
+        self.radius.push(radius);
+        self.mass.push(mass);
+        self.inverse_mass.push(1.0 / mass);
+        if let Some(inertia) = inertia {
+            self.spin.push(Vector::ZERO);
+            self.torque.push(Vector::ZERO);
+            self.inertia.push(inertia);
+            self.inverse_inertia.push(1.0 / inertia);
+        }
+    }
+
+    /// Adds the spheres of `others`, which all move, at the end.
+    pub fn append(&mut self, mut others: Self) {
+        self.position.append(&mut others.position);
+        self.velocity.append(&mut others.velocity);
+        self.force.append(&mut others.force);
+        self.spin.append(&mut others.spin);
+        self.torque.append(&mut others.torque);
+        self.radius.append(&mut others.radius);
+        self.mass.append(&mut others.mass);
+        self.inverse_mass.append(&mut others.inverse_mass);
+        self.inertia.append(&mut others.inertia);
+        self.inverse_inertia.append(&mut others.inverse_inertia);
+    }
+
+    /// Removes the spheres that are not to be kept; the others stay in their order.
+    pub fn retain(&mut self, keep: &[bool]) {
+        self.fixed = keep[..self.fixed].iter().filter(|keep| **keep).count();
+        retain(&mut self.number, keep);
+        retain(&mut self.position, keep);
+        retain(&mut self.velocity, keep);
+        retain(&mut self.force, keep);
+        retain(&mut self.spin, keep);
+        retain(&mut self.torque, keep);
+        retain(&mut self.radius, keep);
+        retain(&mut self.mass, keep);
+        retain(&mut self.inverse_mass, keep);
+        retain(&mut self.inertia, keep);
+        retain(&mut self.inverse_inertia, keep);
+    }
+
+    /// The least index of a partner that sphere `i` may have in a list of pairs: pairs stand with the
+    /// lower index first, and two fixed spheres are none.
+    #[inline]
+    pub(super) fn first_partner(&self, i: usize) -> usize {
+        (i + 1).max(self.fixed)
+    }
+
+    /// The first of two partners that moves.
+    pub(super) fn moving_partner(&self, i: u32, j: u32) -> usize {
+        if (i as usize) < self.fixed {
+            j as usize
+        } else {
+            i as usize
+        }
+    }
+
     /// Largest radius (m).
     pub fn largest_radius(&self) -> f64 {
         self.radius.iter().copied().fold(0.0, f64::max)
     }
 }
 
-/// Mass (kg) of a sphere of this density (kg/m3) and radius (m).
-pub fn sphere_mass(density: f64, radius: f64) -> f64 {
-    density * (4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius)
+/// A sphere that comes in.
+#[derive(Clone, Copy, Debug)]
+pub struct Sphere {
+    /// Its number in the scene.
+    pub number: u32,
+    /// Centre (m).
+    pub position: Vector,
+    /// Velocity (m/s).
+    pub velocity: Vector,
+    /// Radius (m).
+    pub radius: f64,
+    /// Mass (kg).
+    pub mass: f64,
+    /// Moment of inertia (kg m2), in a scene with rotation.
+    pub inertia: Option<f64>,
+    /// What acts on it already (N): velocity Verlet begins its step with that.
+    pub force: Vector,
+}
+
+/// Keeps the entries that are to be kept; leaves an array alone that has none at all.
+pub(super) fn retain<T>(entries: &mut Vec<T>, keep: &[bool]) {
+    let mut keep = keep.iter();
+    entries.retain(|_| keep.next().is_none_or(|keep| *keep));
 }

@@ -1,17 +1,19 @@
 //! From a scene to a running simulation.
 
-use super::contact::{Hertz, NoContact, NormalLaw};
+use super::contact::{Hertz, Linear, NoContact, NormalLaw};
 use super::friction::{Coulomb, Frictionless, Mindlin, SpinFriction, TangentialLaw};
 use super::guard::Limits;
 use super::neighbours::VerletList;
-use super::particles::Particles;
+use super::particles::{Particles, Sphere};
+use super::process::{Feed, Process};
 use super::start::{self, StartError};
 use super::system::{Engine, Parts, System};
+use super::vector::Vector;
 use super::walls::{Cylinder, Floor};
 use super::{effects, timestep};
-use crate::observe::FrameView;
-use crate::record::Instability;
-use crate::scene::{Contact, Friction, Scene};
+use crate::observe::{Flow, FrameView};
+use crate::record::{Instability, Milestone};
+use crate::scene::{Contact, Friction, Scene, Start};
 
 /// Why a scene cannot be run.
 #[derive(Debug, thiserror::Error)]
@@ -19,8 +21,8 @@ pub enum BuildError {
     /// The spheres cannot be placed.
     #[error(transparent)]
     Start(#[from] StartError),
-    /// Friction acts at contacts.
-    #[error("friction acts at contacts; add [contact] with law = \"hertz\"")]
+    /// The friction law does not go with the contact law, or there is no contact.
+    #[error("this friction does not go with the contact law; add [contact] with law = \"hertz\"")]
     FrictionWithoutContact,
 }
 
@@ -34,6 +36,11 @@ const COLUMN_SKIN: f64 = 1.0;
 /// A running simulation.
 pub struct Simulation {
     engine: Box<dyn Engine>,
+    /// Absent where no sphere comes or goes.
+    process: Option<Process>,
+    /// Radius (m) and mass (kg) of every sphere of the scene, those included that are not in yet.
+    radius: Vec<f64>,
+    mass: Vec<f64>,
     dt: f64,
     components: [[Vec<f64>; 3]; 3],
 }
@@ -58,7 +65,26 @@ impl Simulation {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn with_skin(scene: &Scene, skin: f64) -> Result<Self, BuildError> {
-        let particles = start::place(scene)?;
+        let spheres = start::place(scene)?;
+        let (radius, mass) = (spheres.radius.clone(), spheres.mass.clone());
+        let mut particles = start::fixed(scene);
+        let feed = match scene.start {
+            Start::Feed { interval, .. } => Some(Feed::new(
+                waiting(&spheres, scene),
+                (interval / scene.time.dt).round() as u64,
+            )),
+            _ => {
+                particles.append(spheres);
+                None
+            }
+        };
+        let process = Process::of_scene(scene, feed);
+        if process.is_some() {
+            let moving = particles.len() - particles.fixed;
+            particles.number = (0..particles.fixed as u32)
+                .chain(0..moving as u32)
+                .collect();
+        }
         let tank = scene.tank.as_ref();
         let parts = Parts {
             floor: tank
@@ -72,12 +98,15 @@ impl Simulation {
             limits: Limits::new(scene, &particles),
             dt: scene.time.dt,
             integrator: scene.time.integrator,
-            skin: skin * particles.largest_radius(),
+            skin: skin * radius.iter().copied().fold(0.0, f64::max),
             particles,
         };
         let engine = engine(scene, parts)?;
         Ok(Self {
             engine,
+            process,
+            radius,
+            mass,
             dt: scene.time.dt,
             components: Default::default(),
         })
@@ -88,7 +117,37 @@ impl Simulation {
     /// # Errors
     /// The guard that was broken; the simulation must not be advanced any further.
     pub fn advance(&mut self, steps: u64) -> Result<(), Instability> {
-        self.engine.advance(steps)
+        let Some(process) = &mut self.process else {
+            return self.engine.advance(steps);
+        };
+        let end = self.engine.step() + steps;
+        let result = process.advance(self.engine.as_mut(), end);
+        // A guard names a sphere by its place in memory.
+        result.map_err(|instability| Instability {
+            sphere: self.engine.particles().number[instability.sphere] as usize,
+            ..instability
+        })
+    }
+
+    /// Whether all spheres are in, and all have left or are at rest for good: nothing more will
+    /// happen. Never so in a scene where no sphere comes or goes.
+    pub fn ended(&self) -> bool {
+        self.process.as_ref().is_some_and(Process::ended)
+    }
+
+    /// What happened once so far, in a scene where spheres come or go.
+    pub fn milestones(&self) -> &[Milestone] {
+        self.process.as_ref().map_or(&[], Process::milestones)
+    }
+
+    /// Radius of every sphere of the scene that moves (m), by its number.
+    pub fn radius(&self) -> &[f64] {
+        &self.radius
+    }
+
+    /// Mass of every sphere of the scene that moves (kg), by its number.
+    pub fn mass(&self) -> &[f64] {
+        &self.mass
     }
 
     /// Keeps to the instructions that every machine of this architecture has. Slower, and the
@@ -97,7 +156,7 @@ impl Simulation {
         self.engine.use_baseline_instructions();
     }
 
-    /// The spheres.
+    /// The spheres that are in the simulation, the fixed ones first.
     pub fn particles(&self) -> &Particles {
         self.engine.particles()
     }
@@ -119,18 +178,21 @@ impl Simulation {
 
     /// Elastic energy of all contacts (J). Asking for it never changes the motion.
     pub fn elastic_energy(&mut self) -> f64 {
-        self.engine.elastic_energy()
+        self.engine.contacts().elastic_energy
     }
 
     /// Everything an observer may see now.
     pub fn frame(&mut self) -> FrameView<'_> {
-        let elastic_energy = self.engine.elastic_energy();
+        let contacts = self.engine.contacts();
         let particles = self.engine.particles();
+        let moving = particles.fixed..;
         let vectors = [&particles.position, &particles.velocity, &particles.spin];
         for (components, vectors) in self.components.iter_mut().zip(vectors) {
             components[0].clear();
             components[1].clear();
             components[2].clear();
+            // Without rotation there are no spins, neither of fixed spheres nor of others.
+            let vectors = vectors.get(moving.clone()).unwrap_or_default();
             components[0].extend(vectors.iter().map(|vector| vector.x));
             components[1].extend(vectors.iter().map(|vector| vector.y));
             components[2].extend(vectors.iter().map(|vector| vector.z));
@@ -143,12 +205,38 @@ impl Simulation {
             position,
             velocity,
             spin: particles.rotate().then_some(spin),
-            radius: &particles.radius,
-            mass: &particles.mass,
-            inertia: &particles.inertia,
-            elastic_energy,
+            radius: &particles.radius[moving.clone()],
+            mass: &particles.mass[moving.clone()],
+            inertia: particles.inertia.get(moving.clone()).unwrap_or_default(),
+            elastic_energy: contacts.elastic_energy,
+            flow: self.process.as_ref().map(|process| Flow {
+                number: &particles.number[moving],
+                spheres: self.radius.len(),
+                released: process.released(),
+                discharged: process.discharged(),
+                contacts: contacts.of_moving_spheres,
+            }),
         }
     }
+}
+
+/// The spheres of a scene that come in later.
+fn waiting(spheres: &Particles, scene: &Scene) -> Vec<Sphere> {
+    let gravity = scene
+        .gravity
+        .as_ref()
+        .map_or([0.0; 2], |it| it.components());
+    let sphere = |i: usize| Sphere {
+        number: i as u32,
+        position: spheres.position[i],
+        velocity: spheres.velocity[i],
+        radius: spheres.radius[i],
+        mass: spheres.mass[i],
+        inertia: spheres.inertia.get(i).copied(),
+        // Where it comes in nothing else acts on it.
+        force: Vector::new(gravity[0], 0.0, gravity[1]) * spheres.mass[i],
+    };
+    (0..spheres.len()).map(sphere).collect()
 }
 
 /// The engine compiled for the scene's contact and friction. Each pair of laws costs time to compile,
@@ -161,38 +249,58 @@ fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
     ) -> Box<dyn Engine> {
         Box::new(System::new(normal, tangential, parts))
     }
-    let Some(Contact::Hertz {
-        young_modulus,
-        poisson_ratio,
-        dissipation_factor,
-        ..
-    }) = scene.contact
-    else {
-        return match scene.friction {
+    let dt = scene.time.dt;
+    match scene.contact {
+        None => match scene.friction {
             None => Ok(boxed(NoContact, Frictionless, parts)),
             Some(_) => Err(BuildError::FrictionWithoutContact),
-        };
-    };
-    let dissipation_time = timestep::dissipation_time(scene);
-    let normal = Hertz::new(
-        young_modulus,
-        poisson_ratio,
-        dissipation_time,
-        dissipation_factor,
-    );
-    let dt = scene.time.dt;
-    Ok(match scene.friction {
-        None => boxed(normal, Frictionless, parts),
-        Some(Friction::Spin { coefficient }) => {
-            boxed(normal, SpinFriction::new(coefficient, dt), parts)
+        },
+        Some(Contact::Hertz {
+            young_modulus,
+            poisson_ratio,
+            dissipation_factor,
+            ..
+        }) => {
+            let dissipation_time = timestep::dissipation_time(scene);
+            let normal = Hertz::new(
+                young_modulus,
+                poisson_ratio,
+                dissipation_time,
+                dissipation_factor,
+            );
+            Ok(match scene.friction {
+                None => boxed(normal, Frictionless, parts),
+                Some(Friction::Spin { coefficient }) => {
+                    boxed(normal, SpinFriction::new(coefficient, dt), parts)
+                }
+                Some(Friction::Coulomb {
+                    coefficient,
+                    regularisation,
+                }) => boxed(normal, Coulomb::new(coefficient, regularisation), parts),
+                Some(Friction::Mindlin { coefficient }) => {
+                    let law = Mindlin::new(coefficient, young_modulus, poisson_ratio, dt);
+                    boxed(normal, law, parts)
+                }
+            })
         }
-        Some(Friction::Coulomb {
-            coefficient,
-            regularisation,
-        }) => boxed(normal, Coulomb::new(coefficient, regularisation), parts),
-        Some(Friction::Mindlin { coefficient }) => {
-            let law = Mindlin::new(coefficient, young_modulus, poisson_ratio, dt);
-            boxed(normal, law, parts)
+        Some(Contact::Linear {
+            stiffness,
+            damping,
+            drag,
+        }) => {
+            let normal = Linear::new(stiffness, damping, drag);
+            match scene.friction {
+                None => Ok(boxed(normal, Frictionless, parts)),
+                Some(Friction::Coulomb {
+                    coefficient,
+                    regularisation,
+                }) => Ok(boxed(
+                    normal,
+                    Coulomb::new(coefficient, regularisation),
+                    parts,
+                )),
+                Some(_) => Err(BuildError::FrictionWithoutContact),
+            }
         }
-    })
+    }
 }

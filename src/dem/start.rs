@@ -1,8 +1,8 @@
 //! Where and how the spheres start.
 
-use super::particles::{Particles, sphere_mass};
+use super::particles::Particles;
 use super::vector::Vector;
-use crate::scene::{Radii, Scene, Start};
+use crate::scene::{Geometry, Radii, Scene, Start};
 use rand::Rng;
 use std::collections::HashMap;
 
@@ -45,7 +45,8 @@ pub enum StartError {
 /// Random places tried for a sphere before the tank counts as full.
 const ATTEMPTS: usize = 100_000;
 
-/// The spheres of a scene at time zero.
+/// The spheres of a scene at time zero, without fixed ones. Those of a feed are all where they will
+/// come in.
 ///
 /// # Errors
 /// If they cannot be placed.
@@ -92,29 +93,68 @@ pub fn place(scene: &Scene) -> Result<Particles, StartError> {
                 particles.radius[i] = sphere.radius.unwrap_or(particles.radius[i]);
             }
         }
+        Start::Feed {
+            position,
+            velocity,
+            spread,
+            ..
+        } => {
+            let mut random = scene.random_stream("positions");
+            for i in 0..count {
+                let aside = spread * (2.0 * uniform(&mut random) - 1.0);
+                let mut place: Vector = (*position).into();
+                place.x += aside;
+                particles.position.push(place);
+                particles.velocity[i] = (*velocity).into();
+            }
+        }
         Start::File { .. } => return Err(StartError::NotLoaded("start.path")),
     }
-    give_mass(&mut particles, scene.spheres.density);
-    if scene.friction.is_some() {
-        give_rotation(&mut particles, spins);
-    }
+    complete(&mut particles, scene, spins);
     Ok(particles)
 }
 
-fn give_mass(particles: &mut Particles, density: f64) {
+/// The fixed spheres of a scene: the walls, then the door.
+pub fn fixed(scene: &Scene) -> Particles {
+    let spheres = scene.geometry.as_ref().map(Geometry::spheres);
+    let spheres = spheres.map(|spheres| [spheres.walls, spheres.door].concat());
+    let spheres = spheres.unwrap_or_default();
+    let mut particles = Particles {
+        fixed: spheres.len(),
+        position: spheres.iter().map(|it| it.position.into()).collect(),
+        radius: spheres.iter().map(|it| it.radius).collect(),
+        velocity: vec![Vector::ZERO; spheres.len()],
+        ..Particles::default()
+    };
+    complete(&mut particles, scene, vec![Vector::ZERO; spheres.len()]);
+    particles.inverse_mass.fill(0.0);
+    particles.inverse_inertia.fill(0.0);
+    particles
+}
+
+/// Gives mass to spheres that have a radius and, in a scene with friction, rotation.
+fn complete(particles: &mut Particles, scene: &Scene, spins: Vec<Vector>) {
+    give_mass(particles, scene);
+    if scene.friction.is_some() {
+        give_rotation(particles, scene.spheres.shape.inertia_factor(), spins);
+    }
+}
+
+fn give_mass(particles: &mut Particles, scene: &Scene) {
+    let (shape, density) = (scene.spheres.shape, scene.spheres.density);
     particles.mass = particles
         .radius
         .iter()
-        .map(|radius| sphere_mass(density, *radius))
+        .map(|radius| shape.mass(density, *radius))
         .collect();
     particles.inverse_mass = particles.mass.iter().map(|mass| 1.0 / mass).collect();
     particles.force = vec![Vector::ZERO; particles.len()];
 }
 
-fn give_rotation(particles: &mut Particles, spins: Vec<Vector>) {
+fn give_rotation(particles: &mut Particles, factor: f64, spins: Vec<Vector>) {
     let pairs = particles.mass.iter().zip(&particles.radius);
     particles.inertia = pairs
-        .map(|(mass, radius)| 0.4 * mass * radius * radius)
+        .map(|(mass, radius)| factor * mass * radius * radius)
         .collect();
     particles.inverse_inertia = particles
         .inertia

@@ -4,7 +4,7 @@ use super::Snapshot;
 use ndarray::Array2;
 
 /// The state of a simulation at one frame, borrowed from the engine. Every slice holds one entry
-/// per sphere, and a sphere keeps its index throughout a run.
+/// per sphere that moves; a sphere keeps its index throughout a run, unless spheres come and go.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameView<'a> {
     /// Coordinates x, y and z of the centres (m).
@@ -21,6 +21,23 @@ pub struct FrameView<'a> {
     pub inertia: &'a [f64],
     /// Elastic energy of all contacts (J).
     pub elastic_energy: f64,
+    /// How spheres come and go; absent where none does.
+    pub flow: Option<Flow<'a>>,
+}
+
+/// How spheres come and go.
+#[derive(Clone, Copy, Debug)]
+pub struct Flow<'a> {
+    /// Number of each sphere of the frame among all of the scene, counted from 0, in rising order.
+    pub number: &'a [u32],
+    /// Spheres of the scene, those included that are not in yet or have left.
+    pub spheres: usize,
+    /// Spheres that came in so far.
+    pub released: usize,
+    /// Spheres that left so far.
+    pub discharged: usize,
+    /// Contacts of the spheres of the frame, one between two of them counted for each.
+    pub contacts: usize,
 }
 
 impl FrameView<'_> {
@@ -31,8 +48,10 @@ impl FrameView<'_> {
 }
 
 impl Snapshot {
-    /// A copy of all spheres of a frame at `time` (s).
+    /// A copy of all spheres of a frame at `time` (s). Where spheres come and go, one that is not
+    /// in has no numbers (NaN).
     pub fn take(time: f64, frame: &FrameView<'_>) -> Self {
+        let rows = |components| rows(components, frame.flow.as_ref());
         Self {
             time,
             position: rows(frame.position),
@@ -43,10 +62,19 @@ impl Snapshot {
 }
 
 /// One row per sphere from one slice per component.
-fn rows(components: [&[f64]; 3]) -> Array2<f64> {
-    Array2::from_shape_fn((components[0].len(), 3), |(sphere, axis)| {
-        components[axis][sphere]
-    })
+fn rows(components: [&[f64]; 3], flow: Option<&Flow<'_>>) -> Array2<f64> {
+    let Some(flow) = flow else {
+        return Array2::from_shape_fn((components[0].len(), 3), |(sphere, axis)| {
+            components[axis][sphere]
+        });
+    };
+    let mut rows = Array2::from_elem((flow.spheres, 3), f64::NAN);
+    for (at, &sphere) in flow.number.iter().enumerate() {
+        for axis in 0..3 {
+            rows[[sphere as usize, axis]] = components[axis][at];
+        }
+    }
+    rows
 }
 
 #[cfg(test)]
@@ -64,6 +92,7 @@ mod tests {
             mass: &[1.0, 1.0],
             inertia: &[],
             elastic_energy: 0.0,
+            flow: None,
         };
         let snapshot = Snapshot::take(0.25, &view);
         assert_eq!(snapshot.time, 0.25);

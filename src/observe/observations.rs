@@ -14,9 +14,13 @@ pub struct Series<'a> {
     pub values: &'a [f32],
 }
 
-/// Declares the scalar observables once: as fields, as a list to write, as a list to read.
+/// Declares the scalar observables once: as fields, as a list to write, as a list to read. The second
+/// group is that of scenes where spheres come and go.
 macro_rules! scalars {
-    ($($name:ident $unit:literal $description:literal;)*) => {
+    (
+        { $($name:ident $unit:literal $description:literal;)* }
+        { $($flow:ident $flow_unit:literal $flow_description:literal;)* }
+    ) => {
         /// Observables of a run, one entry per frame; the first frame is the start.
         ///
         /// Values are single precision: the record stays small, and sieves read exactly what a
@@ -26,6 +30,10 @@ macro_rules! scalars {
             /// Time of each frame (s).
             pub time: Vec<f64>,
             $(#[doc = concat!($description, " (", $unit, ").")] pub $name: Vec<f32>,)*
+            $(
+                #[doc = concat!($flow_description, " (", $flow_unit, ").")]
+                pub $flow: Vec<f32>,
+            )*
             /// Height of the highest centre in each radial bin (m); not a number for an empty
             /// bin. Shape: frames x bins, inner bin first, bins of equal width up to R; the
             /// outermost also holds what is beyond R. No bins without a tank radius.
@@ -38,20 +46,39 @@ macro_rules! scalars {
         }
 
         impl Observations {
-            /// The scalar observables, in a fixed order.
+            /// Names of all scalar observables.
+            pub(crate) const NAMES: &[&str] = &[$(stringify!($name),)* $(stringify!($flow),)*];
+
+            /// Names of those that only scenes have where spheres come and go.
+            pub(crate) const OF_FLOW: &[&str] = &[$(stringify!($flow),)*];
+
+            /// The scalar observables, in a fixed order. Those of scenes where spheres come and go
+            /// are missing elsewhere.
             pub fn scalars(&self) -> Vec<Series<'_>> {
-                vec![$(Series {
-                    name: stringify!($name),
-                    unit: $unit,
-                    description: $description,
-                    values: &self.$name,
-                },)*]
+                let series = [
+                    $(Series {
+                        name: stringify!($name),
+                        unit: $unit,
+                        description: $description,
+                        values: &self.$name,
+                    },)*
+                    $(Series {
+                        name: stringify!($flow),
+                        unit: $flow_unit,
+                        description: $flow_description,
+                        values: &self.$flow,
+                    },)*
+                ];
+                let is_there =
+                    |it: &Series<'_>| !it.values.is_empty() || !Self::OF_FLOW.contains(&it.name);
+                series.into_iter().filter(is_there).collect()
             }
 
             /// The scalar observable of that name, to fill it.
             pub fn scalar_mut(&mut self, name: &str) -> Option<&mut Vec<f32>> {
                 match name {
                     $(stringify!($name) => Some(&mut self.$name),)*
+                    $(stringify!($flow) => Some(&mut self.$flow),)*
                     _ => None,
                 }
             }
@@ -60,6 +87,7 @@ macro_rules! scalars {
 }
 
 scalars! {
+{
     kinetic "J" "Translational kinetic energy of all spheres";
     rotational "J" "Rotational kinetic energy of all spheres";
     gravitational "J" "Gravitational energy m g z of all spheres";
@@ -71,6 +99,12 @@ scalars! {
     air_speed_mean "m/s" "Mean speed of the swirling air at the spheres, 0 without swirl";
     rotation "rad/s" "Rotation rate of the spheres about the axis: angular momentum over moment of inertia of the centres, 0 if all lie on it";
     fluctuation "m/s" "Root mean square velocity relative to rigid rotation at that rate and to the mean vertical velocity";
+}
+{
+    released "1" "Number of spheres that came in";
+    discharged "1" "Number of spheres that left";
+    coordination "1" "Mean number of contacts of a sphere, not a number without spheres";
+}
 }
 
 impl Observations {

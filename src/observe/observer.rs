@@ -43,7 +43,9 @@ impl Observer {
     /// within no radius: both arrays have a length of 0 there.
     pub fn new(scene: &Scene, radius: &[f64]) -> Self {
         let output = &scene.output;
-        let tank_radius = scene.tank.as_ref().and_then(|tank| tank.radius);
+        // What compares a frame with the one before needs the same spheres in both.
+        let tank = scene.tank.as_ref().filter(|_| !scene.has_flow());
+        let tank_radius = tank.and_then(|tank| tank.radius);
         let mean_radius = radius.iter().sum::<f64>() / radius.len() as f64;
         let (bins, bin_width) = tank_radius.map_or((0, 0.0), |tank_radius| {
             let natural = (tank_radius / (2.0 * mean_radius)).round() as usize;
@@ -80,6 +82,7 @@ impl Observer {
         self.measure_profile(frame);
         let height_mean = self.measure_heights(frame);
         self.measure_rising(frame, height_mean);
+        self.measure_flow(frame);
     }
 
     /// The observables of all frames so far.
@@ -115,6 +118,15 @@ impl Observer {
         observations.rotational.push(rotational as f32);
         observations.gravitational.push(gravitational as f32);
         observations.elastic.push(frame.elastic_energy as f32);
+    }
+
+    fn measure_flow(&mut self, frame: &FrameView<'_>) {
+        let Some(flow) = &frame.flow else { return };
+        let observations = &mut self.observations;
+        observations.released.push(flow.released as f32);
+        observations.discharged.push(flow.discharged as f32);
+        let coordination = flow.contacts as f64 / frame.count() as f64;
+        observations.coordination.push(coordination as f32);
     }
 
     fn measure_velocities(&mut self, frame: &FrameView<'_>) {

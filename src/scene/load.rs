@@ -1,7 +1,7 @@
 //! From a scene file to a scene.
 
 use super::schema::SCENE;
-use super::{Radii, Scene, Start};
+use super::{Geometry, Radii, Scene, Start};
 use crate::document::{Document, LoadError, Problem};
 use crate::store;
 use serde_json::Value;
@@ -55,6 +55,17 @@ fn read_files(scene: &mut Scene, folder: &Path, problems: &mut Vec<Problem>) {
         match store::read_radii(&folder.join(file)) {
             Ok(radii) => scene.spheres.radius = Radii::Each(radii),
             Err(error) => problems.push(Problem::new("spheres.radius.file", error.to_string())),
+        }
+    }
+    if let Some(Geometry::File { path, unit }) = &scene.geometry {
+        match store::read_geometry(&folder.join(path), *unit) {
+            Ok(spheres) => {
+                scene.geometry = Some(Geometry::List {
+                    walls: spheres.walls,
+                    door: spheres.door,
+                });
+            }
+            Err(error) => problems.push(Problem::new("geometry.path", error.to_string())),
         }
     }
     if let Start::File { path } = &scene.start {

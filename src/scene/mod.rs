@@ -11,6 +11,7 @@ mod keys;
 mod load;
 mod radius;
 pub(crate) mod schema;
+mod silo;
 mod validate;
 
 pub use drag::{Drag, DragForm, DragLaw};
@@ -18,6 +19,7 @@ pub(crate) use keys::leaf;
 pub(crate) use load::of_tree;
 pub use load::{from_str, load};
 pub use radius::{Radii, RadiusShare};
+pub use silo::{Door, FixedSphere, FixedSpheres, Geometry, Hopper, LengthUnit, Outlet, Rest};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -45,6 +47,19 @@ pub struct Scene {
     /// The tank's walls. Absent: unbounded space.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tank: Option<Tank>,
+    /// Fixed spheres as the walls and the door of a silo. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub geometry: Option<Geometry>,
+    /// The silo's door, which opens once. Absent: it stays closed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub door: Option<Door>,
+    /// When the spheres count as at rest. With it a run ends as soon as they are, all are in, and no
+    /// door is left to open. Absent: a run ends at its duration, or when all spheres have left.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rest: Option<Rest>,
+    /// Where spheres leave the simulation. Absent: nowhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outlet: Option<Outlet>,
     /// Where and how the spheres start.
     pub start: Start,
     /// Gravity. Absent: none.
@@ -102,6 +117,10 @@ impl Scene {
             contact: None,
             friction: None,
             tank: None,
+            geometry: None,
+            door: None,
+            rest: None,
+            outlet: None,
             start,
             gravity: None,
             drag: None,
@@ -127,8 +146,45 @@ pub struct Spheres {
     pub count: usize,
     /// Radius r (m): one value, a list of `{ radius, share }`, or `{ file = "radii.txt" }`.
     pub radius: Radii,
-    /// Density of the solid (kg/m3); the mass is that of the true sphere volume.
+    /// Density rho: of spheres that of the solid (kg/m3), of discs in kg/m2.
     pub density: f64,
+    /// What the mass of one is.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub shape: Shape,
+}
+
+/// What the mass of a sphere is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Shape {
+    /// A sphere in space: 4/3 pi rho r^3.
+    #[default]
+    Sphere,
+    /// A disc in the plane y = 0: rho r^2 (Remmers, 2009), and a moment of inertia of half that
+    /// times r^2.
+    Disc,
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+impl Shape {
+    /// Mass (kg) of one of this density and radius (m).
+    pub fn mass(self, density: f64, radius: f64) -> f64 {
+        match self {
+            Self::Sphere => density * (4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius),
+            Self::Disc => density * radius * radius,
+        }
+    }
+
+    /// Moment of inertia about the centre, over mass times squared radius.
+    pub fn inertia_factor(self) -> f64 {
+        match self {
+            Self::Sphere => 0.4,
+            Self::Disc => 0.5,
+        }
+    }
 }
 
 /// Normal contact law.
@@ -156,6 +212,29 @@ pub enum Contact {
         #[serde(default = "one")]
         dissipation_factor: f64,
     },
+    /// Spring and dashpot, both linear (Cundall and Strack, 1979; Remmers, 2009): F = k delta + b times
+    /// the rate of the overlap. Attractive at the end of a contact.
+    Linear {
+        /// Spring constant k (N/m).
+        stiffness: f64,
+        /// Drag constant b (N s/m).
+        damping: f64,
+        /// Which part of the relative velocity the drag acts on.
+        #[serde(default)]
+        drag: ContactDrag,
+    },
+}
+
+/// Which part of the relative velocity of two partners a contact's drag acts on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactDrag {
+    /// The part along the line of centres.
+    #[default]
+    Normal,
+    /// All of it (Remmers, 2009), which also slows spheres that slide along each other. Spins do not
+    /// count.
+    Whole,
 }
 
 fn one() -> f64 {
@@ -220,6 +299,20 @@ pub enum Start {
     List {
         /// One entry per sphere; their number must equal `spheres.count`.
         spheres: Vec<StartSphere>,
+    },
+    /// One sphere after the other, all at one place and with one velocity, from time zero on.
+    Feed {
+        /// Centre of a sphere when it comes in (m).
+        position: [f64; 3],
+        /// Its velocity (m/s).
+        #[serde(default)]
+        velocity: [f64; 3],
+        /// Time between two spheres (s); a whole number of steps. One that finds its place taken
+        /// waits until it is free.
+        interval: f64,
+        /// The place is moved along x by a random length, uniform in plus or minus this (m).
+        #[serde(default)]
+        spread: f64,
     },
     /// Every sphere from a CSV file: x, y, z, then optionally vx, vy, vz, wx, wy, wz, radius,
     /// named by its header line.

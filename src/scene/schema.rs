@@ -23,6 +23,16 @@ pub(crate) const SCENE: Kind = Kind::Table(&[
     optional("contact", CONTACT),
     optional("friction", FRICTION),
     optional("tank", TANK),
+    optional("geometry", GEOMETRY),
+    optional("door", Kind::Table(&[optional("opens", NOT_NEGATIVE)])),
+    optional(
+        "rest",
+        Kind::Table(&[
+            needed("kinetic_energy", POSITIVE),
+            optional("hold", POSITIVE),
+        ]),
+    ),
+    optional("outlet", Kind::Table(&[needed("height", NUMBER)])),
     needed("start", START),
     optional(
         "gravity",
@@ -47,6 +57,7 @@ const SPHERES: Kind = Kind::Table(&[
     needed("count", COUNT),
     needed("radius", RADII),
     needed("density", DENSITY),
+    optional("shape", Kind::Choice(&["sphere", "disc"])),
 ]);
 
 const RADII: Kind = Kind::Either(&[
@@ -61,17 +72,27 @@ const RADII: Kind = Kind::Either(&[
 
 const CONTACT: Kind = Kind::Tagged(
     "law",
-    &[(
-        "hertz",
-        &[
-            needed("young_modulus", POSITIVE),
-            needed("poisson_ratio", Kind::Number(Range::above(-1.0, 0.5))),
-            optional("dissipation_time", NOT_NEGATIVE),
-            optional("restitution", Kind::Number(Range::between(0.01, 1.0))),
-            optional("restitution_speed", POSITIVE),
-            optional("dissipation_factor", POSITIVE),
-        ],
-    )],
+    &[
+        (
+            "hertz",
+            &[
+                needed("young_modulus", POSITIVE),
+                needed("poisson_ratio", Kind::Number(Range::above(-1.0, 0.5))),
+                optional("dissipation_time", NOT_NEGATIVE),
+                optional("restitution", Kind::Number(Range::between(0.01, 1.0))),
+                optional("restitution_speed", POSITIVE),
+                optional("dissipation_factor", POSITIVE),
+            ],
+        ),
+        (
+            "linear",
+            &[
+                needed("stiffness", POSITIVE),
+                needed("damping", NOT_NEGATIVE),
+                optional("drag", Kind::Choice(&["normal", "whole"])),
+            ],
+        ),
+    ],
 );
 
 const FRICTION: Kind = Kind::Tagged(
@@ -95,6 +116,41 @@ const FRICTION: Kind = Kind::Tagged(
 
 const TANK: Kind = Kind::Table(&[optional("radius", LENGTH), optional("floor", PLACE)]);
 
+const GEOMETRY: Kind = Kind::Tagged(
+    "kind",
+    &[
+        (
+            "file",
+            &[
+                needed("path", Kind::Text),
+                needed("unit", Kind::Choice(&["m", "cm", "mm"])),
+            ],
+        ),
+        (
+            "hopper",
+            &[
+                needed("half_width", LENGTH),
+                needed("top", PLACE),
+                needed("foot", PLACE),
+                needed("slope", Kind::Number(Range::between(0.0, 1.5))),
+                needed("opening", LENGTH),
+                needed("spacing", LENGTH),
+                needed("radius", LENGTH),
+            ],
+        ),
+        (
+            "list",
+            &[
+                needed("walls", Kind::List(&FIXED_SPHERE)),
+                optional("door", Kind::List(&FIXED_SPHERE)),
+            ],
+        ),
+    ],
+);
+
+const FIXED_SPHERE: Kind =
+    Kind::Table(&[needed("position", Kind::Vector), needed("radius", LENGTH)]);
+
 const START: Kind = Kind::Tagged(
     "kind",
     &[
@@ -108,6 +164,15 @@ const START: Kind = Kind::Tagged(
             ],
         ),
         ("list", &[needed("spheres", Kind::List(&START_SPHERE))]),
+        (
+            "feed",
+            &[
+                needed("position", Kind::Vector),
+                optional("velocity", Kind::Vector),
+                needed("interval", POSITIVE),
+                optional("spread", NOT_NEGATIVE),
+            ],
+        ),
         ("file", &[needed("path", Kind::Text)]),
     ],
 );

@@ -6,6 +6,7 @@ mod atomic;
 mod dump;
 mod export;
 mod failures;
+mod geometry;
 mod labels;
 mod radii;
 mod record;
@@ -18,6 +19,7 @@ pub use export::{
     SPHERES_SIGNATURE, write_arrays, write_observations, write_spheres, write_vtk, write_xyz,
 };
 pub use failures::{read_failures, write_failures};
+pub use geometry::read_geometry;
 pub use labels::{read_labels, write_labels, write_points};
 pub use radii::read_radii;
 pub use record::{

@@ -292,7 +292,7 @@ mod tests {
         assert!(
             report.failures[1]
                 .reason
-                .contains("friction acts at contacts")
+                .contains("does not go with the contact law")
         );
         assert_eq!(
             store::read_failures(&folder.failures()).unwrap(),

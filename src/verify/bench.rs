@@ -1,12 +1,12 @@
 //! What the families share: materials, bare scenes, counted steps.
 
 use super::VerifyError;
-use crate::dem::timestep::{self, Impact};
+use crate::dem::timestep::Impact;
 use crate::dem::vector::Vector;
 use crate::dem::{Particles, Simulation};
 use crate::scene::{
-    Contact, Gravity, Guards, Integrator, Output, Radii, Scene, Spheres, Start, StartSphere, Tank,
-    Time,
+    Contact, Gravity, Guards, Integrator, Output, Radii, Scene, Shape, Spheres, Start, StartSphere,
+    Tank, Time,
 };
 use serde::Deserialize;
 
@@ -35,7 +35,7 @@ pub(super) fn one() -> f64 {
 impl Material {
     /// Mass of a sphere of that radius (kg).
     pub(super) fn mass(&self, radius: f64) -> f64 {
-        timestep::sphere_mass(radius, self.density)
+        Shape::Sphere.mass(self.density, radius)
     }
 
     /// An elastic head-on impact of an effective radius (m) and mass (kg) at a relative speed (m/s).
@@ -137,10 +137,15 @@ impl Bench {
                 count: spheres.len(),
                 radius: Radii::One(radius),
                 density,
+                shape: Shape::Sphere,
             },
             contact: None,
             friction: None,
             tank: None,
+            geometry: None,
+            door: None,
+            rest: None,
+            outlet: None,
             start: Start::List { spheres },
             gravity: None,
             drag: None,

@@ -238,6 +238,7 @@ prop_compose! {
             outcome: if stable { Outcome::Completed } else { examples::unstable() },
             radius,
             mass,
+            milestones: Vec::new(),
             observations,
             snapshots,
             trajectory,

@@ -1,18 +1,29 @@
 //! Normal contact laws: one file each.
 
 mod hertz;
+mod linear;
 pub mod restitution;
 
 pub use hertz::Hertz;
+pub use linear::Linear;
 
 /// A normal contact law. The engine is compiled for each law by itself.
 pub trait NormalLaw: Copy + Send + 'static {
     /// Whether there are contacts at all.
     const ACTS: bool = true;
 
+    /// Whether the law also drags at the partners where they slide along each other.
+    const DRAGS_SIDEWAYS: bool = false;
+
     /// Repulsive force (N) from the overlap (m), its rate (m/s) and the effective radius
     /// r1 r2 / (r1 + r2) (m; the sphere's own at a flat wall).
     fn force(&self, overlap: f64, overlap_rate: f64, effective_radius: f64) -> f64;
+
+    /// Drag per tangential relative velocity of the centres (N s/m); asked for only if the law
+    /// [drags sideways](Self::DRAGS_SIDEWAYS).
+    fn sideways_drag(&self) -> f64 {
+        0.0
+    }
 
     /// Elastic energy (J) stored at that overlap.
     fn elastic_energy(&self, overlap: f64, effective_radius: f64) -> f64;

@@ -3,7 +3,7 @@
 //! A rotation of all spheres about the axis is not counted: it leaves the distances of all pairs as
 //! they are.
 
-use crate::dem::particles::Particles;
+use crate::dem::particles::{Particles, retain};
 use crate::dem::vector::Vector;
 
 /// The spheres at the moment when a list was made.
@@ -19,6 +19,16 @@ impl Anchor {
     pub(super) fn drop(&mut self, particles: &Particles) {
         self.position.clone_from(&particles.position);
         self.rotation = mean_rotation(particles);
+    }
+
+    /// Adds a sphere that came in where it is now.
+    pub(super) fn add_sphere(&mut self, position: Vector) {
+        self.position.push(position);
+    }
+
+    /// Forgets the spheres that are not to be kept.
+    pub(super) fn remove_spheres(&mut self, keep: &[bool]) {
+        retain(&mut self.position, keep);
     }
 
     /// Positions at that moment.

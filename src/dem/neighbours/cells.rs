@@ -107,11 +107,12 @@ impl Cells {
     ) {
         let centre = particles.position[i];
         let reach = particles.radius[i] + skin;
+        let first = particles.first_partner(i);
         self.rows_about(i, |row| {
             for at in row {
                 let offset = self.position[at] - centre;
                 let distance = reach + self.radius[at];
-                if self.index[at] as usize > i && offset.norm_squared() < distance * distance {
+                if self.index[at] as usize >= first && offset.norm_squared() < distance * distance {
                     found.push(self.index[at]);
                 }
             }
@@ -126,10 +127,11 @@ impl Cells {
         found: &mut Vec<u32>,
     ) {
         let (centre, radius) = (particles.position[i], particles.radius[i]);
+        let first = particles.first_partner(i);
         self.rows_about(i, |row| {
             for at in row {
                 let reach = 2.0 * radius.max(self.radius[at]) + skin;
-                if self.index[at] as usize > i
+                if self.index[at] as usize >= first
                     && (self.position[at].x - centre.x).abs() < reach
                     && (self.position[at].y - centre.y).abs() < reach
                 {

@@ -53,6 +53,8 @@ pub struct VerletList {
     half_diagonal: f64,
     cells: Cells,
     builds: u64,
+    /// Whether spheres came or went since the build.
+    outdated: bool,
 }
 
 impl VerletList {
@@ -73,7 +75,44 @@ impl VerletList {
             half_diagonal: 0.0,
             cells: Cells::default(),
             builds: 0,
+            outdated: false,
         }
+    }
+
+    /// Notes that a sphere was added at the end.
+    pub fn add_sphere(&mut self) {
+        self.outdated = true;
+        self.start.extend(self.start.last().copied());
+    }
+
+    /// Notes that some spheres were removed: their pairs go, and the others get new indices. Says
+    /// of each entry whether it is kept.
+    pub fn remove_spheres(&mut self, keep: &[bool]) -> Vec<bool> {
+        self.outdated = true;
+        let mut next = 0;
+        let index: Vec<Option<u32>> = keep
+            .iter()
+            .map(|&keep| {
+                next += u32::from(keep);
+                keep.then(|| next - 1)
+            })
+            .collect();
+        let mut kept = vec![false; self.neighbour.len()];
+        let (mut start, mut neighbour) = (vec![0], Vec::new());
+        for (i, bounds) in self.start.windows(2).enumerate() {
+            if !keep[i] {
+                continue;
+            }
+            for entry in bounds[0] as usize..bounds[1] as usize {
+                if let Some(partner) = index[self.neighbour[entry] as usize] {
+                    kept[entry] = true;
+                    neighbour.push(partner);
+                }
+            }
+            start.push(neighbour.len() as u32);
+        }
+        (self.start, self.neighbour) = (start, neighbour);
+        kept
     }
 
     /// Whether the list still holds `time` (s) after its build, and will until the offset of
@@ -84,6 +123,7 @@ impl VerletList {
             .allowance(time, self.skin - margin, self.half_diagonal);
         let reference = self.anchor.position();
         self.builds > 0
+            && !self.outdated
             && particles
                 .position
                 .iter()
@@ -167,5 +207,6 @@ impl VerletList {
             Reach::Column => std::f64::consts::SQRT_2 * (2.0 * largest + self.skin),
         };
         self.builds += 1;
+        self.outdated = false;
     }
 }

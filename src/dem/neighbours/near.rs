@@ -11,6 +11,7 @@
 use super::anchor::{Allowance, Anchor};
 use super::{Particles, VerletList};
 use crate::dem::block::{BLOCK, Body, Columns};
+use crate::dem::vector::Vector;
 use fearless_simd::{Level, Simd};
 use std::ops::Range;
 
@@ -81,6 +82,20 @@ impl Near {
     #[inline]
     pub fn anchor(&self) -> &Anchor {
         &self.anchor
+    }
+
+    /// Notes that a sphere was added at the end.
+    pub fn add_sphere(&mut self, position: Vector) {
+        self.anchor.add_sphere(position);
+    }
+
+    /// Notes that the spheres that are not to be kept were removed. The pairs must be looked for
+    /// anew.
+    pub fn remove_spheres(&mut self, keep: &[bool]) {
+        self.anchor.remove_spheres(keep);
+        self.pairs.clear();
+        // Lanes without a pair repeat one of the past, whose spheres may be gone.
+        self.glance.index = [[0; BLOCK]; 2];
     }
 
     /// The displacements that the list allows `time` (s) after its refresh.

@@ -60,6 +60,11 @@ impl<H: Copy + Default> PairBlock<H> {
         }
     }
 
+    /// Forgets the pairs of the past, which lanes without a pair repeat.
+    pub(super) fn forget(&mut self) {
+        self.index = [[0; BLOCK]; 2];
+    }
+
     #[inline(always)]
     fn vector(columns: &Columns, k: usize) -> Vector {
         let [x, y, z, _] = &columns.0;
@@ -122,7 +127,8 @@ impl<H: Copy + Default> PairBlock<H> {
             let inverse_sum = 1.0 / sum;
             let effective_radius = radius[0] * radius[1] * inverse_sum;
             let velocity = Self::vector(&motion[0], k) - Self::vector(&motion[1], k);
-            let normal_force = normal_law.force(overlap, -velocity.dot(normal), effective_radius);
+            let approach = -velocity.dot(normal);
+            let normal_force = normal_law.force(overlap, approach, effective_radius);
             let lesser = if radius[0] < radius[1] {
                 radius[0]
             } else {
@@ -131,6 +137,9 @@ impl<H: Copy + Default> PairBlock<H> {
             let deep = touches & ((overlap > overlap_limit * lesser) | (distance == 0.0));
             self.too_deep[k] = if deep { overlap } else { NOT_DEEP };
             let mut force = normal * normal_force;
+            if N::DRAGS_SIDEWAYS {
+                force -= (velocity + normal * approach) * normal_law.sideways_drag();
+            }
             if T::ROTATES {
                 // Both centres turn about the point where the surfaces meet, so that the pair
                 // keeps its angular momentum.
@@ -181,10 +190,14 @@ impl<H: Copy + Default> PairBlock<H> {
                 continue;
             }
             let velocity = Self::vector(motion, k);
-            let normal_force = normal_law.force(overlap, -velocity.dot(normal), radius);
+            let approach = -velocity.dot(normal);
+            let normal_force = normal_law.force(overlap, approach, radius);
             let deep = touches & (overlap > overlap_limit * radius);
             self.too_deep[k] = if deep { overlap } else { NOT_DEEP };
             let mut force = normal * normal_force;
+            if N::DRAGS_SIDEWAYS {
+                force -= (velocity + normal * approach) * normal_law.sideways_drag();
+            }
             if T::ROTATES {
                 let touch = Touch {
                     normal,
@@ -207,7 +220,7 @@ impl<H: Copy + Default> PairBlock<H> {
         }
     }
 
-    /// The first of so many contacts that is too deep: its sphere and overlap.
+    /// The first of so many contacts that is too deep: its lane and overlap.
     #[inline(always)]
     fn first_too_deep(&self, contacts: usize) -> Option<(usize, f64)> {
         let any = |any, &overlap: &f64| any | (overlap != NOT_DEEP);
@@ -216,7 +229,7 @@ impl<H: Copy + Default> PairBlock<H> {
         }
         (0..contacts)
             .find(|&k| self.too_deep[k] != NOT_DEEP)
-            .map(|k| (self.index[0][k] as usize, self.too_deep[k]))
+            .map(|k| (k, self.too_deep[k]))
     }
 
     /// Adds forces and torques of a wall to the spheres.
@@ -347,8 +360,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 }
             }
             block.scatter::<S, T>(simd, pairs, &mut self.loads);
-            let found = block.first_too_deep(pairs.len());
-            self.too_deep = self.too_deep.or(found);
+            if let Some((k, overlap)) = block.first_too_deep(pairs.len()) {
+                let NearPair { i, j, .. } = pairs[k];
+                let sphere = self.parts.particles.moving_partner(i, j);
+                self.too_deep.get_or_insert((sphere, overlap));
+            }
         }
     }
 
@@ -378,8 +394,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 }
             }
             block.scatter_to_spheres::<S, T>(simd, spheres, &mut self.loads);
-            let found = block.first_too_deep(spheres.len());
-            self.too_deep = self.too_deep.or(found);
+            if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
+                self.too_deep.get_or_insert((spheres[k] as usize, overlap));
+            }
         }
     }
 }

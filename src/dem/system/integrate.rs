@@ -83,7 +83,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             *position += velocity * dt;
             moved |= !allowance.holds(*position, reference);
         }
-        self.stale = moved;
+        // It may be so already: a sphere came or went.
+        self.stale |= moved;
     }
 
     fn check_speeds(&self, too_fast: bool) -> Result<(), Instability> {

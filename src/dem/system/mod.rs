@@ -10,7 +10,7 @@ use super::effects::Effect;
 use super::friction::TangentialLaw;
 use super::guard::Limits;
 use super::neighbours::{Near, Reach, VerletList};
-use super::particles::Particles;
+use super::particles::{Particles, Sphere, retain};
 use super::vector::Vector;
 use super::walls::{Cylinder, Floor, Wall};
 use crate::record::Instability;
@@ -23,8 +23,22 @@ pub(in crate::dem) trait Engine: Send {
     fn particles(&self) -> &Particles;
     fn step(&self) -> u64;
     fn list(&self) -> Option<&VerletList>;
-    fn elastic_energy(&mut self) -> f64;
+    /// What the contacts hold at the present positions.
+    fn contacts(&mut self) -> Contacts;
     fn use_baseline_instructions(&mut self);
+    /// Adds a sphere; effects must not depend on how many there are.
+    fn insert(&mut self, sphere: &Sphere);
+    /// Removes the spheres that are not to be kept.
+    fn retain(&mut self, keep: &[bool]);
+}
+
+/// What contacts hold.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::dem) struct Contacts {
+    /// Elastic energy (J).
+    pub(in crate::dem) elastic_energy: f64,
+    /// Contacts of all moving spheres, one between two of them counted for each.
+    pub(in crate::dem) of_moving_spheres: usize,
 }
 
 /// What a system is made of besides its laws.
@@ -206,6 +220,16 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Ok(())
     }
 
+    /// Fits everything that has an entry per sphere to the spheres that there are now.
+    fn renumber(&mut self) {
+        if self.list.is_some() {
+            self.bodies = bodies_of(&self.parts.particles);
+            self.loads.clear();
+            self.loads.resize(self.bodies.len(), Load::default());
+        }
+        self.stale = true;
+    }
+
     /// Builds the list anew, after making sure that every sphere is somewhere.
     fn rebuild(&mut self) -> Result<(), Instability> {
         let Parts {
@@ -263,22 +287,62 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.list.as_ref()
     }
 
+    fn insert(&mut self, sphere: &Sphere) {
+        let Parts {
+            particles,
+            limits,
+            dt,
+            floor,
+            cylinder,
+            ..
+        } = &mut self.parts;
+        particles.push(sphere);
+        limits.add_sphere(sphere.radius, *dt);
+        if floor.is_some() {
+            self.floor_history.push(T::History::default());
+        }
+        if cylinder.is_some() {
+            self.cylinder_history.push(T::History::default());
+        }
+        self.list.iter_mut().for_each(VerletList::add_sphere);
+        self.near.add_sphere(sphere.position);
+        self.renumber();
+    }
+
+    fn retain(&mut self, keep: &[bool]) {
+        self.parts.particles.retain(keep);
+        retain(&mut self.parts.limits.speed_squared, keep);
+        retain(&mut self.floor_history, keep);
+        retain(&mut self.cylinder_history, keep);
+        if let Some(list) = &mut self.list {
+            retain(&mut self.pair_history, &list.remove_spheres(keep));
+        }
+        self.near.remove_spheres(keep);
+        self.block.forget();
+        self.renumber();
+    }
+
     /// Reads positions alone, and builds the list at most earlier than a step would: bits of
     /// the motion do not depend on when the list is built.
-    fn elastic_energy(&mut self) -> f64 {
+    fn contacts(&mut self) -> Contacts {
+        let mut contacts = Contacts::default();
         if !N::ACTS {
-            return 0.0;
+            return contacts;
         }
         if self.stale {
             self.gather();
             if self.refresh().is_err() {
-                return 0.0;
+                return contacts;
             }
         }
         let Particles {
-            position, radius, ..
+            position,
+            radius,
+            fixed,
+            ..
         } = &self.parts.particles;
         let mut energy = 0.0;
+        let count = &mut contacts.of_moving_spheres;
         let mut pairs = self.near.pairs().iter().peekable();
         for i in 0..radius.len() {
             let (centre, ri) = (position[i], radius[i]);
@@ -289,6 +353,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
                 if distance_squared < (ri + rj) * (ri + rj) {
                     let overlap = ri + rj - distance_squared.sqrt();
                     energy += self.normal.elastic_energy(overlap, ri * rj / (ri + rj));
+                    *count += usize::from(i >= *fixed) + usize::from(j >= *fixed);
                 }
             }
             let walls = [
@@ -300,10 +365,12 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
             for contact in walls.into_iter().flatten() {
                 if contact.touches {
                     energy += self.normal.elastic_energy(contact.overlap, ri);
+                    *count += 1;
                 }
             }
         }
-        energy
+        contacts.elastic_energy = energy;
+        contacts
     }
 }
 

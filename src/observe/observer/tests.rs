@@ -53,6 +53,7 @@ impl Spheres {
             mass: &self.mass,
             inertia: &self.inertia,
             elastic_energy: 0.125,
+            flow: None,
         }
     }
 

@@ -263,6 +263,7 @@ mod tests {
             outcome: Outcome::Completed,
             radius: vec![1e-3],
             mass: vec![1.0],
+            milestones: Vec::new(),
             observations: Default::default(),
             snapshots: Vec::new(),
             trajectory: places.iter().enumerate().map(snapshot).collect(),

@@ -1,11 +1,12 @@
 //! What a scene must satisfy beyond the kinds of its values.
 
 mod output;
+mod silo;
 mod start;
 mod time;
 
 use super::schema::SCENE;
-use super::{Contact, Radii, Scene, Start, Updraught};
+use super::{Contact, Friction, Geometry, Radii, Scene, Spheres, Start, Updraught};
 use crate::document::{Problem, number};
 
 /// Largest number of spheres: the engine numbers them with 32 bits, and holds them in memory.
@@ -24,6 +25,7 @@ impl Scene {
             self.check_spheres(&mut problems);
             self.check_start(&mut problems);
             self.check_times(&mut problems);
+            self.check_silo(&mut problems);
             self.check_output(&mut problems);
         }
         if problems.is_empty() {
@@ -58,6 +60,13 @@ impl Scene {
             let message = "[friction] acts at contacts, but there is no [contact]";
             let help = "add [contact] with `law = \"hertz\"`, or remove [friction]";
             problems.push(Problem::new("friction", message).help(help));
+        }
+        if let (Some(Contact::Linear { .. }), Some(law)) = (&self.contact, &self.friction)
+            && !matches!(law, Friction::Coulomb { .. })
+        {
+            let message = "this friction law goes with the hertz contact only";
+            let help = "use `law = \"coulomb\"` here, or `law = \"hertz\"` in [contact]";
+            problems.push(Problem::new("friction.law", message).help(help));
         }
         if self.spin_damping.is_some() && self.friction.is_none() {
             let message = "[spin_damping] acts on spins, but without [friction] there are none";
@@ -148,6 +157,25 @@ impl Scene {
     /// The smallest radius of a sphere (m).
     pub fn smallest_radius(&self) -> f64 {
         self.radius_range().0
+    }
+
+    /// Mass of the smallest sphere (kg).
+    pub fn smallest_mass(&self) -> f64 {
+        let Spheres { shape, density, .. } = self.spheres;
+        shape.mass(density, self.smallest_radius())
+    }
+
+    /// Height (m) of the lowest thing that can hold a sphere: the floor or a fixed sphere.
+    pub(crate) fn lowest_support(&self) -> Option<f64> {
+        let floor = self.tank.as_ref().and_then(|tank| tank.floor);
+        let fixed = self.geometry.as_ref().map(Geometry::spheres);
+        let heights = fixed
+            .iter()
+            .flat_map(|fixed| fixed.walls.iter().chain(&fixed.door));
+        floor
+            .into_iter()
+            .chain(heights.map(|sphere| sphere.position[2]))
+            .reduce(f64::min)
     }
 }
 

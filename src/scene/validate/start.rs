@@ -22,7 +22,7 @@ impl Scene {
         match &self.start {
             Start::Random { z_min, z_max, .. } => self.check_random_start(*z_min, *z_max, problems),
             Start::List { .. } => self.check_listed_start(problems),
-            Start::File { .. } => {}
+            Start::Feed { .. } | Start::File { .. } => {}
         }
     }
 

@@ -78,13 +78,13 @@ impl Scene {
 }
 
 /// Whether `time` is a whole number of times `unit`, once or more often.
-fn multiple(time: f64, unit: f64) -> bool {
+pub(super) fn multiple(time: f64, unit: f64) -> bool {
     let ratio = time / unit;
     let whole = libm::round(ratio);
     whole >= 1.0 && (ratio - whole).abs() <= ROUNDING * whole.min(1e3)
 }
 
-fn not_multiple(path: &str, time: f64, unit_path: &str, unit: f64) -> Problem {
+pub(super) fn not_multiple(path: &str, time: f64, unit_path: &str, unit: f64) -> Problem {
     let message = format!(
         "`{path}` = {} s must be a whole multiple of `{unit_path}` = {} s, but is {} times that",
         number(time),

@@ -107,6 +107,7 @@ pub fn motion_digest(record: &RunRecord) -> Result<String, String> {
         outcome: record.outcome.clone(),
         radius: record.radius.clone(),
         mass: record.mass.clone(),
+        milestones: record.milestones.clone(),
         observations: record.observations.clone(),
         snapshots: record.snapshots.last().cloned().into_iter().collect(),
         trajectory: Vec::new(),

@@ -2,7 +2,7 @@
 
 use super::{FORMAT, FORMAT_VERSION, RecordHeader, seal};
 use crate::observe::{Observations, Snapshot};
-use crate::record::{Guard, Instability, Outcome, Program, RunRecord};
+use crate::record::{Guard, Instability, Milestone, Outcome, Program, RunRecord};
 use crate::store::StoreError;
 use hdf5_pure::{AttrValue, File, H5Element};
 use ndarray::{Array, Array1, Array3, Axis, Dimension};
@@ -76,6 +76,7 @@ impl<'a> Reader<'a> {
             outcome,
             radius: self.values("spheres/radius")?,
             mass: self.values("spheres/mass")?,
+            milestones: self.milestones()?,
             observations: self.observations()?,
             snapshots: self.snapshots("snapshots")?,
             trajectory: self.snapshots("trajectory")?,
@@ -102,6 +103,15 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Absent where no sphere comes or goes.
+    fn milestones(&self) -> Result<Vec<Milestone>, StoreError> {
+        match self.text("milestones") {
+            Ok(text) => serde_json::from_str(text)
+                .map_err(|error| self.damaged(format!("its milestones: {error}"))),
+            Err(_) => Ok(Vec::new()),
+        }
+    }
+
     fn observations(&self) -> Result<Observations, StoreError> {
         let mut observations = Observations {
             time: self.values("observations/time")?,
@@ -109,10 +119,13 @@ impl<'a> Reader<'a> {
             rising: self.array("observations/rising")?,
             ..Observations::default()
         };
-        let names: Vec<_> = observations.scalars().iter().map(|s| s.name).collect();
-        for name in names {
+        for name in Observations::NAMES {
+            let path = format!("observations/{name}");
+            if Observations::OF_FLOW.contains(name) && self.file.dataset(&path).is_err() {
+                continue;
+            }
             if let Some(values) = observations.scalar_mut(name) {
-                *values = self.values(&format!("observations/{name}"))?;
+                *values = self.values(&path)?;
             }
         }
         Ok(observations)

@@ -65,6 +65,10 @@ fn header(file: &mut FileBuilder, record: &RunRecord) -> Result<(), String> {
     if let Ok(toml) = toml::to_string(scene) {
         file.set_attr("scene_toml", text(&toml));
     }
+    if !record.milestones.is_empty() {
+        let json = serde_json::to_string(&record.milestones).map_err(|error| error.to_string())?;
+        file.set_attr("milestones", text(&json));
+    }
     match &record.outcome {
         Outcome::Completed => file.set_attr("outcome", text("completed")),
         Outcome::Unstable(instability) => {

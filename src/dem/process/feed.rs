@@ -1,0 +1,60 @@
+//! Spheres that come in one after the other.
+
+use crate::dem::particles::Sphere;
+use crate::dem::system::Engine;
+use std::collections::VecDeque;
+
+/// Spheres that come in one after the other, at one place.
+#[derive(Default)]
+pub(in crate::dem) struct Feed {
+    waiting: VecDeque<Sphere>,
+    /// Steps between two spheres.
+    interval: u64,
+    /// Spheres that came in.
+    released: usize,
+}
+
+impl Feed {
+    /// These spheres, one every so many steps.
+    pub(in crate::dem) fn new(spheres: Vec<Sphere>, interval: u64) -> Self {
+        Self {
+            waiting: spheres.into(),
+            interval,
+            released: 0,
+        }
+    }
+
+    /// Whether all spheres are in.
+    pub(super) fn is_empty(&self) -> bool {
+        self.waiting.is_empty()
+    }
+
+    pub(super) fn released(&self) -> usize {
+        self.released
+    }
+
+    /// The step at which the next sphere is due.
+    pub(super) fn due(&self) -> Option<u64> {
+        (!self.waiting.is_empty()).then_some(self.released as u64 * self.interval)
+    }
+
+    /// Lets the next sphere in, if it is due and its place is free.
+    pub(super) fn act(&mut self, engine: &mut dyn Engine) {
+        if self.due().is_none_or(|due| due > engine.step()) {
+            return;
+        }
+        let particles = engine.particles();
+        let is_free = |sphere: &Sphere| {
+            let spheres = particles.position.iter().zip(&particles.radius);
+            let mut apart = spheres.map(|(&centre, radius)| {
+                let reach = sphere.radius + radius;
+                (centre - sphere.position).norm_squared() >= reach * reach
+            });
+            apart.all(|apart| apart)
+        };
+        if let Some(sphere) = self.waiting.pop_front_if(|sphere| is_free(sphere)) {
+            engine.insert(&sphere);
+            self.released += 1;
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! Whether a disc passed between two fixed ones where there is no way through.
+//!
+//! A wall of fixed discs is soft: a grain that is fast or heavy enough squeezes through. Neighbours
+//! whose gap is too narrow even for the smallest grain are taken to form a wall, and no centre may
+//! cross the line between theirs.
+
+use crate::dem::particles::Particles;
+use crate::record::{Guard, Instability};
+use crate::scene::{FixedSphere, FixedSpheres, Scene, Shape};
+
+/// A point of the plane, x and z (m).
+type Point = [f64; 2];
+
+/// Watches the centres of the discs.
+pub(super) struct LeakWatch {
+    walls: Barrier,
+    /// The same with the door, while it is closed.
+    closed: Option<Barrier>,
+    /// Number and centre of each disc at the latest look.
+    before: Vec<(u32, Point)>,
+}
+
+impl LeakWatch {
+    /// A watch over a scene of discs; none in space, where walls of spheres have holes.
+    pub(super) fn of_scene(scene: &Scene, fixed: &FixedSpheres) -> Option<Self> {
+        let narrow = 2.0 * scene.smallest_radius();
+        let with_door = [&fixed.walls[..], &fixed.door[..]].concat();
+        (scene.spheres.shape == Shape::Disc && !with_door.is_empty()).then(|| Self {
+            walls: Barrier::new(&fixed.walls, narrow),
+            closed: Some(Barrier::new(&with_door, narrow)),
+            before: Vec::new(),
+        })
+    }
+
+    /// Takes the door away.
+    pub(super) fn open_door(&mut self) {
+        self.closed = None;
+    }
+
+    /// Names the first disc that passed a wall since the latest look.
+    pub(super) fn check(
+        &mut self,
+        particles: &Particles,
+        step: u64,
+        dt: f64,
+    ) -> Result<(), Instability> {
+        let barrier = self.closed.as_ref().unwrap_or(&self.walls);
+        // Both lists are in the order of numbers: discs are let in one after the other.
+        let mut before = self.before.iter().peekable();
+        for i in particles.fixed..particles.len() {
+            let (number, now) = (particles.number[i], place(particles, i));
+            while before.next_if(|(other, _)| *other < number).is_some() {}
+            let Some(&(_, from)) = before.next_if(|(other, _)| *other == number) else {
+                continue;
+            };
+            if let Some([one, other]) = barrier.crossed(from, now) {
+                return Err(Instability {
+                    guard: Guard::WallPassed,
+                    step,
+                    time: step as f64 * dt,
+                    sphere: i,
+                    detail: format!(
+                        "from ({:.4}, {:.4}) m to ({:.4}, {:.4}) m, between the fixed ones at \
+                         ({:.4}, {:.4}) m and ({:.4}, {:.4}) m; stiffen the contact, or make it \
+                         lighter or slower",
+                        from[0], from[1], now[0], now[1], one[0], one[1], other[0], other[1]
+                    ),
+                });
+            }
+        }
+        self.before.clear();
+        let moving = particles.fixed..particles.len();
+        self.before
+            .extend(moving.map(|i| (particles.number[i], place(particles, i))));
+        Ok(())
+    }
+}
+
+fn place(particles: &Particles, i: usize) -> Point {
+    [particles.position[i].x, particles.position[i].z]
+}
+
+/// Lines between neighbouring fixed discs, sorted into cells.
+struct Barrier {
+    lines: Vec<[Point; 2]>,
+    low: Point,
+    width: f64,
+    shape: [usize; 2],
+    /// Lines that reach into each cell or one next to it.
+    cells: Vec<Vec<u32>>,
+}
+
+impl Barrier {
+    /// Lines between all discs whose surfaces are less than `narrow` (m) apart.
+    fn new(fixed: &[FixedSphere], narrow: f64) -> Self {
+        let lines = lines(fixed, narrow);
+        let ends = || lines.iter().flatten();
+        let longest = lines
+            .iter()
+            .map(|[a, b]| length(*a, *b))
+            .fold(0.0, f64::max);
+        let bound = |axis: usize, pick: fn(f64, f64) -> f64, none: f64| {
+            ends().map(|point| point[axis]).fold(none, pick)
+        };
+        let low = [0, 1].map(|axis| bound(axis, f64::min, f64::INFINITY));
+        let high = [0, 1].map(|axis| bound(axis, f64::max, f64::NEG_INFINITY));
+        let extent = (high[0] - low[0]).max(high[1] - low[1]).max(0.0);
+        // A thousand cells along each side at most.
+        let width = longest.max(1e-3 * extent).max(f64::MIN_POSITIVE);
+        let shape = [0, 1].map(|axis| ((high[axis] - low[axis]).max(0.0) / width) as usize + 1);
+        let mut barrier = Self {
+            cells: vec![Vec::new(); shape[0] * shape[1]],
+            lines,
+            low,
+            width,
+            shape,
+        };
+        for index in 0..barrier.lines.len() {
+            let [a, b] = barrier.lines[index];
+            let reach = |axis: usize| {
+                let cell = |value: f64| ((value - barrier.low[axis]) / barrier.width) as usize;
+                let (first, last) = (cell(a[axis].min(b[axis])), cell(a[axis].max(b[axis])));
+                first.saturating_sub(1)..=(last + 1).min(barrier.shape[axis] - 1)
+            };
+            for row in reach(1) {
+                for column in reach(0) {
+                    barrier.cells[row * barrier.shape[0] + column].push(index as u32);
+                }
+            }
+        }
+        barrier
+    }
+
+    /// The ends of the first line that the way from one point to another crosses.
+    fn crossed(&self, from: Point, to: Point) -> Option<[Point; 2]> {
+        let crosses = |line: &[Point; 2]| crosses([from, to], *line);
+        if length(from, to) > self.width {
+            // So far between two looks: cells do not tell.
+            return self.lines.iter().find(|line| crosses(line)).copied();
+        }
+        let column = (to[0] - self.low[0]) / self.width;
+        let row = (to[1] - self.low[1]) / self.width;
+        let inside = column >= -1.0
+            && row >= -1.0
+            && column < self.shape[0] as f64 + 1.0
+            && row < self.shape[1] as f64 + 1.0;
+        if !inside {
+            return None;
+        }
+        let clamp = |value: f64, cells: usize| (value.max(0.0) as usize).min(cells - 1);
+        let cell = clamp(row, self.shape[1]) * self.shape[0] + clamp(column, self.shape[0]);
+        let lines = self.cells[cell].iter();
+        lines
+            .map(|&line| self.lines[line as usize])
+            .find(|line| crosses(line))
+    }
+}
+
+fn lines(fixed: &[FixedSphere], narrow: f64) -> Vec<[Point; 2]> {
+    let centre = |sphere: &FixedSphere| [sphere.position[0], sphere.position[2]];
+    let mut sorted: Vec<&FixedSphere> = fixed.iter().collect();
+    sorted.sort_by(|a, b| a.position[0].total_cmp(&b.position[0]));
+    let largest = fixed.iter().map(|sphere| sphere.radius).fold(0.0, f64::max);
+    let mut lines = Vec::new();
+    for (index, one) in sorted.iter().enumerate() {
+        for other in &sorted[index + 1..] {
+            if other.position[0] - one.position[0] > one.radius + largest + narrow {
+                break;
+            }
+            let apart = length(centre(one), centre(other));
+            if apart > 0.0 && apart - one.radius - other.radius < narrow {
+                lines.push([centre(one), centre(other)]);
+            }
+        }
+    }
+    lines
+}
+
+fn length(a: Point, b: Point) -> f64 {
+    libm::hypot(b[0] - a[0], b[1] - a[1])
+}
+
+/// Whether two lines between points cross each other.
+fn crosses([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+    let side = |p: Point, q: Point, r: Point| {
+        (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+    };
+    let apart = |one: f64, other: f64| (one > 0.0) != (other > 0.0);
+    apart(side(a, b, c), side(a, b, d)) && apart(side(c, d, a), side(c, d, b))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wall() -> Vec<FixedSphere> {
+        (0..5)
+            .map(|k| FixedSphere {
+                position: [0.0, 0.0, 0.05 * f64::from(k)],
+                radius: 0.03,
+            })
+            .collect()
+    }
+
+    #[test]
+    fn only_what_crosses_the_wall_is_named() {
+        let barrier = Barrier::new(&wall(), 0.06);
+        assert!(barrier.crossed([-0.02, 0.12], [0.03, 0.13]).is_some());
+        assert!(barrier.crossed([0.02, 0.12], [-0.03, 0.13]).is_some());
+        assert!(barrier.crossed([0.02, 0.02], [0.03, 0.18]).is_none());
+        // Over its top.
+        assert!(barrier.crossed([-0.02, 0.21], [0.03, 0.21]).is_none());
+        // Far and fast.
+        assert!(barrier.crossed([-5.0, 0.12], [5.0, 0.12]).is_some());
+        assert!(barrier.crossed([-5.0, 0.32], [5.0, 0.32]).is_none());
+    }
+
+    #[test]
+    fn a_gap_that_a_disc_fits_through_is_no_wall() {
+        let mut fixed = wall();
+        fixed.remove(2);
+        // 0.1 - 0.06 = 0.04 m are left.
+        let way = ([-0.02, 0.1], [0.03, 0.1]);
+        assert!(Barrier::new(&fixed, 0.05).crossed(way.0, way.1).is_some());
+        assert!(Barrier::new(&fixed, 0.03).crossed(way.0, way.1).is_none());
+        assert!(Barrier::new(&[], 0.03).crossed(way.0, way.1).is_none());
+    }
+}

@@ -1,0 +1,204 @@
+//! What happens to the set of spheres while a simulation runs: a feed, a door, an outlet.
+//!
+//! All of it happens between steps, at fixed ones: every [`INTERVAL`] s, and when a sphere is due. So
+//! it does not depend on how a run is cut into frames.
+
+mod feed;
+mod leak;
+mod rest;
+
+pub(super) use feed::Feed;
+
+use self::leak::LeakWatch;
+use self::rest::RestWatch;
+use super::particles::Particles;
+use super::system::Engine;
+use crate::record::{Instability, Milestone, MilestoneKind};
+use crate::scene::Scene;
+
+/// Time between two looks at the spheres (s): while a grain falls a few of its diameters.
+const INTERVAL: f64 = 0.01;
+
+/// A feed, a door, an outlet, and what they wait for.
+pub(super) struct Process {
+    dt: f64,
+    /// Steps between two looks.
+    steps: u64,
+    feed: Feed,
+    /// Where the door's spheres are among the fixed ones, while it is closed and is to open.
+    door: Option<Door>,
+    rest: Option<RestWatch>,
+    outlet: Option<f64>,
+    leak: Option<LeakWatch>,
+    milestones: Vec<Milestone>,
+    discharged: usize,
+    ended: bool,
+}
+
+/// A closed door.
+struct Door {
+    spheres: std::ops::Range<usize>,
+    /// Step at which it opens, if that does not depend on the spheres.
+    step: Option<u64>,
+}
+
+impl Process {
+    /// What a scene's spheres go through; none if they all stay from the start to the end.
+    pub(super) fn of_scene(scene: &Scene, feed: Option<Feed>) -> Option<Self> {
+        let dt = scene.time.dt;
+        let active = feed.is_some()
+            || scene.door.is_some()
+            || scene.rest.is_some()
+            || scene.outlet.is_some();
+        active.then(|| {
+            let fixed = scene.geometry.as_ref().map(|geometry| geometry.spheres());
+            let fixed = fixed.unwrap_or_default();
+            let walls = fixed.walls.len();
+            Self {
+                dt,
+                steps: ((INTERVAL / dt).round() as u64).max(1),
+                feed: feed.unwrap_or_default(),
+                door: scene.door.as_ref().map(|door| Door {
+                    spheres: walls..walls + fixed.door.len(),
+                    step: door.opens.map(|time| (time / dt).round() as u64),
+                }),
+                rest: scene.rest.as_ref().map(|rest| RestWatch::new(rest, dt)),
+                outlet: scene.outlet.as_ref().map(|outlet| outlet.height),
+                leak: LeakWatch::of_scene(scene, &fixed),
+                milestones: Vec::new(),
+                discharged: 0,
+                ended: false,
+            }
+        })
+    }
+
+    /// The next step after which something may happen.
+    fn next_step(&self, step: u64) -> u64 {
+        let look = (step / self.steps + 1) * self.steps;
+        match self.feed.due() {
+            Some(due) if due > step => look.min(due),
+            _ => look,
+        }
+    }
+
+    /// Whether nothing more will happen: all spheres are in, and all have left or are at rest for
+    /// good.
+    pub(super) fn ended(&self) -> bool {
+        self.ended
+    }
+
+    /// Spheres that came in so far.
+    pub(super) fn released(&self) -> usize {
+        self.feed.released()
+    }
+
+    /// Spheres that left so far.
+    pub(super) fn discharged(&self) -> usize {
+        self.discharged
+    }
+
+    /// What happened so far.
+    pub(super) fn milestones(&self) -> &[Milestone] {
+        &self.milestones
+    }
+
+    /// Advances an engine to a step and does on the way what is due.
+    pub(super) fn advance(&mut self, engine: &mut dyn Engine, end: u64) -> Result<(), Instability> {
+        while engine.step() < end {
+            let step = engine.step();
+            if step == 0 {
+                self.act(engine)?;
+            }
+            engine.advance(self.next_step(step).min(end) - step)?;
+            self.act(engine)?;
+        }
+        Ok(())
+    }
+
+    /// Does what is due at the engine's present step.
+    fn act(&mut self, engine: &mut dyn Engine) -> Result<(), Instability> {
+        let step = engine.step();
+        let fed = self.feed.is_empty();
+        self.feed.act(engine);
+        if !fed && self.feed.is_empty() {
+            self.note(step, MilestoneKind::Filled);
+        }
+        if !step.is_multiple_of(self.steps) {
+            return Ok(());
+        }
+        if let Some(leak) = &mut self.leak {
+            leak.check(engine.particles(), step, self.dt)?;
+        }
+        self.discharge(engine);
+        let at_rest = match &mut self.rest {
+            Some(rest) => rest.since(engine.particles(), self.feed.is_empty(), step),
+            None => None,
+        };
+        if !self.open_door(engine, step, at_rest) {
+            self.end(engine.particles(), step, at_rest);
+        }
+        Ok(())
+    }
+
+    fn note(&mut self, step: u64, kind: MilestoneKind) {
+        self.milestones.push(Milestone {
+            kind,
+            time: step as f64 * self.dt,
+        });
+    }
+
+    /// Removes the spheres that are out.
+    fn discharge(&mut self, engine: &mut dyn Engine) {
+        let Some(height) = self.outlet else { return };
+        let particles = engine.particles();
+        let is_in = |i: usize| i < particles.fixed || particles.position[i].z >= height;
+        let keep: Vec<bool> = (0..particles.len()).map(is_in).collect();
+        let gone = keep.iter().filter(|keep| !**keep).count();
+        if gone > 0 {
+            self.discharged += gone;
+            engine.retain(&keep);
+        }
+    }
+
+    /// Opens the door if it is time, and says whether it did.
+    fn open_door(&mut self, engine: &mut dyn Engine, step: u64, at_rest: Option<u64>) -> bool {
+        let Some(door) = &self.door else { return false };
+        let opens = match door.step {
+            Some(time) => step >= time,
+            None => at_rest.is_some(),
+        };
+        if !opens {
+            return false;
+        }
+        let keep: Vec<bool> = (0..engine.particles().len())
+            .map(|i| !door.spheres.contains(&i))
+            .collect();
+        engine.retain(&keep);
+        if let Some(since) = at_rest {
+            self.note(since, MilestoneKind::AtRest);
+        }
+        self.note(step, MilestoneKind::DoorOpened);
+        self.door = None;
+        if let Some(rest) = &mut self.rest {
+            rest.reset();
+        }
+        if let Some(leak) = &mut self.leak {
+            leak.open_door();
+        }
+        true
+    }
+
+    fn end(&mut self, particles: &Particles, step: u64, at_rest: Option<u64>) {
+        if !self.feed.is_empty() || self.ended {
+            return;
+        }
+        let inside = particles.len() - particles.fixed;
+        if inside == 0 {
+            self.note(step, MilestoneKind::Emptied);
+            self.ended = true;
+        } else if let (Some(since), None) = (at_rest, &self.door) {
+            self.note(since, MilestoneKind::AtRest);
+            self.ended = true;
+        }
+    }
+}

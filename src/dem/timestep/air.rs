@@ -1,0 +1,45 @@
+//! Limits of what the air does to spheres and of damped spins.
+
+use super::{Limit, fastest_impact};
+use crate::scene::{Scene, Start};
+
+/// A sphere that slips through the air at speed u returns to its terminal speed at the rate
+/// (c1 + 2 c2 u) / m. Swirl and updraught both act on the vertical velocity.
+pub(super) fn drag_limit(scene: &Scene) -> Option<Limit> {
+    let drag = scene.drag.as_ref()?;
+    let lowest = match (&scene.start, scene.lowest_support()) {
+        (_, Some(floor)) => floor,
+        (Start::Random { z_min, .. }, None) => *z_min,
+        (Start::List { spheres }, None) => spheres
+            .iter()
+            .fold(f64::MAX, |low, sphere| low.min(sphere.position[2])),
+        (Start::Feed { position, .. }, None) => position[2],
+        (Start::File { .. }, None) => 0.0,
+    };
+    let updraught = scene.updraught.as_ref().map_or(0.0, |air| {
+        air.strength_in(scene.swirl.as_ref()) * libm::exp(-air.decay * (lowest - air.origin))
+    });
+    let swirl = if scene.swirl.is_some() { 1.0 } else { 0.0 };
+    let (linear, quadratic) = drag.coefficients(scene.smallest_radius());
+    let coefficient = (linear + 2.0 * quadratic * fastest_impact(scene)) * (swirl + updraught);
+    let mass = scene.smallest_mass();
+    Some(Limit {
+        name: "drag",
+        seconds: 2.0 * mass / coefficient,
+        decisive: true,
+        explanation: "2 m / (c1 + 2 c2 u) of the smallest sphere, times the factors of swirl and \
+                      updraught at the lowest height",
+    })
+}
+
+pub(super) fn spin_damping_limit(scene: &Scene) -> Option<Limit> {
+    let damping = scene.spin_damping.as_ref()?;
+    let radius = scene.smallest_radius();
+    let inertia = scene.spheres.shape.inertia_factor() * scene.smallest_mass() * radius * radius;
+    Some(Limit {
+        name: "spin damping",
+        seconds: 2.0 * inertia / damping.coefficient,
+        decisive: true,
+        explanation: "2 I / c of the smallest sphere",
+    })
+}

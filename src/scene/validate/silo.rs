@@ -1,0 +1,220 @@
+//! Whether geometry, feed, door, rest and outlet of a scene go together.
+
+use super::{rounded, time};
+use crate::document::{Problem, number};
+use crate::scene::{Friction, Geometry, Hopper, Scene, Shape, Start};
+
+impl Scene {
+    pub(super) fn check_silo(&self, problems: &mut Vec<Problem>) {
+        self.check_discs(problems);
+        self.check_geometry(problems);
+        self.check_door(problems);
+        self.check_feed(problems);
+        self.check_comings_and_goings(problems);
+    }
+
+    /// Whether spheres come or go while the scene runs.
+    pub(crate) fn has_flow(&self) -> bool {
+        matches!(self.start, Start::Feed { .. })
+            || self.door.is_some()
+            || self.rest.is_some()
+            || self.outlet.is_some()
+    }
+
+    /// Discs stay in their plane only if nothing pushes them out of it.
+    fn check_discs(&self, problems: &mut Vec<Problem>) {
+        if self.spheres.shape != Shape::Disc {
+            return;
+        }
+        let mut refuse = |path: String, what: &str, help: &str| {
+            let message = format!("discs lie in the plane y = 0, but {what}");
+            problems.push(Problem::new(path, message).help(help));
+        };
+        let shape = "or use `shape = \"sphere\"`";
+        if self.tank.as_ref().is_some_and(|tank| tank.radius.is_some()) {
+            let help = format!("use [geometry] for walls, {shape}");
+            refuse(
+                "tank.radius".to_owned(),
+                "a cylinder stands across it",
+                &help,
+            );
+        }
+        if self.swirl.is_some() || self.updraught.is_some() {
+            let path = if self.swirl.is_some() {
+                "swirl"
+            } else {
+                "updraught"
+            };
+            refuse(
+                path.to_owned(),
+                "this air moves in space",
+                &format!("remove it, {shape}"),
+            );
+        }
+        let off = |place: &[f64; 3]| place[1] != 0.0;
+        let place = format!("set the second number to 0, {shape}");
+        match &self.start {
+            Start::Feed {
+                position, velocity, ..
+            } => {
+                for (key, vector) in [("position", position), ("velocity", velocity)] {
+                    if off(vector) {
+                        refuse(format!("start.{key}"), "this leads out of it", &place);
+                    }
+                }
+            }
+            Start::List { spheres } => {
+                let out = |spin: &[f64; 3]| spin[0] != 0.0 || spin[2] != 0.0;
+                let first = spheres
+                    .iter()
+                    .position(|it| off(&it.position) || off(&it.velocity) || out(&it.spin));
+                if let Some(index) = first {
+                    let what = "this one lies, moves or turns out of it";
+                    refuse(format!("start.spheres[{index}]"), what, &place);
+                }
+            }
+            Start::Random { .. } | Start::File { .. } => {}
+        }
+        if let Some(Geometry::List { walls, door }) = &self.geometry
+            && let Some(index) = walls.iter().chain(door).position(|it| off(&it.position))
+        {
+            let path = match index.checked_sub(walls.len()) {
+                None => format!("geometry.walls[{index}].position"),
+                Some(index) => format!("geometry.door[{index}].position"),
+            };
+            refuse(path, "this fixed one does not", &place);
+        }
+    }
+
+    fn check_geometry(&self, problems: &mut Vec<Problem>) {
+        let Some(geometry) = &self.geometry else {
+            return;
+        };
+        if self.contact.is_none() {
+            let message = "[geometry] holds spheres by contact, but there is no [contact]";
+            let help = "add [contact] with `law = \"linear\"` or `\"hertz\"`";
+            problems.push(Problem::new("geometry", message).help(help));
+        }
+        if let Some(Friction::Spin { .. }) = self.friction {
+            let message = "the spin friction is made for the tank and knows no fixed spheres";
+            problems.push(Problem::new("friction.law", message).help("use `law = \"coulomb\"`"));
+        }
+        if let Geometry::Hopper(hopper) = geometry {
+            check_hopper(hopper, problems);
+        }
+    }
+
+    fn check_door(&self, problems: &mut Vec<Problem>) {
+        let Some(door) = &self.door else { return };
+        let doors = match &self.geometry {
+            Some(Geometry::File { .. }) => return,
+            Some(geometry) => geometry.spheres().door.len(),
+            None => 0,
+        };
+        if doors == 0 {
+            let message = "[door] opens a door, but [geometry] has none";
+            let help = "list the spheres of a door in [geometry], or remove [door]";
+            problems.push(Problem::new("door", message).help(help));
+        }
+        if door.opens.is_none() && self.rest.is_none() {
+            let message = "[door] opens when all is at rest, but nothing says when that is";
+            let help = "add [rest] with `kinetic_energy`, or a time `opens` to [door]";
+            problems.push(Problem::new("door", message).help(help));
+        }
+    }
+
+    fn check_feed(&self, problems: &mut Vec<Problem>) {
+        let Start::Feed {
+            position,
+            interval,
+            spread,
+            ..
+        } = &self.start
+        else {
+            return;
+        };
+        if !time::multiple(*interval, self.time.dt) {
+            let dt = self.time.dt;
+            problems.push(time::not_multiple(
+                "start.interval",
+                *interval,
+                "time.dt",
+                dt,
+            ));
+        }
+        let largest = self.radius_range().1;
+        let fixed = self
+            .geometry
+            .as_ref()
+            .map(Geometry::spheres)
+            .unwrap_or_default();
+        let in_the_way = fixed.walls.iter().chain(&fixed.door).find(|sphere| {
+            let [x, y, z] = std::array::from_fn(|axis| sphere.position[axis] - position[axis]);
+            let aside = (x.abs() - spread).max(0.0);
+            let reach = largest + sphere.radius;
+            aside * aside + y * y + z * z < reach * reach
+        });
+        if let Some(sphere) = in_the_way {
+            let [x, _, z] = sphere.position;
+            let message = format!(
+                "spheres of radius {} m come in where a fixed one stands, at ({}, {}) m",
+                number(largest),
+                rounded(x),
+                rounded(z)
+            );
+            problems.push(Problem::new("start.position", message).help("move it away from there"));
+        }
+    }
+
+    /// Effects that keep numbers per sphere cannot have spheres come and go.
+    fn check_comings_and_goings(&self, problems: &mut Vec<Problem>) {
+        if !self.has_flow() {
+            return;
+        }
+        for (name, present) in [
+            ("swirl", self.swirl.is_some()),
+            ("updraught", self.updraught.is_some()),
+        ] {
+            if present {
+                let message = format!("[{name}] does not go with spheres that come or go");
+                let help = format!(
+                    "remove [{name}], or the feed, [door], [rest] and [outlet] of the scene"
+                );
+                problems.push(Problem::new(name, message).help(help));
+            }
+        }
+    }
+}
+
+fn check_hopper(hopper: &Hopper, problems: &mut Vec<Problem>) {
+    if hopper.foot >= hopper.top {
+        let message = format!(
+            "`geometry.foot` = {} is not below `geometry.top` = {}",
+            number(hopper.foot),
+            number(hopper.top)
+        );
+        problems.push(Problem::new("geometry.foot", message).help("exchange the two"));
+    }
+    let widest = 2.0 * (hopper.half_width - hopper.radius);
+    if hopper.opening >= widest {
+        let message = format!(
+            "an opening of {} m is as wide as the silo",
+            number(hopper.opening)
+        );
+        let help = format!("use less than {}", rounded(widest));
+        problems.push(Problem::new("geometry.opening", message).help(help));
+    }
+    if hopper.spacing < 1e-3 * (hopper.top - hopper.foot) {
+        let message = "the spacing makes walls of more than a thousand spheres each";
+        let help = format!("use {} or more", rounded(1e-3 * (hopper.top - hopper.foot)));
+        problems.push(Problem::new("geometry.spacing", message).help(help));
+    } else if hopper.spacing > 2.0 * hopper.radius {
+        let message = format!(
+            "walls of spheres of radius {} m, {} m apart, have gaps",
+            number(hopper.radius),
+            number(hopper.spacing)
+        );
+        let help = format!("use `spacing = {}` or less", rounded(2.0 * hopper.radius));
+        problems.push(Problem::new("geometry.spacing", message).help(help));
+    }
+}
