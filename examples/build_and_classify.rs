@@ -6,8 +6,8 @@
 
 use phase::classify::{Sieves, classify};
 use phase::scene::{
-    Contact, Drag, DragForm, DragLaw, Gravity, Integrator, Radii, Scene, Shape, Spheres, Start, Swirl,
-    Tank, Time,
+    Contact, Drag, DragForm, DragLaw, Gravity, Integrator, Radii, Scene, Shape, Spheres, Start,
+    Swirl, Tank, Time,
 };
 use phase::{run, store};
 use std::error::Error;

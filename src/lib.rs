@@ -23,7 +23,7 @@
 //! ```
 //! use phase::classify::{Label, Sieves, classify};
 //! use phase::scene::{
-//!     Contact, Gravity, Integrator, Radii, Scene, Spheres, Start, Tank, Time,
+//!     Contact, Gravity, Integrator, Radii, Scene, Shape, Spheres, Start, Tank, Time,
 //! };
 //! use std::ops::ControlFlow;
 //!
@@ -39,7 +39,7 @@
 //!     tank: Some(Tank { radius: Some(0.03), floor: Some(0.0) }),
 //!     gravity: Some(Gravity { acceleration: 9.8, tilt: 0.0 }),
 //!     ..Scene::new(
-//!         Spheres { count: 8, radius: Radii::One(0.004), density: 3750.0 },
+//!         Spheres { count: 8, radius: Radii::One(0.004), density: 3750.0, shape: Shape::Sphere },
 //!         Start::Random { z_min: 0.01, z_max: 0.05, speed: 0.005, spin: 0.0 },
 //!         Time {
 //!             dt: 1e-4,

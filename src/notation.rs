@@ -201,10 +201,24 @@ mod tests {
         };
         let hertz = json!({ "law": "hertz", "young_modulus": 1e5, "poisson_ratio": 0.3,
             "dissipation_time": 1e-3, "restitution": 0.9 });
-        vec![scene(
-            hertz,
-            json!({ "law": "coulomb", "coefficient": 0.1, "regularisation": 1e-3 }),
-        )]
+        let silo = json!({
+            "spheres": { "count": 3, "radius": 0.04, "density": 1.0, "shape": "disc" },
+            "contact": { "law": "linear", "stiffness": 100.0, "damping": 0.05 },
+            "geometry": { "kind": "hopper", "half_width": 1.3, "top": 4.0, "foot": 1.0,
+                "slope": 0.6, "opening": 0.3, "spacing": 0.05, "radius": 0.03 },
+            "start": { "kind": "feed", "position": [0.0, 0.0, 4.0], "interval": 0.05 },
+            "rest": { "kinetic_energy": 1e-4 },
+            "door": { "opens": 60.0 },
+            "outlet": { "height": -1.0 },
+            "time": { "dt": 1e-3, "duration": 300.0, "frame_interval": 0.05 },
+        });
+        vec![
+            scene(
+                hertz,
+                json!({ "law": "coulomb", "coefficient": 0.1, "regularisation": 1e-3 }),
+            ),
+            serde_json::from_value(silo).unwrap(),
+        ]
     }
 
     fn numeric_keys(value: &Value, path: &str, keys: &mut BTreeSet<String>) {

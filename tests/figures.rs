@@ -190,6 +190,7 @@ fn record(radius: f64, omega: f64) -> RunRecord {
         profile: Array2::zeros((time.len(), 0)),
         rising: Array3::zeros((time.len(), 0, 3)),
         time,
+        ..Observations::default()
     };
     // A ring on the floor.
     let position = Array2::from_shape_fn((COUNT, 3), |(sphere, axis)| {
@@ -208,6 +209,7 @@ fn record(radius: f64, omega: f64) -> RunRecord {
         outcome: Outcome::Completed,
         radius: vec![radius; COUNT],
         mass: vec![mass; COUNT],
+        milestones: Vec::new(),
         observations,
         snapshots: vec![Snapshot {
             time: 5.0,

@@ -92,12 +92,14 @@ impl Scene {
     /// contacts, no walls, no forces. Seed 1, and the default guards and output.
     ///
     /// ```
-    /// use phase::scene::{Gravity, Integrator, Radii, Scene, Spheres, Start, StartSphere, Time};
+    /// use phase::scene::{
+    ///     Gravity, Integrator, Radii, Scene, Shape, Spheres, Start, StartSphere, Time,
+    /// };
     ///
     /// let falling = Scene {
     ///     gravity: Some(Gravity { acceleration: 9.8, tilt: 0.0 }),
     ///     ..Scene::new(
-    ///         Spheres { count: 1, radius: Radii::One(0.004), density: 2500.0 },
+    ///         Spheres { count: 1, radius: Radii::One(0.004), density: 2500.0, shape: Shape::Sphere },
     ///         Start::List { spheres: vec![StartSphere::at([0.0, 0.0, 1.0])] },
     ///         Time {
     ///             dt: 1e-4,

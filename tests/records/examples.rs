@@ -83,6 +83,7 @@ pub(crate) fn record(frames: usize, bins: usize, spheres: usize, snapshots: usiz
         outcome: Outcome::Completed,
         radius: vec![0.002; spheres],
         mass: vec![1.256_637_061_435_917e-4; spheres],
+        milestones: Vec::new(),
         snapshots: (0..snapshots).map(&mut snapshot).collect(),
         trajectory: Vec::new(),
         observations,
