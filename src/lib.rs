@@ -69,6 +69,7 @@
 
 pub mod classify;
 mod color;
+pub mod cost;
 mod cpu_time;
 pub mod dem;
 pub mod document;

@@ -2,7 +2,7 @@
 //!
 //! The only place that knows them; figures and documentation read it.
 
-use crate::scene::{DragLaw, Scene};
+use crate::scene::{DragLaw, Scene, Shape};
 
 /// How a quantity is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,11 +20,14 @@ pub struct Notation {
 impl Notation {
     /// The unit in this scene: that of a drag coefficient depends on the drag law.
     pub fn unit_in(&self, scene: &Scene) -> &'static str {
+        if self.key == "spheres.density" && scene.spheres.shape == Shape::Disc {
+            return OF_DISCS;
+        }
         let law = scene.drag.as_ref().map(|drag| drag.law);
         law.map_or(self.unit, |law| self.unit_with(law))
     }
 
-    /// The units that this quantity has with one drag law or another, `unit` first.
+    /// The units that this quantity has in one scene or another, `unit` first.
     pub fn units(&self) -> Vec<&'static str> {
         let mut units = vec![self.unit];
         for law in [DragLaw::CrossSection, DragLaw::Diameter, DragLaw::Constant] {
@@ -32,6 +35,9 @@ impl Notation {
             if !units.contains(&unit) {
                 units.push(unit);
             }
+        }
+        if self.key == "spheres.density" {
+            units.push(OF_DISCS);
         }
         units
     }
@@ -65,6 +71,9 @@ const fn row(
     }
 }
 
+/// Unit of the density of discs.
+const OF_DISCS: &str = "kg/m²";
+
 /// Every numeric key of a scene, in the order of [`Scene`].
 #[rustfmt::skip]
 pub const SCENE_KEYS: &[Notation] = &[
@@ -81,6 +90,8 @@ pub const SCENE_KEYS: &[Notation] = &[
     row("contact.stiffness", "k", "N/m", "spring constant of a contact"),
     row("contact.damping", "b", "N s/m", "drag constant of a contact"),
     row("friction.coefficient", "μ", "", "coefficient of friction"),
+    row("friction.stiffness", "k_t", "N/m", "tangential spring constant"),
+    row("friction.damping", "b_t", "N s/m", "tangential drag constant"),
     row("friction.regularisation", "v_μ", "m/s", "sliding speed of full friction"),
     row("tank.radius", "R", "m", "radius of the tank"),
     row("tank.floor", "z_{floor}", "m", "height of the floor"),
@@ -113,6 +124,7 @@ pub const SCENE_KEYS: &[Notation] = &[
     row("updraught.alpha", "α", "", "factor per shielding sphere"),
     row("updraught.reference_omega", "Ω_0", "rad/s", "rotation at which the updraught is as given"),
     row("spin_damping.coefficient", "c_ω", "kg m²/s", "coefficient of spin damping"),
+    row("neighbours.length", "L", "m", "side of a cell"),
     row("time.dt", "Δt", "s", "time step"),
     row("time.duration", "T", "s", "duration"),
     row("time.frame_interval", "Δt_{frame}", "s", "time between frames"),
@@ -204,12 +216,14 @@ mod tests {
         let silo = json!({
             "spheres": { "count": 3, "radius": 0.04, "density": 1.0, "shape": "disc" },
             "contact": { "law": "linear", "stiffness": 100.0, "damping": 0.05 },
+            "friction": { "law": "cundall-strack", "coefficient": 0.1, "stiffness": 80.0 },
             "geometry": { "kind": "hopper", "half_width": 1.3, "top": 4.0, "foot": 1.0,
                 "slope": 0.6, "opening": 0.3, "spacing": 0.05, "radius": 0.03 },
             "start": { "kind": "feed", "position": [0.0, 0.0, 4.0], "interval": 0.05 },
             "rest": { "kinetic_energy": 1e-4 },
             "door": { "opens": 60.0 },
             "outlet": { "height": -1.0 },
+            "neighbours": { "search": "cells", "length": 0.25 },
             "time": { "dt": 1e-3, "duration": 300.0, "frame_interval": 0.05 },
         });
         vec![

@@ -1,7 +1,7 @@
 //! One run: from a scene to its record.
 
 use crate::cpu_time;
-use crate::dem::{BuildError, Simulation};
+use crate::dem::{BuildError, Counts, Simulation};
 use crate::observe::{Observer, Snapshot};
 use crate::record::{Outcome, Program, RunRecord};
 use crate::scene::Scene;
@@ -12,8 +12,20 @@ use std::ops::ControlFlow;
 pub struct Progress {
     /// Frames done, the start not counted.
     pub frame: u64,
-    /// Frames in all.
+    /// Frames in all, if nothing ends the run before its time.
     pub frames: u64,
+    /// Where spheres come and go: how many did.
+    pub counts: Option<Counts>,
+}
+
+impl Progress {
+    /// The share of the run that is done: of its frames or, if that is more, of the ways of its
+    /// spheres in and out.
+    pub fn share(&self) -> f64 {
+        let frames = self.frame as f64 / self.frames.max(1) as f64;
+        self.counts
+            .map_or(frames, |counts| frames.max(counts.share()))
+    }
 }
 
 /// Why a run has no record.
@@ -59,7 +71,14 @@ pub fn run(
             if let Err(instability) = simulation.advance(steps) {
                 outcome = Outcome::Unstable(instability);
             }
-            if control(Progress { frame, frames }).is_break() {
+            let counts = simulation.counts();
+            if control(Progress {
+                frame,
+                frames,
+                counts,
+            })
+            .is_break()
+            {
                 return Err(RunError::Interrupted);
             }
         }

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use support::{TinySweep, Workplace, scene_file};
 
 /// The commands that answer in JSON are tested below; these are all.
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 14] = [
     "sweep",
     "classify",
     "plot",
@@ -18,6 +18,7 @@ const COMMANDS: [&str; 13] = [
     "export",
     "view",
     "check",
+    "neighbours",
     "status",
     "new",
     "schema",

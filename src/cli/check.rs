@@ -1,11 +1,13 @@
 //! `phase check`: validates a file and says what would run.
 
+mod walls;
+
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::{classify, format, job, kind};
 use phase::classify::Sieves;
 use phase::dem::timestep::{self, Limit};
-use phase::scene::{Friction, Scene};
+use phase::scene::{Contact, Friction, Scene, Start};
 use phase::sweep::{Axis, Forecast, Job, PlotSettings, Sweep, describe, forecast, work};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -52,6 +54,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     for text in describe_time_step(&tightest, &sweep.axes, console.is_verbose()) {
         console.result(line("time step", text))?;
     }
+    let walls = walls::weakest(&jobs);
+    if let Some(wall) = &walls {
+        console.result(line("walls", wall.describe(&sweep.axes)))?;
+    }
     let mut forecast = None;
     if !arguments.no_trial {
         forecast = Some(print_forecast(&jobs, workers, console)?);
@@ -75,6 +81,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             .iter()
             .map(|limit| limit.answer(&sweep.axes))
             .collect(),
+        walls: walls.map(|walls| walls.answer()),
         forecast: forecast.map(|forecast| ForecastAnswer::new(&forecast, workers)),
     })?;
     Ok(Exit::Done)
@@ -120,18 +127,28 @@ fn effects(scene: &Scene) -> Vec<&'static str> {
     let law = |law: &Option<Friction>| match law {
         Some(Friction::Spin { .. }) => "friction (spin)",
         Some(Friction::Coulomb { .. }) => "friction (Coulomb)",
+        Some(Friction::CundallStrack { .. }) => "friction (Cundall and Strack)",
         Some(Friction::Mindlin { .. }) => "friction (Mindlin)",
         None => "",
     };
+    let contact = match scene.contact {
+        Some(Contact::Linear { .. }) => "contact (linear)",
+        Some(Contact::Hertz { .. }) | None => "contact (Hertz)",
+    };
+    let feed = matches!(scene.start, Start::Feed { .. });
     [
         (scene.gravity.is_some(), "gravity"),
-        (scene.contact.is_some(), "contact (Hertz)"),
+        (scene.contact.is_some(), contact),
         (scene.friction.is_some(), law(&scene.friction)),
         (scene.swirl.is_some(), "swirl"),
         (scene.updraught.is_some(), "updraught"),
         (scene.spin_damping.is_some(), "spin damping"),
         (tank.is_some_and(|tank| tank.radius.is_some()), "cylinder"),
         (tank.is_some_and(|tank| tank.floor.is_some()), "floor"),
+        (scene.geometry.is_some(), "fixed spheres"),
+        (feed, "feed"),
+        (scene.door.is_some(), "door"),
+        (scene.outlet.is_some(), "outlet"),
     ]
     .into_iter()
     .filter_map(|(used, name)| used.then_some(name))
@@ -264,6 +281,8 @@ struct Answer<'a> {
     steps_per_frame: u64,
     dt: f64,
     limits: Vec<LimitAnswer>,
+    /// Whether walls of discs hold; none without any.
+    walls: Option<walls::Answer>,
     forecast: Option<ForecastAnswer>,
 }
 

@@ -15,6 +15,12 @@ pub(crate) fn duration(seconds: f64) -> String {
     }
 }
 
+/// A simulated time (s), without the last digits that rounding gave it.
+pub(crate) fn time(seconds: f64) -> String {
+    let rounded: f64 = format!("{seconds:.9}").parse().unwrap_or(seconds);
+    format!("{rounded} s")
+}
+
 /// A size: `1.05 MB`.
 pub(crate) fn bytes(value: f64) -> String {
     with_prefix(value, "B")

@@ -12,6 +12,7 @@ mod interrupt;
 mod job;
 mod kind;
 mod man;
+mod neighbours;
 mod new;
 mod plot;
 mod progress;
@@ -73,6 +74,7 @@ enum Command {
     Export(export::Arguments),
     View(view::Arguments),
     Check(check::Arguments),
+    Neighbours(neighbours::Arguments),
     Status(status::Arguments),
     New(new::Arguments),
     Schema(schema::Arguments),
@@ -92,6 +94,7 @@ impl Command {
             Self::Export(arguments) => arguments.json,
             Self::View(arguments) => arguments.json,
             Self::Check(arguments) => arguments.json,
+            Self::Neighbours(arguments) => arguments.json,
             Self::Status(arguments) => arguments.json,
             _ => false,
         }
@@ -110,6 +113,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Export(arguments) => export::main(&arguments, &console),
         Command::View(arguments) => view::main(&arguments, &console),
         Command::Check(arguments) => check::main(&arguments, &console),
+        Command::Neighbours(arguments) => neighbours::main(&arguments, &console),
         Command::Status(arguments) => status::main(&arguments, &console),
         Command::New(arguments) => new::main(&arguments, &console),
         Command::Schema(arguments) => schema::main(&arguments, &console),

@@ -208,7 +208,11 @@ fn draw_record(path: &Path, figures: &[String], console: &Console) -> Result<(),
 }
 
 /// Writes a figure as SVG and PNG and prints their paths.
-fn write(figure: &Svg, place: impl Fn(&str) -> PathBuf, console: &Console) -> Result<(), Failure> {
+pub(super) fn write(
+    figure: &Svg,
+    place: impl Fn(&str) -> PathBuf,
+    console: &Console,
+) -> Result<(), Failure> {
     let images = [
         ("svg", figure.to_svg_bytes()),
         ("png", figure.to_png_bytes().map_err(Failure::failed)?),

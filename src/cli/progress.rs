@@ -30,8 +30,12 @@ pub(crate) struct Work {
 
 struct State {
     work: Work,
+    /// Sphere-steps done before.
+    done_before: u64,
     /// Sphere-steps that were run now.
     run: u64,
+    /// What is going on, if that is known.
+    phase: String,
     /// When the last line was printed, in seconds since the start.
     last_line: f64,
 }
@@ -45,8 +49,10 @@ impl<'a> Progress<'a> {
             bar
         });
         let state = Mutex::new(State {
+            done_before: work.steps_done,
             work,
             run: 0,
+            phase: String::new(),
             last_line: 0.0,
         });
         Self {
@@ -59,9 +65,15 @@ impl<'a> Progress<'a> {
 
     /// Sphere-steps were run.
     pub(crate) fn advance(&self, steps: u64) {
+        self.advance_to(steps, steps, String::new());
+    }
+
+    /// Sphere-steps were run, so many of them of the work, which is in a `phase` of that name.
+    pub(crate) fn advance_to(&self, run: u64, done: u64, phase: String) {
         let mut state = self.state();
-        state.run += steps;
-        state.work.steps_done += steps;
+        state.run += run;
+        state.work.steps_done += done;
+        state.phase = phase;
         self.show(state);
     }
 
@@ -115,15 +127,20 @@ impl State {
             steps_done,
         } = self.work;
         let rate = self.run as f64 / elapsed.max(1e-3);
-        let left = steps.saturating_sub(steps_done) as f64 / rate;
+        let done = steps_done.saturating_sub(self.done_before) as f64;
+        let left = steps.saturating_sub(steps_done) as f64 * elapsed / done;
         let left = if left.is_finite() {
             format!(", {} left", format::duration(left))
         } else {
             String::new()
         };
+        let what = match self.phase.as_str() {
+            "" => format!("{jobs_done}/{jobs} jobs"),
+            phase => phase.to_owned(),
+        };
         let percent = 100.0 * steps_done as f64 / steps.max(1) as f64;
         format!(
-            "{jobs_done}/{jobs} jobs, {:.0} %, {}{left}",
+            "{what}, {:.0} %, {}{left}",
             percent.min(100.0),
             format::rate(rate)
         )

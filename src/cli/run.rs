@@ -7,8 +7,9 @@ use super::exit::{Exit, Failure};
 use super::progress::{Progress, Work};
 use super::{folders, format, interrupt, kind};
 use again::Original;
+use phase::dem::Counts;
 use phase::document::Problem;
-use phase::record::{Outcome, RunRecord};
+use phase::record::{Milestone, Outcome, RunRecord};
 use phase::run::RunError;
 use phase::scene::Scene;
 use phase::store;
@@ -81,6 +82,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         original.refuse_to_replace(&path)?;
     }
     folders::refuse_to_replace(&path, "a record", store::HDF5_SIGNATURE)?;
+    let table = scene.has_flow().then(|| beside(&path));
+    if let Some(table) = &table {
+        folders::refuse_to_replace(table, "a table of observables", b"time,kinetic,")?;
+    }
     folders::make_for(&path)?;
     let Some((record, seconds)) = run(&scene, console)? else {
         console.note("interrupted; nothing was stored");
@@ -89,12 +94,23 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     store::write_record(&record, &path).map_err(Failure::failed)?;
     console.result(summary(&record, seconds))?;
     console.file(&path)?;
+    if let Some(table) = &table {
+        store::write_observations(&record, table).map_err(Failure::failed)?;
+        console.file(table)?;
+    }
     let same_bits = match &original {
         Some(original) => original.compare(&record, console)?,
         None => None,
     };
     console.answer(&Answer::new(&record, seconds, &path, same_bits))?;
     Ok(Exit::Done)
+}
+
+/// The table of observables beside a record.
+fn beside(record: &Path) -> PathBuf {
+    let mut name = record.file_stem().unwrap_or_default().to_owned();
+    name.push("-observations.csv");
+    record.with_file_name(name)
 }
 
 /// Puts what the command line says of the output into the scene.
@@ -132,9 +148,16 @@ fn run(scene: &Scene, console: &Console) -> Result<Option<(RunRecord, f64)>, Fai
             steps_done: 0,
         },
     );
-    let steps_per_frame = steps / phase::run::frames(scene).1.max(1);
-    let result = phase::run::run(scene, &mut |_| {
-        progress.advance(steps_per_frame);
+    let steps_per_frame = phase::run::frames(scene).0;
+    let mut told = 0;
+    let result = phase::run::run(scene, &mut |now| {
+        let inside = now.counts.map_or(scene.spheres.count, |counts| {
+            counts.released - counts.discharged
+        });
+        let done = (now.share() * steps as f64) as u64;
+        let phase = now.counts.as_ref().map(phase_of).unwrap_or_default();
+        progress.advance_to(steps_per_frame * inside as u64, done - told, phase);
+        told = done;
         if stop.load(Ordering::Relaxed) {
             ControlFlow::Break(())
         } else {
@@ -146,6 +169,24 @@ fn run(scene: &Scene, console: &Console) -> Result<Option<(RunRecord, f64)>, Fai
         Ok(record) => Ok(Some((record, seconds))),
         Err(RunError::Interrupted) => Ok(None),
         Err(error) => Err(Failure::failed(error)),
+    }
+}
+
+/// What goes on in a run where spheres come and go.
+fn phase_of(counts: &Counts) -> String {
+    let Counts {
+        all,
+        released,
+        discharged,
+        is_closed,
+        ..
+    } = *counts;
+    if released < all {
+        format!("filling, {released} of {all} are in")
+    } else if is_closed {
+        format!("coming to rest, all {all} are in")
+    } else {
+        format!("draining, {discharged} of {all} left")
     }
 }
 
@@ -168,6 +209,8 @@ struct Answer<'a> {
     cpu_seconds: f64,
     sphere_steps: u64,
     frames: usize,
+    /// What happened once, and when (s), where spheres come or go.
+    milestones: Vec<Milestone>,
     /// Time (s) and every scalar observable of the last frame, in the units of the record.
     last_frame: BTreeMap<&'static str, f64>,
     /// Whether a job that was run again gave the bits of the sweep's record; none without one.
@@ -210,8 +253,9 @@ impl<'a> Answer<'a> {
             }),
             seconds,
             cpu_seconds: record.cpu_seconds,
-            sphere_steps: work::sphere_steps_run(&record.scene, &record.outcome),
+            sphere_steps: work::sphere_steps_of(record),
             frames: observations.frames(),
+            milestones: record.milestones.clone(),
             last_frame,
             same_bits,
         }
@@ -221,7 +265,7 @@ impl<'a> Answer<'a> {
 /// How the run ended, and the state of its last frame.
 fn summary(record: &RunRecord, seconds: f64) -> String {
     let observations = &record.observations;
-    let steps = work::sphere_steps_run(&record.scene, &record.outcome) as f64;
+    let steps = work::sphere_steps_of(record) as f64;
     let mut text = match &record.outcome {
         Outcome::Completed => "completed".to_owned(),
         Outcome::Unstable(instability) => format!("unstable: {instability}"),
@@ -233,11 +277,19 @@ fn summary(record: &RunRecord, seconds: f64) -> String {
         format::rate(steps / record.cpu_seconds.max(1e-9))
     );
     text += &format!("\n  {:<14} {}", "frames", observations.frames());
+    for milestone in &record.milestones {
+        text += &format!(
+            "\n  {:<14} at {}",
+            milestone.kind.name(),
+            format::time(milestone.time)
+        );
+    }
     if let Some(time) = observations.time.last() {
-        text += &format!("\nlast frame, at {time} s");
+        text += &format!("\nlast frame, at {}", format::time(*time));
     }
     for series in observations.scalars() {
-        if let Some(value) = series.values.last() {
+        // Without spheres there are no means.
+        if let Some(value) = series.values.last().filter(|value| value.is_finite()) {
             let value = format!("{value:.4e}");
             text += &format!(
                 "\n  {:<14} {value:>11} {:<6} {}",

@@ -265,7 +265,9 @@ fn run(
         Event::Advanced(_, steps) => progress.advance(steps),
         Event::Finished(job, record) => {
             note_unstable(job, &record.outcome);
-            let run = work::sphere_steps_run(&job.scene, &record.outcome);
+            let frames = (record.observations.frames() as u64).saturating_sub(1);
+            let last = frames * phase::run::frames(&job.scene).0;
+            let run = work::sphere_steps_until(&job.scene, last);
             progress.detail(format_args!(
                 "done: {} (job {}), {} of CPU",
                 name(job),

@@ -4,6 +4,7 @@
 //! inner loops are compiled for the laws in use, and what the scene does not name allocates and
 //! computes nothing.
 
+mod barrier;
 mod block;
 pub mod contact;
 mod effects;
@@ -20,5 +21,7 @@ pub mod timestep;
 pub mod vector;
 pub mod walls;
 
+pub use barrier::WeakestWall;
 pub use particles::Particles;
+pub use process::Counts;
 pub use simulation::{BuildError, Simulation};

@@ -1,11 +1,11 @@
 //! From a scene to a running simulation.
 
 use super::contact::{Hertz, Linear, NoContact, NormalLaw};
-use super::friction::{Coulomb, Frictionless, Mindlin, SpinFriction, TangentialLaw};
+use super::friction::{Coulomb, CundallStrack, Frictionless, Mindlin, SpinFriction, TangentialLaw};
 use super::guard::Limits;
 use super::neighbours::VerletList;
 use super::particles::{Particles, Sphere};
-use super::process::{Feed, Process};
+use super::process::{Counts, Feed, Process};
 use super::start::{self, StartError};
 use super::system::{Engine, Parts, System};
 use super::vector::Vector;
@@ -13,7 +13,7 @@ use super::walls::{Cylinder, Floor};
 use super::{effects, timestep};
 use crate::observe::{Flow, FrameView};
 use crate::record::{Instability, Milestone};
-use crate::scene::{Contact, Friction, Scene, Start};
+use crate::scene::{Contact, Friction, Neighbours, Scene, Start};
 
 /// Why a scene cannot be run.
 #[derive(Debug, thiserror::Error)]
@@ -21,9 +21,12 @@ pub enum BuildError {
     /// The spheres cannot be placed.
     #[error(transparent)]
     Start(#[from] StartError),
-    /// The friction law does not go with the contact law, or there is no contact.
-    #[error("this friction does not go with the contact law; add [contact] with law = \"hertz\"")]
+    /// There is friction but no contact.
+    #[error("friction acts at contacts, but the scene has no contact law")]
     FrictionWithoutContact,
+    /// The friction law is made for another contact law.
+    #[error("this friction law does not go with this contact law")]
+    LawsDoNotGoTogether,
 }
 
 /// First skin of a neighbour list for contacts, in radii of the largest sphere: where lists are
@@ -51,9 +54,11 @@ impl Simulation {
     /// # Errors
     /// If the spheres cannot be placed, or laws do not fit together.
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
-        let skin = match scene.updraught {
-            None => CONTACT_SKIN,
-            Some(_) => COLUMN_SKIN,
+        let skin = match (scene.neighbours, &scene.updraught) {
+            (Neighbours::VerletList, None) => CONTACT_SKIN,
+            (Neighbours::VerletList, Some(_)) => COLUMN_SKIN,
+            // Found anew in every step.
+            _ => 0.0,
         };
         Self::with_skin(scene, skin)
     }
@@ -98,6 +103,7 @@ impl Simulation {
             limits: Limits::new(scene, &particles),
             dt: scene.time.dt,
             integrator: scene.time.integrator,
+            neighbours: scene.neighbours,
             skin: skin * radius.iter().copied().fold(0.0, f64::max),
             particles,
         };
@@ -133,6 +139,12 @@ impl Simulation {
     /// happen. Never so in a scene where no sphere comes or goes.
     pub fn ended(&self) -> bool {
         self.process.as_ref().is_some_and(Process::ended)
+    }
+
+    /// How many spheres came and went, in a scene where they do.
+    pub fn counts(&self) -> Option<Counts> {
+        let process = self.process.as_ref()?;
+        Some(process.counts(self.radius.len()))
     }
 
     /// What happened once so far, in a scene where spheres come or go.
@@ -270,6 +282,9 @@ fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
             );
             Ok(match scene.friction {
                 None => boxed(normal, Frictionless, parts),
+                Some(Friction::CundallStrack { .. }) => {
+                    return Err(BuildError::LawsDoNotGoTogether);
+                }
                 Some(Friction::Spin { coefficient }) => {
                     boxed(normal, SpinFriction::new(coefficient, dt), parts)
                 }
@@ -299,7 +314,17 @@ fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
                     Coulomb::new(coefficient, regularisation),
                     parts,
                 )),
-                Some(_) => Err(BuildError::FrictionWithoutContact),
+                Some(Friction::CundallStrack {
+                    coefficient,
+                    stiffness,
+                    damping,
+                }) => {
+                    let law = CundallStrack::new(coefficient, stiffness, damping, dt);
+                    Ok(boxed(normal, law, parts))
+                }
+                Some(Friction::Spin { .. } | Friction::Mindlin { .. }) => {
+                    Err(BuildError::LawsDoNotGoTogether)
+                }
             }
         }
     }

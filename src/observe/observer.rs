@@ -19,6 +19,8 @@ pub struct Observer {
     rises: Vec<f64>,
     /// Distances from the axis within which they count (m).
     distances: Vec<f64>,
+    /// Frames in a second, one at least.
+    second: usize,
     observations: Observations,
     /// Rows of `Observations::profile`, one after the other.
     profile: Vec<f32>,
@@ -64,6 +66,7 @@ impl Observer {
             bin_width,
             rises: output.rise_speeds.iter().map(per_frame).collect(),
             distances,
+            second: ((1.0 / scene.time.frame_interval).round() as usize).max(1),
             observations: Observations::default(),
             profile: Vec::new(),
             rising: Vec::new(),
@@ -125,6 +128,12 @@ impl Observer {
         let observations = &mut self.observations;
         observations.released.push(flow.released as f32);
         observations.discharged.push(flow.discharged as f32);
+        let now = observations.discharged.len() - 1;
+        let before = now.saturating_sub(self.second);
+        let left = flow.discharged as f32 - observations.discharged[before];
+        let time = observations.time[now] - observations.time[before];
+        let rate = if time > 0.0 { left / time as f32 } else { 0.0 };
+        observations.discharge_rate.push(rate);
         let coordination = flow.contacts as f64 / frame.count() as f64;
         observations.coordination.push(coordination as f32);
     }

@@ -59,7 +59,13 @@ pub(super) struct Chart {
 
 impl Chart {
     pub(super) fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let layout = Layout::new(self, source.sweep.title.as_deref());
+        let (size, body) = self.body(source.sweep.title.as_deref())?;
+        Ok(Svg::new(self.name, source, size, &body))
+    }
+
+    /// Size of the canvas, and what is drawn on it below a title.
+    pub(super) fn body(&self, title: Option<&str>) -> Result<((u32, u32), String), PlotError> {
+        let layout = Layout::new(self, title);
         let size = (layout.size.0 as u32, layout.size.1 as u32);
         let mut body = String::new();
         {
@@ -70,7 +76,7 @@ impl Chart {
             self.draw_words(&sheet, &layout)?;
             layout.legend.0.draw(&sheet, layout.legend.1)?;
         }
-        Ok(Svg::new(self.name, source, size, &body))
+        Ok((size, body))
     }
 
     fn draw_panel(&self, sheet: &Sheet<'_>, layout: &Layout, index: usize) -> Drawn {

@@ -26,6 +26,7 @@ mod phase;
 mod scale;
 mod speeds;
 mod states;
+pub mod step_time;
 mod style;
 mod svg;
 mod text;

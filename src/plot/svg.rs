@@ -2,8 +2,9 @@
 
 use super::canvas::{self, PNG_SCALE, UNITS, escape};
 use super::{PlotError, Source, text};
-use crate::record::RunRecord;
+use crate::record::{Program, RunRecord};
 use crate::render::Image;
+use crate::scene::Scene;
 use resvg::{tiny_skia, usvg};
 use std::sync::Arc;
 
@@ -51,13 +52,23 @@ impl Svg {
         size: (u32, u32),
         body: &str,
     ) -> Self {
-        let program = &record.program;
+        Self::of_scene(figure, &record.scene, &record.program, size, body)
+    }
+
+    /// The same for a figure of a single scene.
+    pub(super) fn of_scene(
+        figure: &str,
+        scene: &Scene,
+        program: &Program,
+        size: (u32, u32),
+        body: &str,
+    ) -> Self {
         let metadata = vec![
-            ("Title", record.scene.title.clone().unwrap_or_default()),
+            ("Title", scene.title.clone().unwrap_or_default()),
             ("Software", format!("phase {}", program.version)),
             ("Commit", program.commit.clone()),
             ("Figure", figure.to_owned()),
-            ("Seeds", record.scene.seed.to_string()),
+            ("Seeds", scene.seed.to_string()),
         ];
         Self::with_metadata(metadata, size, body)
     }

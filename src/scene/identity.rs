@@ -1,14 +1,15 @@
 //! The identity of a run: a hash of everything that determines its motion.
 
-use super::{Output, Scene};
+use super::{Neighbours, Output, Scene};
 
 impl Scene {
     /// Sixteen hexadecimal digits that stand for everything which determines the
-    /// motion: all keys but `title` and `output`. Runs of equal identity have equal bits, and
+    /// motion: all keys but `title`, `neighbours` and `output`. Runs of equal identity have equal bits, and
     /// every random number of a run derives from it.
     pub fn identity(&self) -> String {
         let scene = Scene {
             title: None,
+            neighbours: Neighbours::default(),
             output: Output::default(),
             ..self.clone()
         };

@@ -28,7 +28,7 @@ impl Scene {
     fn all_numeric_keys(&self) -> Vec<NumericKey> {
         let mut keys = Vec::new();
         collect(&SCENE, Some(&self.tree()), "", &mut keys);
-        keys.retain(|key| key.path != "seed" && !key.path.starts_with("output."));
+        keys.retain(|key| key.path != "seed" && !is_without_effect(&key.path));
         keys
     }
 
@@ -65,7 +65,7 @@ impl Scene {
         if key == "seed" {
             return Problem::new("", "seeds are not an axis").help("list them in [seeds]");
         }
-        if key.starts_with("output.") {
+        if is_without_effect(key) {
             return Problem::new("", format!("`{key}` changes nothing in the motion"))
                 .help("set it in the scene; every job then has it");
         }
@@ -120,6 +120,11 @@ impl Scene {
 pub(crate) fn leaf(path: &str) -> &str {
     let last = path.rsplit('.').next().unwrap_or(path);
     last.split('[').next().unwrap_or(last)
+}
+
+/// Whether a key never changes the motion.
+fn is_without_effect(key: &str) -> bool {
+    key.starts_with("output.") || key.starts_with("neighbours.")
 }
 
 fn collect(kind: &Kind, value: Option<&Value>, path: &str, keys: &mut Vec<NumericKey>) {

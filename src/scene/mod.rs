@@ -9,6 +9,7 @@ mod drag;
 mod identity;
 mod keys;
 mod load;
+mod neighbours;
 mod radius;
 pub(crate) mod schema;
 mod silo;
@@ -18,6 +19,7 @@ pub use drag::{Drag, DragForm, DragLaw};
 pub(crate) use keys::leaf;
 pub(crate) use load::of_tree;
 pub use load::{from_str, load};
+pub use neighbours::Neighbours;
 pub use radius::{Radii, RadiusShare};
 pub use silo::{Door, FixedSphere, FixedSpheres, Geometry, Hopper, LengthUnit, Outlet, Rest};
 
@@ -77,6 +79,9 @@ pub struct Scene {
     /// Viscous damping of spins. Absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spin_damping: Option<SpinDamping>,
+    /// How the pairs that may touch are found. Never changes the motion.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub neighbours: Neighbours,
     /// Time step, duration, frames, integrator.
     pub time: Time,
     /// Limits beyond which a run is ended and reported as unstable.
@@ -129,6 +134,7 @@ impl Scene {
             swirl: None,
             updraught: None,
             spin_damping: None,
+            neighbours: Neighbours::default(),
             time,
             guards: Guards::default(),
             output: Output::default(),
@@ -259,6 +265,17 @@ pub enum Friction {
         coefficient: f64,
         /// Sliding speed below which the force falls linearly to zero (m/s).
         regularisation: f64,
+    },
+    /// A tangential spring and dashpot, together capped at mu F_n (Cundall and Strack, 1979); needs
+    /// the linear contact. A pile holds still, and grains can arch.
+    CundallStrack {
+        /// Coefficient mu.
+        coefficient: f64,
+        /// Tangential spring constant k_t (N/m).
+        stiffness: f64,
+        /// Tangential drag constant b_t (N s/m).
+        #[serde(default)]
+        damping: f64,
     },
     /// Mindlin's history spring by increments, capped at mu F_n; needs the Hertz contact.
     Mindlin {

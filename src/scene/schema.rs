@@ -48,6 +48,7 @@ pub(crate) const SCENE: Kind = Kind::Table(&[
         "spin_damping",
         Kind::Table(&[needed("coefficient", NOT_NEGATIVE)]),
     ),
+    optional("neighbours", NEIGHBOURS),
     needed("time", TIME),
     optional("guards", GUARDS),
     optional("output", OUTPUT),
@@ -108,6 +109,14 @@ const FRICTION: Kind = Kind::Tagged(
             &[
                 needed("coefficient", NOT_NEGATIVE),
                 needed("regularisation", POSITIVE),
+            ],
+        ),
+        (
+            "cundall-strack",
+            &[
+                needed("coefficient", NOT_NEGATIVE),
+                needed("stiffness", POSITIVE),
+                optional("damping", NOT_NEGATIVE),
             ],
         ),
         ("mindlin", &[needed("coefficient", NOT_NEGATIVE)]),
@@ -203,6 +212,16 @@ const UPDRAUGHT: Kind = Kind::Table(&[
     optional("reference_omega", POSITIVE),
 ]);
 
+const NEIGHBOURS: Kind = Kind::Tagged(
+    "search",
+    &[
+        ("verlet-list", &[]),
+        ("all-pairs", &[]),
+        ("cells", &[needed("length", LENGTH)]),
+        ("hashed-cells", &[needed("length", LENGTH)]),
+    ],
+);
+
 const TIME: Kind = Kind::Table(&[
     needed("dt", SECONDS),
     needed("duration", SECONDS),
@@ -247,6 +266,11 @@ mod tests {
             "swirl": { "omega": 1.0 },
             "updraught": { "speed": 1.0, "decay": 25.0, "origin": 0.0, "alpha": 0.5 },
             "spin_damping": { "coefficient": 1e-8 },
+            "geometry": { "kind": "file", "path": "silo1.dat", "unit": "cm" },
+            "door": {},
+            "rest": { "kinetic_energy": 1e-4 },
+            "outlet": { "height": -1.0 },
+            "neighbours": { "search": "cells", "length": 0.25 },
             "time": { "dt": 1e-4, "duration": 1.0, "frame_interval": 1e-3 },
             "guards": {},
             "output": {},
@@ -264,6 +288,10 @@ mod tests {
             everything(
                 json!({ "law": "coulomb", "coefficient": 0.1, "regularisation": 1e-3 }),
                 json!({ "kind": "list", "spheres": [sphere] }),
+            ),
+            everything(
+                json!({ "law": "cundall-strack", "coefficient": 0.1, "stiffness": 80.0 }),
+                json!({ "kind": "feed", "position": [0.0, 0.0, 4.0], "interval": 0.05 }),
             ),
             everything(
                 json!({ "law": "mindlin", "coefficient": 0.1 }),

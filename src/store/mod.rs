@@ -10,6 +10,7 @@ mod geometry;
 mod labels;
 mod radii;
 mod record;
+mod rows;
 mod start;
 mod text;
 
@@ -26,6 +27,7 @@ pub use record::{
     HDF5_SIGNATURE, RecordHeader, content_digest, motion_digest, read_record, read_record_header,
     write_record,
 };
+pub use rows::write_rows;
 pub use start::read_start;
 
 use std::io;

@@ -129,7 +129,7 @@ fn try_job(job: &Job, budget: Duration) -> Result<Trial, ForecastError> {
     let (steps_per_frame, all_frames) = run::frames(&job.scene);
     let (steps, disk) = match timed {
         Ok(record) => {
-            let steps = work::sphere_steps_run(&record.scene, &record.outcome);
+            let steps = work::sphere_steps_of(&record);
             (steps, size_of_record(&record)?)
         }
         Err(RunError::Interrupted) => {

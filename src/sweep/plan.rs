@@ -2,7 +2,7 @@
 
 use super::{Folder, Job, differing_keys, work};
 use crate::record::Outcome;
-use crate::scene::{Output, Scene};
+use crate::scene::{Neighbours, Output, Scene};
 use crate::store::{self, StoreError};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -144,6 +144,7 @@ fn standing(job: &Job, path: &Path) -> Standing {
 fn motion(scene: &Scene) -> Scene {
     Scene {
         title: None,
+        neighbours: Neighbours::default(),
         output: Output::default(),
         ..scene.clone()
     }

@@ -126,12 +126,11 @@ impl Pool<'_> {
         let mut control = |progress: Progress| {
             // A frame may take less than a millisecond: too often for people, and for locks.
             if progress.frame == frames || (progress.frame - told) * 100 >= frames {
-                let steps = (progress.frame - told) * steps_per_frame;
+                let until =
+                    |frame: u64| work::sphere_steps_until(&job.scene, frame * steps_per_frame);
+                let steps = until(progress.frame) - until(told);
                 told = progress.frame;
-                (self.watch)(Event::Advanced(
-                    job,
-                    work::sphere_steps_until(&job.scene, steps),
-                ));
+                (self.watch)(Event::Advanced(job, steps));
             }
             if self.stop.load(Ordering::Relaxed) {
                 ControlFlow::Break(())
@@ -194,7 +193,7 @@ struct Tally {
 impl Tally {
     fn add(&mut self, record: &RunRecord) {
         self.finished += 1;
-        self.sphere_steps += work::sphere_steps_run(&record.scene, &record.outcome);
+        self.sphere_steps += work::sphere_steps_of(record);
         self.cpu_seconds += record.cpu_seconds;
     }
 }
@@ -292,7 +291,7 @@ mod tests {
         assert!(
             report.failures[1]
                 .reason
-                .contains("does not go with the contact law")
+                .contains("the scene has no contact law")
         );
         assert_eq!(
             store::read_failures(&folder.failures()).unwrap(),

@@ -5,8 +5,8 @@ use crate::dem::timestep::Impact;
 use crate::dem::vector::Vector;
 use crate::dem::{Particles, Simulation};
 use crate::scene::{
-    Contact, Gravity, Guards, Integrator, Output, Radii, Scene, Shape, Spheres, Start, StartSphere,
-    Tank, Time,
+    Contact, Gravity, Guards, Integrator, Radii, Scene, Shape, Spheres, Start, StartSphere, Tank,
+    Time,
 };
 use serde::Deserialize;
 
@@ -127,42 +127,28 @@ impl Bench {
         &self,
         density: f64,
         radius: f64,
-        spheres: Vec<StartSphere>,
+        list: Vec<StartSphere>,
         dt: f64,
     ) -> Scene {
+        let count = list.len();
+        let spheres = Spheres {
+            count,
+            radius: Radii::One(radius),
+            density,
+            shape: Shape::Sphere,
+        };
+        let time = Time {
+            dt,
+            duration: dt,
+            frame_interval: dt,
+            integrator: self.integrator,
+        };
         Scene {
-            title: None,
-            seed: 1,
-            spheres: Spheres {
-                count: spheres.len(),
-                radius: Radii::One(radius),
-                density,
-                shape: Shape::Sphere,
-            },
-            contact: None,
-            friction: None,
-            tank: None,
-            geometry: None,
-            door: None,
-            rest: None,
-            outlet: None,
-            start: Start::List { spheres },
-            gravity: None,
-            drag: None,
-            swirl: None,
-            updraught: None,
-            spin_damping: None,
-            time: Time {
-                dt,
-                duration: dt,
-                frame_interval: dt,
-                integrator: self.integrator,
-            },
             guards: Guards {
                 displacement: f64::MAX,
                 ..Guards::default()
             },
-            output: Output::default(),
+            ..Scene::new(spheres, Start::List { spheres: list }, time)
         }
     }
 

@@ -17,6 +17,7 @@ mod air_force;
 mod bench;
 mod cradle;
 mod critical_rotation;
+mod dashpot;
 mod flight;
 mod gas;
 mod impact;
@@ -40,8 +41,9 @@ use std::sync::OnceLock;
 use std::time::Instant;
 
 /// The tables of all families.
-const TABLES: [&str; 13] = [
+const TABLES: [&str; 14] = [
     include_str!("impact.toml"),
+    include_str!("dashpot.toml"),
     include_str!("cradle.toml"),
     include_str!("rolling.toml"),
     include_str!("incline.toml"),
@@ -113,6 +115,8 @@ impl Tolerance {
 pub enum Setup {
     /// A sphere hits a sphere or a wall.
     Impact(impact::Impact),
+    /// Two discs, or a disc and a fixed one, hit each other under the linear contact.
+    Dashpot(dashpot::Dashpot),
     /// Spheres in a row, hit by the first of them.
     Cradle(cradle::Cradle),
     /// A sphere slides on the floor until it rolls.
@@ -143,6 +147,7 @@ impl Setup {
     fn family(&self) -> &dyn Family {
         match self {
             Self::Impact(it) => it,
+            Self::Dashpot(it) => it,
             Self::Cradle(it) => it,
             Self::Rolling(it) => it,
             Self::Incline(it) => it,

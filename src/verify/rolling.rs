@@ -38,7 +38,9 @@ impl Family for Rolling {
         // is regularised, or where the sliding turns round.
         let rest = match self.friction {
             Friction::Coulomb { regularisation, .. } => regularisation,
-            Friction::Spin { .. } | Friction::Mindlin { .. } => 0.0,
+            Friction::Spin { .. } | Friction::CundallStrack { .. } | Friction::Mindlin { .. } => {
+                0.0
+            }
         };
         let sign = (self.speed - self.spin * self.radius).signum();
         let moment = |simulation: &Simulation| {

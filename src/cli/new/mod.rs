@@ -6,12 +6,14 @@ use super::folders;
 use phase::store;
 use std::path::{Path, PathBuf};
 
-/// Write a scene or sweep file to start from, with a comment on every key.
+/// Write a scene, sweep or silo file to start from, with a comment on every key.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: a tank, and a sweep over it
   phase new scene tank
-  phase new sweep diagram --scene tank.toml")]
+  phase new sweep diagram --scene tank.toml
+Example: a grain silo
+  phase new silo my-silo")]
 pub(crate) struct Arguments {
     /// The kind of file.
     kind: Kind,
@@ -32,9 +34,12 @@ enum Kind {
     Scene,
     /// A scene, and what is varied in it.
     Sweep,
+    /// One simulation of a grain silo: filled, at rest, drained.
+    Silo,
 }
 
 const SCENE: &str = include_str!("scene.toml");
+const SILO: &str = include_str!("silo.toml");
 const SWEEP: &str = include_str!("sweep.toml");
 
 /// The line of the starter sweep that names its scene.
@@ -47,7 +52,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     };
     let text = match (arguments.kind, &arguments.scene) {
         (Kind::Scene, None) => SCENE.to_owned(),
-        (Kind::Scene, Some(_)) => {
+        (Kind::Silo, None) => SILO.to_owned(),
+        (Kind::Scene | Kind::Silo, Some(_)) => {
             return Err(Failure::refused(
                 "a scene starts from no other; `--scene` goes with `phase new sweep`",
             ));
@@ -65,7 +71,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     store::write_atomic(&path, text.as_bytes()).map_err(Failure::failed)?;
     console.file(&path)?;
     let kind = match arguments.kind {
-        Kind::Scene => "scene",
+        Kind::Scene | Kind::Silo => "scene",
         Kind::Sweep => "sweep",
     };
     console.note(format_args!(

@@ -32,6 +32,7 @@ impl Linear {
 
 impl NormalLaw for Linear {
     const DRAGS_SIDEWAYS: bool = true;
+    const ATTRACTS: bool = true;
 
     #[inline(always)]
     fn force(&self, overlap: f64, overlap_rate: f64, _: f64) -> f64 {

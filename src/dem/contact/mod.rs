@@ -15,6 +15,9 @@ pub trait NormalLaw: Copy + Send + 'static {
     /// Whether the law also drags at the partners where they slide along each other.
     const DRAGS_SIDEWAYS: bool = false;
 
+    /// Whether the force may be attractive.
+    const ATTRACTS: bool = false;
+
     /// Repulsive force (N) from the overlap (m), its rate (m/s) and the effective radius
     /// r1 r2 / (r1 + r2) (m; the sphere's own at a flat wall).
     fn force(&self, overlap: f64, overlap_rate: f64, effective_radius: f64) -> f64;

@@ -1,7 +1,6 @@
 //! Mindlin friction by increments.
 
-use super::{TangentialLaw, Touch, Traction};
-use crate::dem::vector::Vector;
+use super::{Spring, TangentialLaw, Touch, Traction};
 
 /// Mindlin's tangential stiffness k_t = 8 G* sqrt(R_eff xi) on a contact that sticks, loaded and
 /// unloaded by increments of the sliding displacement, df = -k_t du, and capped at mu F_n;
@@ -33,27 +32,13 @@ impl Mindlin {
     }
 }
 
-/// The loaded spring of a contact.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Spring {
-    /// Its force (N).
-    force: Vector,
-}
-
 impl TangentialLaw for Mindlin {
     type History = Spring;
 
     #[inline(always)]
     fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction {
         let stiffness = self.modulus * (touch.effective_radius * touch.overlap).sqrt();
-        // The contact plane turns with the pair: keep the length of the force while turning it.
-        let turned = spring.force.perpendicular_to(touch.normal);
-        let (before, after) = (spring.force.norm_squared(), turned.norm_squared());
-        let mut force = if after > 0.0 {
-            turned * (before / after).sqrt()
-        } else {
-            Vector::ZERO
-        };
+        let mut force = spring.turned(touch.normal);
         force -= touch.sliding_velocity() * (stiffness * self.dt);
         let limit = self.coefficient * touch.normal_force;
         let norm = force.norm();

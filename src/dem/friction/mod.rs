@@ -1,12 +1,16 @@
 //! Tangential contact laws: one file each. Pairs and walls go through the same code.
 
 mod coulomb;
+mod cundall_strack;
 mod mindlin;
 mod spin;
+mod spring;
 
 pub use coulomb::Coulomb;
+pub use cundall_strack::CundallStrack;
 pub use mindlin::Mindlin;
 pub use spin::SpinFriction;
+pub use spring::Spring;
 
 use super::vector::Vector;
 
@@ -30,8 +34,8 @@ pub struct Touch {
     pub overlap: f64,
     /// Effective radius (m).
     pub effective_radius: f64,
-    /// Normal force (N). Zero while the contact parts faster than its elasticity recovers: no
-    /// tangential force acts then.
+    /// Normal force (N), zero where partners attract each other or part faster than their elasticity
+    /// recovers: no tangential force acts then.
     pub normal_force: f64,
 }
 

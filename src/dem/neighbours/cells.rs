@@ -1,10 +1,9 @@
-//! Cells behind the Verlet list: who may be near whom.
+//! Cells in a box about all spheres.
 
-use super::Reach;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 
-/// Spheres sorted into cells at least as wide as the reach of a pair.
+/// Spheres sorted by cell.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cells {
     shape: [usize; 3],
@@ -17,7 +16,8 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    pub(super) fn fill(&mut self, particles: &Particles, width: f64, reach: Reach) {
+    /// Sorts the spheres into cells of that width or wider (m); in `columns`, whatever their height.
+    pub(super) fn fill(&mut self, particles: &Particles, width: f64, columns: bool) {
         let count = particles.len();
         let (low, high) = bounds(&particles.position);
         let extent = high - low;
@@ -25,11 +25,7 @@ impl Cells {
         let most = 4 * count + 64;
         let mut width = width;
         loop {
-            let height = if reach == Reach::Column {
-                0.0
-            } else {
-                extent.z
-            };
+            let height = if columns { 0.0 } else { extent.z };
             self.shape = [extent.x, extent.y, height]
                 .map(|extent| ((extent / width) as usize).saturating_add(1));
             let [nx, ny, nz] = self.shape;
@@ -98,45 +94,13 @@ impl Cells {
         }
     }
 
-    pub(super) fn contacts_of(
-        &self,
-        i: usize,
-        particles: &Particles,
-        skin: f64,
-        found: &mut Vec<u32>,
-    ) {
-        let centre = particles.position[i];
-        let reach = particles.radius[i] + skin;
-        let first = particles.first_partner(i);
+    /// Calls `visit` with index, centre and radius of the spheres in the cell of sphere `i` and in
+    /// those about it.
+    #[inline]
+    pub(super) fn near(&self, i: usize, mut visit: impl FnMut(u32, Vector, f64)) {
         self.rows_about(i, |row| {
             for at in row {
-                let offset = self.position[at] - centre;
-                let distance = reach + self.radius[at];
-                if self.index[at] as usize >= first && offset.norm_squared() < distance * distance {
-                    found.push(self.index[at]);
-                }
-            }
-        });
-    }
-
-    pub(super) fn column_of(
-        &self,
-        i: usize,
-        particles: &Particles,
-        skin: f64,
-        found: &mut Vec<u32>,
-    ) {
-        let (centre, radius) = (particles.position[i], particles.radius[i]);
-        let first = particles.first_partner(i);
-        self.rows_about(i, |row| {
-            for at in row {
-                let reach = 2.0 * radius.max(self.radius[at]) + skin;
-                if self.index[at] as usize >= first
-                    && (self.position[at].x - centre.x).abs() < reach
-                    && (self.position[at].y - centre.y).abs() < reach
-                {
-                    found.push(self.index[at]);
-                }
+                visit(self.index[at], self.position[at], self.radius[at]);
             }
         });
     }

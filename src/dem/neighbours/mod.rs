@@ -12,13 +12,17 @@
 
 mod anchor;
 mod cells;
+mod hash;
 mod near;
+mod search;
 
 pub use near::{Near, NearPair};
 
 use self::anchor::Anchor;
-use self::cells::Cells;
+use self::search::Search;
 use super::particles::Particles;
+use super::vector::Vector;
+use crate::scene::Neighbours;
 
 pub use self::anchor::Allowance;
 
@@ -51,29 +55,27 @@ pub struct VerletList {
     /// Half the diagonal of the largest sphere's shielding box, plus the skin (m); zero if the
     /// list holds contacts alone.
     half_diagonal: f64,
-    cells: Cells,
+    search: Search,
     builds: u64,
     /// Whether spheres came or went since the build.
     outdated: bool,
 }
 
 impl VerletList {
-    /// A list that is not built yet. Its skin (m) starts from a guess and adapts.
-    pub fn new(reach: Reach, skin: f64) -> Self {
+    /// A list that is not built yet. Its skin (m) starts from a guess and adapts; with a skin of 0
+    /// the list is built in every step, and holds the pairs that touch.
+    pub fn new(reach: Reach, skin: f64, neighbours: Neighbours) -> Self {
         Self {
             reach,
             skin,
             narrowest: 0.5 * skin,
-            widest: match reach {
-                Reach::Contact => skin,
-                Reach::Column => 4.0 * skin,
-            },
+            widest: 4.0 * skin,
             start: vec![0],
             neighbour: Vec::new(),
             owner: Vec::new(),
             anchor: Anchor::default(),
             half_diagonal: 0.0,
-            cells: Cells::default(),
+            search: Search::new(neighbours),
             builds: 0,
             outdated: false,
         }
@@ -180,23 +182,16 @@ impl VerletList {
     pub fn build(&mut self, particles: &Particles) {
         let count = particles.len();
         let largest = particles.largest_radius();
-        self.cells
-            .fill(particles, 2.0 * largest + self.skin, self.reach);
+        let columns = self.reach == Reach::Column;
+        self.search
+            .fill(particles, 2.0 * largest + self.skin, columns);
         self.start.clear();
         self.neighbour.clear();
         self.owner.clear();
         self.start.push(0);
         for i in 0..count {
             let first = self.neighbour.len();
-            match self.reach {
-                Reach::Contact => {
-                    self.cells
-                        .contacts_of(i, particles, self.skin, &mut self.neighbour)
-                }
-                Reach::Column => self
-                    .cells
-                    .column_of(i, particles, self.skin, &mut self.neighbour),
-            }
+            self.find_partners(i, particles);
             self.neighbour[first..].sort_unstable();
             self.start.push(self.neighbour.len() as u32);
             self.owner.resize(self.neighbour.len(), i as u32);
@@ -208,5 +203,32 @@ impl VerletList {
         };
         self.builds += 1;
         self.outdated = false;
+    }
+
+    /// Lists the partners of sphere `i` that come after it, in no order.
+    fn find_partners(&mut self, i: usize, particles: &Particles) {
+        let (centre, radius) = (particles.position[i], particles.radius[i]);
+        let first = particles.first_partner(i) as u32;
+        let (skin, found) = (self.skin, &mut self.neighbour);
+        match self.reach {
+            Reach::Contact => self
+                .search
+                .near(i, particles, |j, position: Vector, other| {
+                    let distance = radius + skin + other;
+                    let offset = position - centre;
+                    if j >= first && offset.norm_squared() < distance * distance {
+                        found.push(j);
+                    }
+                }),
+            Reach::Column => self
+                .search
+                .near(i, particles, |j, position: Vector, other| {
+                    let distance = 2.0 * radius.max(other) + skin;
+                    let offset = position - centre;
+                    if j >= first && offset.x.abs() < distance && offset.y.abs() < distance {
+                        found.push(j);
+                    }
+                }),
+        }
     }
 }

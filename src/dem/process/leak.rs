@@ -93,7 +93,8 @@ struct Barrier {
 impl Barrier {
     /// Lines between all discs whose surfaces are less than `narrow` (m) apart.
     fn new(fixed: &[FixedSphere], narrow: f64) -> Self {
-        let lines = lines(fixed, narrow);
+        let pairs = wall_pairs(fixed, narrow).into_iter();
+        let lines: Vec<[Point; 2]> = pairs.map(|pair| pair.each_ref().map(centre)).collect();
         let ends = || lines.iter().flatten();
         let longest = lines
             .iter()
@@ -156,12 +157,12 @@ impl Barrier {
     }
 }
 
-fn lines(fixed: &[FixedSphere], narrow: f64) -> Vec<[Point; 2]> {
-    let centre = |sphere: &FixedSphere| [sphere.position[0], sphere.position[2]];
-    let mut sorted: Vec<&FixedSphere> = fixed.iter().collect();
+/// Fixed discs whose surfaces are less than `narrow` (m) apart, by twos: together they are a wall.
+pub(in crate::dem) fn wall_pairs(fixed: &[FixedSphere], narrow: f64) -> Vec<[FixedSphere; 2]> {
+    let mut sorted = fixed.to_vec();
     sorted.sort_by(|a, b| a.position[0].total_cmp(&b.position[0]));
     let largest = fixed.iter().map(|sphere| sphere.radius).fold(0.0, f64::max);
-    let mut lines = Vec::new();
+    let mut pairs = Vec::new();
     for (index, one) in sorted.iter().enumerate() {
         for other in &sorted[index + 1..] {
             if other.position[0] - one.position[0] > one.radius + largest + narrow {
@@ -169,11 +170,15 @@ fn lines(fixed: &[FixedSphere], narrow: f64) -> Vec<[Point; 2]> {
             }
             let apart = length(centre(one), centre(other));
             if apart > 0.0 && apart - one.radius - other.radius < narrow {
-                lines.push([centre(one), centre(other)]);
+                pairs.push([*one, *other]);
             }
         }
     }
-    lines
+    pairs
+}
+
+fn centre(sphere: &FixedSphere) -> Point {
+    [sphere.position[0], sphere.position[2]]
 }
 
 fn length(a: Point, b: Point) -> f64 {

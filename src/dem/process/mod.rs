@@ -8,6 +8,7 @@ mod leak;
 mod rest;
 
 pub(super) use feed::Feed;
+pub(super) use leak::wall_pairs;
 
 use self::leak::LeakWatch;
 use self::rest::RestWatch;
@@ -33,6 +34,32 @@ pub(super) struct Process {
     milestones: Vec<Milestone>,
     discharged: usize,
     ended: bool,
+}
+
+/// How many spheres came and went.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Counts {
+    /// Spheres of the scene.
+    pub all: usize,
+    /// Spheres that came in.
+    pub released: usize,
+    /// Spheres that left.
+    pub discharged: usize,
+    /// Whether a door is still to open.
+    pub is_closed: bool,
+    /// Whether spheres can leave.
+    pub can_leave: bool,
+}
+
+impl Counts {
+    /// The share of all ways in and, where spheres can leave, out that spheres went.
+    pub fn share(&self) -> f64 {
+        let (done, ways) = match self.can_leave {
+            true => (self.released + self.discharged, 2 * self.all),
+            false => (self.released, self.all),
+        };
+        done as f64 / ways.max(1) as f64
+    }
 }
 
 /// A closed door.
@@ -85,6 +112,17 @@ impl Process {
     /// good.
     pub(super) fn ended(&self) -> bool {
         self.ended
+    }
+
+    /// What became so far of `all` spheres of the scene.
+    pub(super) fn counts(&self, all: usize) -> Counts {
+        Counts {
+            all,
+            released: self.feed.released(),
+            discharged: self.discharged,
+            is_closed: self.door.is_some(),
+            can_leave: self.outlet.is_some(),
+        }
     }
 
     /// Spheres that came in so far.

@@ -154,7 +154,7 @@ impl<H: Copy + Default> PairBlock<H> {
                     lesser_mass: if mass[0] < mass[1] { mass[0] } else { mass[1] },
                     overlap,
                     effective_radius,
-                    normal_force,
+                    normal_force: pressing::<N>(normal_force),
                 };
                 let mut history = self.history[k];
                 let traction = tangential_law.traction(&touch, &mut history);
@@ -208,7 +208,7 @@ impl<H: Copy + Default> PairBlock<H> {
                     lesser_mass: motion.0[3][k],
                     overlap,
                     effective_radius: radius,
-                    normal_force,
+                    normal_force: pressing::<N>(normal_force),
                 };
                 let mut history = self.history[k];
                 let traction = tangential_law.traction(&touch, &mut history);
@@ -291,6 +291,16 @@ impl<H: Copy + Default> PairBlock<H> {
 #[inline(always)]
 fn add<S: Simd>(simd: S, sum: &mut Row, row: f64x4<S>) {
     (f64x4::from_slice(simd, sum) + row).store_slice(sum);
+}
+
+/// What of a normal force friction feels: none where partners attract each other.
+#[inline(always)]
+fn pressing<N: NormalLaw>(normal_force: f64) -> f64 {
+    if N::ATTRACTS && normal_force < 0.0 {
+        0.0
+    } else {
+        normal_force
+    }
 }
 
 /// Stores what acts on a touching pair.

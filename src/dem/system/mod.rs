@@ -14,7 +14,7 @@ use super::particles::{Particles, Sphere, retain};
 use super::vector::Vector;
 use super::walls::{Cylinder, Floor, Wall};
 use crate::record::Instability;
-use crate::scene::Integrator;
+use crate::scene::{Integrator, Neighbours};
 use fearless_simd::{Level, Simd};
 
 /// What the rest of the program needs of a system, whatever its laws.
@@ -54,6 +54,7 @@ pub(in crate::dem) struct Parts {
     pub(in crate::dem) integrator: Integrator,
     /// Skin of the neighbour list (m).
     pub(in crate::dem) skin: f64,
+    pub(in crate::dem) neighbours: Neighbours,
 }
 
 /// A simulation compiled for its contact laws.
@@ -102,7 +103,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             |present: bool| vec![T::History::default(); if present { count } else { 0 }];
         let interact = N::ACTS || parts.shielded;
         Self {
-            list: interact.then(|| VerletList::new(reach, parts.skin)),
+            list: interact.then(|| VerletList::new(reach, parts.skin, parts.neighbours)),
             stale: true,
             near: Near::new(N::ACTS, parts.shielded, 0.3 * parts.skin),
             age: 0,

@@ -99,6 +99,19 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
                           g = b / m_eff",
         });
     }
+    if let Some(Friction::CundallStrack {
+        stiffness, damping, ..
+    }) = scene.friction
+    {
+        // A force at the surface moves it as if the mass were that much less.
+        let moved = (1.0 + 1.0 / scene.spheres.shape.inertia_factor()) / impact.effective_mass;
+        limits.push(Limit {
+            name: "sticking contact",
+            seconds: super::damped_oscillator((stiffness * moved).sqrt(), damping * moved),
+            decisive: true,
+            explanation: "(w dt)^2 + 2 g dt < 4 with w^2 = k_t q and g = b_t q, q = (1 + m r^2 / I) / m_eff",
+        });
+    }
     if let Some(Friction::Coulomb {
         coefficient,
         regularisation,

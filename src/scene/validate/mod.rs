@@ -1,5 +1,6 @@
 //! What a scene must satisfy beyond the kinds of its values.
 
+mod neighbours;
 mod output;
 mod silo;
 mod start;
@@ -26,6 +27,7 @@ impl Scene {
             self.check_start(&mut problems);
             self.check_times(&mut problems);
             self.check_silo(&mut problems);
+            self.check_neighbours(&mut problems);
             self.check_output(&mut problems);
         }
         if problems.is_empty() {
@@ -61,11 +63,22 @@ impl Scene {
             let help = "add [contact] with `law = \"hertz\"`, or remove [friction]";
             problems.push(Problem::new("friction", message).help(help));
         }
-        if let (Some(Contact::Linear { .. }), Some(law)) = (&self.contact, &self.friction)
-            && !matches!(law, Friction::Coulomb { .. })
-        {
-            let message = "this friction law goes with the hertz contact only";
-            let help = "use `law = \"coulomb\"` here, or `law = \"hertz\"` in [contact]";
+        let refused = match (&self.contact, &self.friction) {
+            (
+                Some(Contact::Linear { .. }),
+                Some(Friction::Spin { .. } | Friction::Mindlin { .. }),
+            ) => Some((
+                "this friction law goes with the hertz contact only",
+                "use `law = \"cundall-strack\"` or `\"coulomb\"` here, or `law = \"hertz\"` in \
+                 [contact]",
+            )),
+            (Some(Contact::Hertz { .. }), Some(Friction::CundallStrack { .. })) => Some((
+                "this friction law goes with the linear contact only",
+                "use `law = \"mindlin\"` here, or `law = \"linear\"` in [contact]",
+            )),
+            _ => None,
+        };
+        if let Some((message, help)) = refused {
             problems.push(Problem::new("friction.law", message).help(help));
         }
         if self.spin_damping.is_some() && self.friction.is_none() {

@@ -14,7 +14,7 @@ impl Scene {
     }
 
     /// Whether spheres come or go while the scene runs.
-    pub(crate) fn has_flow(&self) -> bool {
+    pub fn has_flow(&self) -> bool {
         matches!(self.start, Start::Feed { .. })
             || self.door.is_some()
             || self.rest.is_some()

@@ -1,0 +1,74 @@
+//! Whether walls of fixed discs hold what comes.
+
+use phase::dem::{WeakestWall, timestep};
+use phase::sweep::{Axis, Job, describe};
+use serde::Serialize;
+
+/// The weakest wall of all jobs, and what hits it.
+pub(super) struct Walls<'a> {
+    wall: WeakestWall,
+    /// Fastest impact that the scene lets expect (m/s).
+    impact: f64,
+    job: &'a Job,
+}
+
+/// The wall of all jobs that comes closest to being passed.
+pub(super) fn weakest(jobs: &[Job]) -> Option<Walls<'_>> {
+    let walls = jobs.iter().filter_map(|job| {
+        Some(Walls {
+            wall: WeakestWall::of_scene(&job.scene)?,
+            impact: timestep::fastest_impact(&job.scene),
+            job,
+        })
+    });
+    walls.min_by(|a, b| a.margin().total_cmp(&b.margin()))
+}
+
+impl Walls<'_> {
+    /// Speed that the wall holds over that of the fastest impact.
+    fn margin(&self) -> f64 {
+        self.wall.speed / self.impact
+    }
+
+    pub(super) fn describe(&self, axes: &[Axis]) -> String {
+        let WeakestWall {
+            speed,
+            radius,
+            between: [one, other],
+        } = self.wall;
+        let at = describe(axes, &self.job.values, self.job.seed);
+        let mut text = format!(
+            "hold spheres of radius {radius} m up to {speed:.3} m/s; they may come with {:.3} m/s at \
+             {at}",
+            self.impact
+        );
+        if self.margin() < 1.0 {
+            text += &format!(
+                "\n{:14}WARNING: faster ones squeeze through, first between ({:.4}, {:.4}) m and \
+                 ({:.4}, {:.4}) m;\n{:14}raise the stiffness, or make the spheres lighter or slower",
+                "", one.position[0], one.position[2], other.position[0], other.position[2], ""
+            );
+        }
+        text
+    }
+
+    pub(super) fn answer(&self) -> Answer {
+        Answer {
+            holds_up_to: self.wall.speed,
+            fastest_impact: self.impact,
+            radius: self.wall.radius,
+            hold: self.margin() >= 1.0,
+        }
+    }
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+pub(super) struct Answer {
+    /// Speed above which a sphere squeezes through (m/s), and the radius of that sphere (m).
+    holds_up_to: f64,
+    radius: f64,
+    /// Fastest impact that the scene lets expect (m/s).
+    fastest_impact: f64,
+    hold: bool,
+}

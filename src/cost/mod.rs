@@ -1,0 +1,7 @@
+//! What a step costs, measured.
+//!
+//! Times are processor times of the calling thread, and things to compare are measured in turn, so
+//! that what else the machine does hits all of them alike. Ratios mean something on any machine,
+//! times only on this one.
+
+pub mod neighbours;

@@ -1,0 +1,99 @@
+//! Cells in a chained hash table, for spheres that may be anywhere.
+
+use crate::dem::particles::Particles;
+use crate::dem::vector::Vector;
+
+/// No sphere.
+const NONE: u32 = u32::MAX;
+
+/// The place of a cell: how many cells it is from the origin, along x, y and z.
+type Place = [i64; 3];
+
+/// Spheres in cells of one width. A cell is a chain that begins at the entry of its hash; cells of
+/// equal hash share one, so every sphere keeps the place of its cell.
+#[derive(Clone, Debug, Default)]
+pub(super) struct HashedCells {
+    /// The first sphere of each chain; a power of two of them.
+    first: Vec<u32>,
+    /// The sphere after each sphere in its chain.
+    next: Vec<u32>,
+    /// The cell of each sphere.
+    place: Vec<Place>,
+    /// Whether all cells lie in one layer along x, y and z.
+    flat: [bool; 3],
+}
+
+impl HashedCells {
+    /// Sorts the spheres into cells; in `columns`, whatever their height.
+    pub(super) fn fill(&mut self, particles: &Particles, width: f64, columns: bool) {
+        let inverse = 1.0 / width;
+        let along = |value: f64| (value * inverse).floor() as i64;
+        self.place.clear();
+        self.place.extend(particles.position.iter().map(|centre| {
+            let layer = if columns { 0 } else { along(centre.z) };
+            [along(centre.x), along(centre.y), layer]
+        }));
+        self.flat = [0, 1, 2].map(|axis| {
+            let mut places = self.place.iter().map(|place| place[axis]);
+            let first = places.next();
+            places.all(|place| Some(place) == first)
+        });
+        // Half of the chains stay empty.
+        let chains = (2 * particles.len()).next_power_of_two();
+        self.first.clear();
+        self.first.resize(chains, NONE);
+        self.next.clear();
+        for (i, place) in self.place.iter().enumerate() {
+            let first = &mut self.first[hash(*place) & (chains - 1)];
+            self.next.push(*first);
+            *first = i as u32;
+        }
+    }
+
+    /// Calls `visit` with index, centre and radius of the spheres in the cell of sphere `i` and in
+    /// those about it.
+    #[inline]
+    pub(super) fn near(
+        &self,
+        i: usize,
+        particles: &Particles,
+        mut visit: impl FnMut(u32, Vector, f64),
+    ) {
+        let [x, y, z] = self.place[i];
+        // A plane of cells has no neighbours above or below.
+        let [across, along, up] = self.flat.map(|flat| if flat { 0..=0 } else { -1..=1_i64 });
+        for dz in up {
+            for dy in along.clone() {
+                for dx in across.clone() {
+                    let place = [x.wrapping_add(dx), y.wrapping_add(dy), z.wrapping_add(dz)];
+                    self.visit_cell(place, particles, &mut visit);
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn visit_cell(
+        &self,
+        place: Place,
+        particles: &Particles,
+        visit: &mut impl FnMut(u32, Vector, f64),
+    ) {
+        let mut j = self.first[hash(place) & (self.first.len() - 1)];
+        while j != NONE {
+            let at = j as usize;
+            if self.place[at] == place {
+                visit(j, particles.position[at], particles.radius[at]);
+            }
+            j = self.next[at];
+        }
+    }
+}
+
+/// Spreads neighbouring cells over the table (the primes of Teschner et al., 2003).
+#[inline]
+fn hash([x, y, z]: Place) -> usize {
+    let mixed =
+        x.wrapping_mul(73_856_093) ^ y.wrapping_mul(19_349_663) ^ z.wrapping_mul(83_492_791);
+    mixed as usize
+}

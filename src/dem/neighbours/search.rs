@@ -1,0 +1,64 @@
+//! Who may be near whom, before anybody looks at distances.
+
+use super::cells::Cells;
+use super::hash::HashedCells;
+use crate::dem::particles::Particles;
+use crate::dem::vector::Vector;
+use crate::scene::Neighbours;
+
+/// A way to find the spheres that may be near a sphere.
+#[derive(Clone, Debug)]
+pub(super) enum Search {
+    /// Cells in a box about all spheres, of this width (m) or, if none is given, as wide as pairs
+    /// reach.
+    Cells(Cells, Option<f64>),
+    /// Cells of this width (m) in a hash table.
+    Hashed(HashedCells, f64),
+    /// No choice at all.
+    AllPairs,
+}
+
+impl Search {
+    pub(super) fn new(neighbours: Neighbours) -> Self {
+        match neighbours {
+            Neighbours::VerletList => Self::Cells(Cells::default(), None),
+            Neighbours::Cells { length } => Self::Cells(Cells::default(), Some(length)),
+            Neighbours::HashedCells { length } => Self::Hashed(HashedCells::default(), length),
+            Neighbours::AllPairs => Self::AllPairs,
+        }
+    }
+
+    /// Sorts the spheres, whose pairs reach no farther than `reach` (m); in `columns`, at any height.
+    pub(super) fn fill(&mut self, particles: &Particles, reach: f64, columns: bool) {
+        // A hair wider: rounding must not put the partners of a pair two cells apart.
+        let wide = |width: f64| width * (1.0 + 1e-9);
+        match self {
+            Self::Cells(cells, width) => {
+                cells.fill(particles, wide(width.unwrap_or(reach)), columns)
+            }
+            Self::Hashed(cells, width) => cells.fill(particles, wide(*width), columns),
+            Self::AllPairs => {}
+        }
+    }
+
+    /// Calls `visit` with index, centre and radius of all spheres that may be near sphere `i`, and
+    /// of others, in no order.
+    #[inline]
+    pub(super) fn near(
+        &self,
+        i: usize,
+        particles: &Particles,
+        mut visit: impl FnMut(u32, Vector, f64),
+    ) {
+        match self {
+            Self::Cells(cells, _) => cells.near(i, visit),
+            Self::Hashed(cells, _) => cells.near(i, particles, visit),
+            // A pair is looked at once, from the sphere of lower index: half of all.
+            Self::AllPairs => {
+                for j in particles.first_partner(i)..particles.len() {
+                    visit(j as u32, particles.position[j], particles.radius[j]);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! How the pairs that may touch are found.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How the pairs that may touch are found. Nothing but the speed depends on it: every search gives
+/// the same motion, bit for bit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "search", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Neighbours {
+    /// A list that holds until a sphere has moved far enough (Verlet, 1967), made from cells. The
+    /// fastest.
+    #[default]
+    VerletList,
+    /// Every sphere against every other in every step: time grows with the square of their number.
+    AllPairs,
+    /// Square cells, filled anew in every step: a sphere can only touch those in its own cell and in
+    /// the cells about it (Remmers, 2009).
+    Cells {
+        /// Side L of a cell (m), at least the largest sum of the radii of two spheres that may touch.
+        length: f64,
+    },
+    /// The same with the cells in a chained hash table, which takes memory for spheres alone however
+    /// far apart they are: for domains without bounds.
+    HashedCells {
+        /// Side L of a cell (m), at least the largest sum of the radii of two spheres that may touch.
+        length: f64,
+    },
+}
+
+impl Neighbours {
+    /// Name, as in a scene file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::VerletList => "verlet-list",
+            Self::AllPairs => "all-pairs",
+            Self::Cells { .. } => "cells",
+            Self::HashedCells { .. } => "hashed-cells",
+        }
+    }
+
+    /// Side of a cell (m), where the scene says it.
+    pub fn length(self) -> Option<f64> {
+        match self {
+            Self::Cells { length } | Self::HashedCells { length } => Some(length),
+            Self::VerletList | Self::AllPairs => None,
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! The linear contact and its friction.
+
+use crate::hopper;
+use phase::dem::Simulation;
+use phase::dem::vector::Vector;
+use phase::scene::Scene;
+
+/// Grains in empty space.
+fn free(spheres: &str, contact: &str, friction: &str) -> Scene {
+    let count = spheres.matches("position").count();
+    let text = format!(
+        r#"
+        spheres = {{ count = {count}, radius = 0.04, density = 1.0, shape = "disc" }}
+        contact = {{ law = "linear", stiffness = 100.0, {contact} }}
+        {friction}
+        start = {{ kind = "list", spheres = [{spheres}] }}
+        time = {{ dt = 1e-3, duration = 1.0, frame_interval = 0.1, integrator = "velocity-verlet" }}
+        "#
+    );
+    phase::scene::from_str(&text, std::path::Path::new("free.toml"))
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The five steps of the document, written down as they are printed, for two grains of mass m.
+fn five_steps(mut x: [Vector; 2], mut v: [Vector; 2], steps: usize) -> ([Vector; 2], [Vector; 2]) {
+    let (dt, mass, radius, k, b) = (1e-3, 1.0 * 0.04 * 0.04, 0.04, 100.0, 0.05);
+    let force = |x: [Vector; 2], v: [Vector; 2]| {
+        let offset = x[0] - x[1];
+        let distance = offset.norm();
+        let overlap = 2.0 * radius - distance;
+        if overlap <= 0.0 {
+            return Vector::ZERO;
+        }
+        offset * (k * overlap / distance) - (v[0] - v[1]) * b
+    };
+    let mut a = [Vector::ZERO; 2];
+    for _ in 0..steps {
+        let half = [0, 1].map(|i| v[i] + a[i] * (0.5 * dt));
+        x = [0, 1].map(|i| x[i] + v[i] * dt + a[i] * (0.5 * dt * dt));
+        let on_first = force(x, half);
+        a = [on_first * (1.0 / mass), on_first * (-1.0 / mass)];
+        v = [0, 1].map(|i| half[i] + a[i] * (0.5 * dt));
+    }
+    (x, v)
+}
+
+#[test]
+fn steps_are_the_five_of_the_document() {
+    // An oblique impact, with the drag on the whole relative velocity.
+    let scene = free(
+        "{ position = [0.0, 0.0, 0.0], velocity = [1.0, 0.0, 0.3] }, { position = [0.1, 0.0, 0.03] }",
+        r#"damping = 0.05, drag = "whole""#,
+        "",
+    );
+    let mut simulation = Simulation::new(&scene).unwrap();
+    let start = [Vector::ZERO, Vector::new(0.1, 0.0, 0.03)];
+    let mut touched = false;
+    for steps in [10, 30, 60] {
+        let before = simulation.step();
+        simulation.advance(steps - before).unwrap();
+        let (x, v) = five_steps(
+            start,
+            [Vector::new(1.0, 0.0, 0.3), Vector::ZERO],
+            steps as usize,
+        );
+        let particles = simulation.particles();
+        for i in 0..2 {
+            assert!(
+                (particles.position[i] - x[i]).norm() < 1e-14,
+                "step {steps}"
+            );
+            assert!(
+                (particles.velocity[i] - v[i]).norm() < 1e-13,
+                "step {steps}"
+            );
+        }
+        touched |= v[1].x > 0.1;
+    }
+    assert!(touched);
+}
+
+#[test]
+fn momentum_is_kept_and_angular_momentum_but_for_the_drag_between_centres() {
+    let spheres = "{ position = [0.0, 0.0, 0.0], velocity = [1.0, 0.0, 0.4] }, \
+                   { position = [0.1, 0.0, 0.05] }, { position = [0.16, 0.0, 0.0], velocity = [-1.0, 0.0, 0.2] }";
+    let frictions = [
+        "",
+        r#"friction = { law = "cundall-strack", coefficient = 0.5, stiffness = 70.0, damping = 0.01 }"#,
+        r#"friction = { law = "coulomb", coefficient = 0.5, regularisation = 0.05 }"#,
+    ];
+    for friction in frictions {
+        let scene = free(spheres, "damping = 0.05", friction);
+        let mut simulation = Simulation::new(&scene).unwrap();
+        let momenta = |simulation: &Simulation| {
+            let particles = simulation.particles();
+            let (mut linear, mut angular) = (Vector::ZERO, 0.0);
+            for i in 0..particles.len() {
+                let (x, v) = (
+                    particles.position[i],
+                    particles.velocity[i] * particles.mass[i],
+                );
+                linear += v;
+                angular += x.z * v.x - x.x * v.z;
+                if let (Some(spin), Some(inertia)) =
+                    (particles.spin.get(i), particles.inertia.get(i))
+                {
+                    angular += inertia * spin.y;
+                }
+            }
+            (linear, angular)
+        };
+        let (linear, angular) = momenta(&simulation);
+        simulation.advance(400).unwrap();
+        let (after, turned) = momenta(&simulation);
+        assert!((after - linear).norm() < 1e-16, "{friction}");
+        // Velocities and positions are half a step apart in a force: of the step's own order.
+        assert!(
+            (turned - angular).abs() < 2e-3 * angular.abs(),
+            "{friction}: {turned} {angular}"
+        );
+        assert!(simulation.particles().position.iter().all(|x| x.y == 0.0));
+    }
+}
+
+/// The linear contact attracts at the end of a contact. Friction capped by a negative normal force
+/// would drive the sliding.
+#[test]
+fn friction_never_drives() {
+    for friction in [
+        r#"friction = { law = "coulomb", coefficient = 0.9, regularisation = 1e-3 }"#,
+        r#"friction = { law = "cundall-strack", coefficient = 0.9, stiffness = 70.0 }"#,
+    ] {
+        let scene = free(
+            "{ position = [0.0, 0.0, 0.0], velocity = [2.0, 0.0, 0.0] }, { position = [0.0801, 0.0, 0.0], spin = [0.0, 20.0, 0.0] }",
+            "damping = 0.2",
+            friction,
+        );
+        let mut simulation = Simulation::new(&scene).unwrap();
+        let energy = |simulation: &mut Simulation| {
+            let elastic = simulation.elastic_energy();
+            let particles = simulation.particles();
+            let moving = |i: usize| {
+                0.5 * particles.mass[i] * particles.velocity[i].norm_squared()
+                    + 0.5 * particles.inertia[i] * particles.spin[i].norm_squared()
+            };
+            elastic + moving(0) + moving(1)
+        };
+        let mut before = energy(&mut simulation);
+        for _ in 0..100 {
+            simulation.advance(1).unwrap();
+            let now = energy(&mut simulation);
+            assert!(
+                now < before * (1.0 + 2e-2),
+                "step {}: {now} J",
+                simulation.step()
+            );
+            before = now;
+        }
+    }
+}
+
+#[test]
+fn a_heap_with_friction_stays_where_it_is() {
+    // Without regularisation there is no creep: after the grains are at rest, none moves any more.
+    let scene = hopper(&[("door = {}", "door = { opens = 29.0 }")]);
+    let mut simulation = Simulation::new(&scene).unwrap();
+    simulation.advance(20_000).unwrap();
+    let place = |simulation: &Simulation| simulation.particles().position.clone();
+    let before = place(&simulation);
+    simulation.advance(20_000).unwrap();
+    for (now, before) in place(&simulation).iter().zip(&before) {
+        assert!((*now - *before).norm() < 1e-4, "{now:?} {before:?}");
+    }
+}
