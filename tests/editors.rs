@@ -53,7 +53,7 @@ fn documents_are_what_the_program_prints() {
 fn the_reference_tells_type_unit_default_and_description() {
     let page = Workplace::new().phase(&["reference", "keys"]).code(0);
     page.says(
-        "| `density` | a number of at least 1e-9 and at most 1e15 | kg/m³ | *needed* | Density rho",
+        "| `density` | a number of at least 1e-9 and at most 1e15 | kg/m³, kg/m² | *needed* | Density rho",
     )
     .says(
         "| `dt` | a number of at least 1e-15 and at most 1e15 | s | *needed* | Time step dt (s). |",

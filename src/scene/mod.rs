@@ -327,7 +327,7 @@ pub enum Start {
         #[serde(default)]
         velocity: [f64; 3],
         /// Time between two spheres (s); a whole number of steps. One that finds its place taken
-        /// waits until it is free.
+        /// waits for the next of these times.
         interval: f64,
         /// The place is moved along x by a random length, uniform in plus or minus this (m).
         #[serde(default)]

@@ -33,14 +33,14 @@ impl Feed {
         self.released
     }
 
-    /// The step at which the next sphere is due.
-    pub(super) fn due(&self) -> Option<u64> {
-        (!self.waiting.is_empty()).then_some(self.released as u64 * self.interval)
+    /// The next step after `step` at which a sphere may come in.
+    pub(super) fn due_after(&self, step: u64) -> Option<u64> {
+        (!self.waiting.is_empty()).then_some((step / self.interval + 1) * self.interval)
     }
 
-    /// Lets the next sphere in, if it is due and its place is free.
+    /// Lets the next sphere in, if it is time and its place is free.
     pub(super) fn act(&mut self, engine: &mut dyn Engine) {
-        if self.due().is_none_or(|due| due > engine.step()) {
+        if self.waiting.is_empty() || !engine.step().is_multiple_of(self.interval) {
             return;
         }
         let particles = engine.particles();

@@ -102,10 +102,7 @@ impl Process {
     /// The next step after which something may happen.
     fn next_step(&self, step: u64) -> u64 {
         let look = (step / self.steps + 1) * self.steps;
-        match self.feed.due() {
-            Some(due) if due > step => look.min(due),
-            _ => look,
-        }
+        self.feed.due_after(step).map_or(look, |due| look.min(due))
     }
 
     /// Whether nothing more will happen: all spheres are in, and all have left or are at rest for
