@@ -72,6 +72,7 @@ mod color;
 mod cpu_time;
 pub mod dem;
 pub mod document;
+mod markup;
 pub mod notation;
 pub mod observe;
 pub mod plot;
