@@ -133,12 +133,7 @@ pub enum MilestoneKind {
 
 impl MilestoneKind {
     /// All kinds.
-    pub const ALL: [Self; 4] = [
-        Self::Filled,
-        Self::AtRest,
-        Self::DoorOpened,
-        Self::Emptied,
-    ];
+    pub const ALL: [Self; 4] = [Self::Filled, Self::AtRest, Self::DoorOpened, Self::Emptied];
 
     /// Name, as in records and reports.
     pub fn name(self) -> &'static str {

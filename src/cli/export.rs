@@ -279,5 +279,7 @@ fn more(record: &RunRecord, format: Format) -> Vec<(&'static str, Write)> {
     let fixed = fixed.filter(|_| record.scene.geometry.is_some());
     let named = [("observations", observations), ("fixed", fixed)];
     let present = named.into_iter();
-    present.filter_map(|(name, write)| Some((name, write?))).collect()
+    present
+        .filter_map(|(name, write)| Some((name, write?)))
+        .collect()
 }

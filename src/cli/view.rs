@@ -103,7 +103,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     match &arguments.each {
         Some(folder) => {
             let records = read(arguments)?;
-            animate::each(&runs(&records, arguments, console)?, folder, arguments, console)?;
+            animate::each(
+                &runs(&records, arguments, console)?,
+                folder,
+                arguments,
+                console,
+            )?;
             console.file(folder)?;
         }
         None => {

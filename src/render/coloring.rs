@@ -83,9 +83,9 @@ impl ColorBy {
 /// The least and the largest of these values.
 fn range<'a>(values: impl IntoIterator<Item = &'a f64>) -> (f64, f64) {
     let all = (f64::INFINITY, f64::NEG_INFINITY);
-    values.into_iter().fold(all, |(low, high), value| {
-        (value.min(low), value.max(high))
-    })
+    values
+        .into_iter()
+        .fold(all, |(low, high), value| (value.min(low), value.max(high)))
 }
 
 fn mapped(value: f64, low: f64, high: f64) -> Rgb {

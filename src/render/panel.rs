@@ -7,8 +7,8 @@ use crate::observe::Snapshot;
 
 /// Height of a line of the caption over the width of a panel.
 const CAPTION: f64 = 0.08;
-/// Size of the letters of the caption over its height.
-const LETTERS: f64 = 0.7;
+/// Size of the letters of the caption over the height of a line, of one line and of several.
+const LETTERS: [f64; 2] = [0.7, 0.55];
 /// Space between pictures over the width of a panel.
 const GAP: f64 = 0.03;
 
@@ -72,13 +72,15 @@ pub(super) fn panel(views: &[Image], width: usize, caption: &[String]) -> Image 
 /// The lines of a caption; one that is too long is in smaller letters.
 fn words(caption: &[String], width: usize, line: usize) -> Image {
     let middle = 0.5 * width as f64;
+    let [one, several] = LETTERS;
+    let letters = if caption.len() > 1 { several } else { one };
     let elements: String = caption
         .iter()
         .enumerate()
         .map(|(index, text)| {
             let fitting = width as f64 / vector::width(text, 1.0).max(1.0);
             let base = (index as f64 + 0.75) * line as f64;
-            let size = (LETTERS * line as f64).min(fitting);
+            let size = (letters * line as f64).min(fitting);
             vector::text(text, (middle, base), size, Anchor::Middle)
         })
         .collect();

@@ -175,7 +175,10 @@ fn colors_follow_what_they_stand_for() {
             high: 2.0
         }
     );
-    let (by_speed, by_height) = (ColorBy::speed_of([&all]).colors(&all, &radius), height.colors(&all, &radius));
+    let (by_speed, by_height) = (
+        ColorBy::speed_of([&all]).colors(&all, &radius),
+        height.colors(&all, &radius),
+    );
     assert_eq!([by_height[2], by_height[0], by_height[1]], by_speed[..]);
     let by_radius = ColorBy::radius_of(&radius).colors(&all, &radius);
     assert_eq!(by_radius, by_height);

@@ -41,11 +41,7 @@ pub fn write_svg(
 }
 
 /// The rectangle that holds everything in all of these states, with a margin.
-pub(super) fn window(
-    record: &RunRecord,
-    scenery: &Scenery,
-    states: &[&Snapshot],
-) -> flat::Window {
+pub(super) fn window(record: &RunRecord, scenery: &Scenery, states: &[&Snapshot]) -> flat::Window {
     let stage = Stage::of_scene(&record.scene).around(states.iter().copied(), &record.radius);
     let [low, high] = flat::window(&scenery.on(stage));
     let size = [0, 1].map(|axis| high[axis] - low[axis]);

@@ -78,8 +78,8 @@ fn write_sphere(
     Ok(())
 }
 
-/// Writes the fixed spheres of a record's scene as one block. The symbol W stands for a wall, D for
-/// the door.
+/// Writes the fixed spheres of a record's scene as one block; `door` is 1 of those of the door, 0 of
+/// the walls.
 ///
 /// # Errors
 /// [`StoreError::DiskFull`] or [`StoreError::Write`].
@@ -87,11 +87,14 @@ pub fn write_fixed_xyz(record: &RunRecord, path: &Path) -> Result<(), StoreError
     let fixed = fixed(record);
     write_atomic_with(path, |file| {
         let count = fixed.walls.len() + fixed.door.len();
-        writeln!(file, "{count}\nProperties=species:S:1:pos:R:3:radius:R:1 pbc=\"F F F\"")?;
-        for (symbol, spheres) in [("W", &fixed.walls), ("D", &fixed.door)] {
+        writeln!(
+            file,
+            "{count}\nProperties=species:S:1:pos:R:3:radius:R:1:door:I:1 pbc=\"F F F\""
+        )?;
+        for (door, spheres) in [(0, &fixed.walls), (1, &fixed.door)] {
             for FixedSphere { position, radius } in spheres {
                 let [x, y, z] = position;
-                writeln!(file, "{symbol} {x:?} {y:?} {z:?} {radius:?}")?;
+                writeln!(file, "X {x:?} {y:?} {z:?} {radius:?} {door}")?;
             }
         }
         Ok(())

@@ -65,11 +65,7 @@ struct Colors {
 ///
 /// # Errors
 /// [`StoreError::DiskFull`] or [`StoreError::Write`].
-pub fn write_page(
-    record: &RunRecord,
-    states: &[&Snapshot],
-    path: &Path,
-) -> Result<(), StoreError> {
+pub fn write_page(record: &RunRecord, states: &[&Snapshot], path: &Path) -> Result<(), StoreError> {
     let run = describe(record, states);
     let json = serde_json::to_string(&run).map_err(|error| StoreError::Content {
         path: path.to_owned(),
