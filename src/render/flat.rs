@@ -104,7 +104,7 @@ impl Scenery {
     /// Everything as SVG elements, in metres, heights against the y axis of SVG.
     ///
     /// * `radius`: radius of every sphere (m)
-    /// * `colors`: colour of every sphere; none means that all are [`GRAIN`]
+    /// * `colors`: colour of every sphere; without them all are blue
     pub fn elements(
         &self,
         snapshot: &Snapshot,

@@ -58,13 +58,13 @@ pub(super) fn flat_view(
 /// Views below each other, below a caption.
 pub(super) fn panel(views: &[Image], width: usize, caption: &[String]) -> Image {
     let (line, gap) = (share(CAPTION, width), share(GAP, width));
-    let heights = views.iter().map(|view| view.height + gap);
-    let mut top = caption.len() * line + gap;
+    let heights = views.iter().map(|view| gap + view.height);
+    let mut top = caption.len() * line;
     let mut panel = Image::white(width, top + heights.sum::<usize>());
     panel.paste(&words(caption, width, line), 0, 0);
     for view in views {
-        panel.paste(view, 0, top);
-        top += view.height + gap;
+        panel.paste(view, 0, top + gap);
+        top += gap + view.height;
     }
     panel
 }
@@ -97,8 +97,8 @@ pub(super) fn height(stage: &Stage, is_flat: bool, lines: usize, width: usize) -
     let cameras = [Camera::side(stage), Camera::top(stage)];
     let gap = share(GAP, width);
     let views = cameras[..if is_flat { 1 } else { 2 }].iter();
-    let views = views.map(|camera| share(1.0 / camera.aspect(), width) + gap);
-    lines * share(CAPTION, width) + gap + views.sum::<usize>()
+    let views = views.map(|camera| gap + share(1.0 / camera.aspect(), width));
+    lines * share(CAPTION, width) + views.sum::<usize>()
 }
 
 /// Room between panels of that width (pixels).

@@ -1,7 +1,7 @@
 //! Animations, and a picture of every state.
 
 use super::moment::evenly;
-use super::sheets::{Run, Sheets};
+use super::sheets::{Run, Sheets, on_all_cores};
 use super::target::Kind;
 use super::{Arguments, HEIGHT, words};
 use crate::cli::console::Console;
@@ -20,7 +20,7 @@ const LARGEST: usize = 5_000_000;
 const ARRIVAL: f64 = 0.25;
 /// Largest height of an animation (pixels).
 const ANIMATION_HEIGHT: usize = 720;
-/// How many pictures are in memory at once.
+/// How many files are in memory at once.
 const AT_ONCE: usize = 32;
 
 /// The bytes of an animation, made smaller until it has a reasonable size.
@@ -56,7 +56,8 @@ pub(super) fn animate(
     let pictures = format::count(shown.len(), "picture");
     loop {
         console.note(format_args!("draws {pictures} of {width} pixels' width"));
-        let animation = Animation::new(&sheets.pictures(&shown, width)?, delay);
+        let drawn = on_all_cores(&shown, |state| sheets.picture_of(state, width))?;
+        let animation = Animation::new(&drawn, delay);
         let bytes = match kind {
             Kind::Gif => animation.to_gif().map_err(Failure::failed)?,
             Kind::Png => {
@@ -122,8 +123,11 @@ pub(super) fn each(
     let width = sheets.fitted(1, arguments.width as usize, HEIGHT);
     folders::make(folder)?;
     for (chunk, states) in shown.chunks(AT_ONCE).enumerate() {
-        for (index, image) in (AT_ONCE * chunk..).zip(sheets.pictures(states, width)?) {
-            let bytes = image.to_png(&texts).map_err(Failure::failed)?;
+        let files = on_all_cores(states, |state| {
+            sheets.picture_of(state, width).to_png(&texts)
+        })?;
+        for (index, file) in (AT_ONCE * chunk..).zip(files) {
+            let bytes = file.map_err(Failure::failed)?;
             let path = folder.join(store::frame_name(index, "png"));
             store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
         }

@@ -104,27 +104,17 @@ impl<'a> Sheets<'a> {
         let panels: Vec<(usize, &Snapshot)> = numbered
             .flat_map(|(run, it)| it.shown.iter().map(move |state| (run, *state)))
             .collect();
-        self.drawn(&panels, width)
+        on_all_cores(&panels, |&(run, state)| self.panel(run, state, width))
     }
 
-    /// A picture of every one of these states of the first run.
-    pub(super) fn pictures(
-        &self,
-        states: &[&Snapshot],
-        width: usize,
-    ) -> Result<Vec<Image>, Failure> {
-        let panels: Vec<_> = states.iter().map(|state| (0, *state)).collect();
-        let panels = self.drawn(&panels, width)?;
-        let pictures = panels.chunks(1).map(|panel| self.picture(panel));
-        Ok(pictures.collect())
+    /// A picture of one state of the first run.
+    pub(super) fn picture_of(&self, state: &Snapshot, width: usize) -> Image {
+        self.picture(&[self.panel(0, state, width)])
     }
 
-    fn drawn(&self, panels: &[(usize, &Snapshot)], width: usize) -> Result<Vec<Image>, Failure> {
-        work::map(work::default_workers(), panels, |&(run, state)| {
-            let caption = self.caption(self.runs[run].record, state);
-            self.sheets[run].panel(state, width, &caption)
-        })
-        .map_err(Failure::failed)
+    fn panel(&self, run: usize, state: &Snapshot, width: usize) -> Image {
+        let caption = self.caption(self.runs[run].record, state);
+        self.sheets[run].panel(state, width, &caption)
     }
 
     /// Panels beside each other, with all the words.
@@ -145,6 +135,14 @@ impl<'a> Sheets<'a> {
     fn caption_lines(&self) -> usize {
         if self.runs.len() == 1 { 1 } else { 3 }
     }
+}
+
+/// What `draw` makes of every item.
+pub(super) fn on_all_cores<T: Sync, U: Send + Sync>(
+    items: &[T],
+    draw: impl Fn(&T) -> U + Sync,
+) -> Result<Vec<U>, Failure> {
+    work::map(work::default_workers(), items, draw).map_err(Failure::failed)
 }
 
 /// The sheet of a run, without a title.
