@@ -1,6 +1,6 @@
 //! Flat pictures: circles in the plane of x and z, as SVG elements in metres.
 //!
-//! What lies in that plane is drawn to scale. Of spheres in space it is the view from the side,
+//! As pixels they are drawn by `resvg`, as figures are. What lies in that plane is drawn to scale. Of spheres in space it is the view from the side,
 //! those in front drawn over those behind.
 
 use super::{Rgb, Stage};
