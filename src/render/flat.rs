@@ -1,7 +1,7 @@
 //! Flat pictures: circles in the plane of x and z, as SVG elements in metres.
 //!
-//! As pixels they are drawn by `resvg`, as figures are. What lies in that plane is drawn to scale. Of spheres in space it is the view from the side,
-//! those in front drawn over those behind.
+//! What lies in that plane is drawn to scale. Of spheres in space it is the view from the side,
+//! those in front drawn over those behind. As pixels they are drawn by `resvg`, as figures are.
 
 use super::{Rgb, Stage};
 use crate::observe::Snapshot;
