@@ -73,6 +73,7 @@ pub mod cost;
 mod cpu_time;
 pub mod dem;
 pub mod document;
+mod markup;
 pub mod notation;
 pub mod observe;
 pub mod plot;

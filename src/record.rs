@@ -48,6 +48,18 @@ impl RunRecord {
             States::Trajectory(&self.trajectory)
         }
     }
+
+    /// Those states without the one that broke a guard, whose numbers mean nothing.
+    pub fn sound_states(&self) -> &[Snapshot] {
+        let states = self.states().all();
+        match &self.outcome {
+            Outcome::Unstable(broken) => {
+                let sound = states.iter().take_while(|state| state.time < broken.time);
+                &states[..sound.count()]
+            }
+            Outcome::Completed => states,
+        }
+    }
 }
 
 impl<'a> States<'a> {
@@ -120,6 +132,9 @@ pub enum MilestoneKind {
 }
 
 impl MilestoneKind {
+    /// All kinds.
+    pub const ALL: [Self; 4] = [Self::Filled, Self::AtRest, Self::DoorOpened, Self::Emptied];
+
     /// Name, as in records and reports.
     pub fn name(self) -> &'static str {
         match self {

@@ -1,4 +1,4 @@
-//! `phase export`: writes the spheres of records for other programs.
+//! `phase export`: writes the spheres of records for other programs, browsers among them.
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
@@ -20,11 +20,23 @@ Formats:
   vtk   NAME.pvd and NAME/frame_*.vtp for ParaView: points with radius, mass, velocity, spin
   npy   NAME/*.npy for NumPy: time, position, velocity, spin, radius, mass
   csv   NAME.csv, one row per state and sphere; NAME-observations.csv, one row per frame
+  svg   NAME/frame_*.svg, a picture per state for browsers and documents: walls red, door green,
+        grains blue, to scale; of a tank the view from the side
+  page  NAME.html, one page that plays the run in a browser, without any other file
   dump  dump_r..._p..._f....npy, the thesis's own: frames x spheres x 4 of x, y, z (m) and
         energy (J); the name says radius, density and Omega, and the seed unless it is 1
 
+Where spheres come and go, xyz, vtk and csv hold those that are in, by their id, and npy says NaN of
+those that are not. Fixed spheres go to NAME-fixed.xyz, NAME-fixed.csv, walls.npy and door.npy, and to
+further parts of a ParaView series.
+
 Example: one frame in ten for ParaView
   phase export spout.h5 --to vtk --every 10
+
+Example: a silo as pictures for every second, and as a page that plays it
+  phase export silo.h5 --to svg
+  phase run sweeps/scenes/silo.toml --snapshot-interval 0.1 --out silo.h5
+  phase export silo.h5 --to page
 
 Example: dumps of a whole sweep that was run with output.trajectory
   phase export results/tank/records/*.h5 --to dump --out dumps")]
@@ -36,7 +48,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FORMAT")]
     to: Format,
     /// The folder to write into, made if it is not there; or, of a single record, the .xyz, .pvd,
-    /// .csv or .npy file [default: beside the record].
+    /// .csv, .html or .npy file [default: beside the record].
     #[arg(short, long, value_name = "PATH")]
     out: Option<PathBuf>,
     /// Write one state in N, from the first on.
@@ -58,6 +70,10 @@ enum Format {
     Npy,
     /// Tables of spheres and of observables.
     Csv,
+    /// Pictures, one per state.
+    Svg,
+    /// A page that plays the run.
+    Page,
     /// The thesis's own dump.
     Dump,
 }
@@ -66,7 +82,8 @@ impl Format {
     /// What the file that stands for the whole is, and what it begins with, if that is always so.
     fn signature(self) -> (&'static str, &'static [u8]) {
         match self {
-            Self::Xyz | Self::Npy => ("", b""),
+            Self::Xyz | Self::Npy | Self::Svg => ("", b""),
+            Self::Page => ("a page of a run", store::PAGE_SIGNATURE),
             Self::Vtk => ("a ParaView series", b"<?xml"),
             Self::Csv => ("a table of spheres", store::SPHERES_SIGNATURE),
             Self::Dump => ("a dump", b"\x93NUMPY"),
@@ -79,7 +96,8 @@ impl Format {
             Self::Xyz => "xyz",
             Self::Vtk => "pvd",
             Self::Csv => "csv",
-            Self::Npy => "",
+            Self::Page => "html",
+            Self::Npy | Self::Svg => "",
             Self::Dump => "npy",
         }
     }
@@ -157,7 +175,7 @@ fn target(arguments: &Arguments, record_path: &Path) -> Result<PathBuf, StoreErr
             let record = store::read_record(record_path)?;
             folder.join(DumpName::of_record(&record).to_string())
         }
-        Format::Npy => folder.join(stem),
+        Format::Npy | Format::Svg => folder.join(stem),
         _ => folder.join(stem).with_added_extension(extension),
     })
 }
@@ -171,7 +189,12 @@ fn export(
 ) -> Result<(), Failure> {
     let states = record.states();
     let every = arguments.every.unwrap_or(1);
-    let chosen: Vec<&Snapshot> = states.all().iter().step_by(every).collect();
+    let all = match arguments.to {
+        // Pictures have no place for numbers that mean nothing.
+        Format::Svg | Format::Page => record.sound_states(),
+        _ => states.all(),
+    };
+    let chosen: Vec<&Snapshot> = all.iter().step_by(every).collect();
     if chosen.is_empty() {
         return Err(Failure::failed(format_args!(
             "{}: the record holds no states of the spheres",
@@ -183,6 +206,13 @@ fn export(
         path.display(),
         format::count(chosen.len(), "state")
     ));
+    if arguments.to == Format::Dump && record.scene.has_flow() {
+        return Err(Failure::refused(format_args!(
+            "{}: spheres come and go in this run, for which the thesis's dump has no place; npy holds \
+             the same numbers",
+            path.display()
+        )));
+    }
     if arguments.to == Format::Dump && matches!(states, States::Snapshots(_)) {
         console.note(
             "a dump of snapshots cannot be classified, which takes every frame: run it again with \
@@ -196,22 +226,60 @@ fn export(
         );
     }
     folders::make_for(target)?;
-    let observations = target.with_file_name(format!(
-        "{}-observations.csv",
-        target.file_stem().unwrap_or_default().to_string_lossy()
-    ));
-    let result: Result<(), StoreError> = match arguments.to {
-        Format::Xyz => store::write_xyz(record, &chosen, target),
-        Format::Vtk => store::write_vtk(record, &chosen, target),
-        Format::Npy => store::write_arrays(record, &chosen, target),
-        Format::Csv => store::write_spheres(record, &chosen, target)
-            .and_then(|()| store::write_observations(record, &observations)),
-        Format::Dump => store::write_dump(record, &chosen, target),
-    };
-    result.map_err(Failure::failed)?;
-    console.file(target)?;
-    if arguments.to == Format::Csv {
-        console.file(&observations)?;
+    for path in write(record, &chosen, target, arguments.to)? {
+        console.file(&path)?;
     }
     Ok(())
+}
+
+/// Writes states of a record; returns the files, or the folder of many, that stand for them.
+fn write(
+    record: &RunRecord,
+    states: &[&Snapshot],
+    target: &Path,
+    format: Format,
+) -> Result<Vec<PathBuf>, Failure> {
+    match format {
+        Format::Xyz => store::write_xyz(record, states, target),
+        Format::Vtk => store::write_vtk(record, states, target),
+        Format::Npy => store::write_arrays(record, states, target),
+        Format::Csv => store::write_spheres(record, states, target),
+        Format::Svg => {
+            folders::refuse_other_frames(target, states.len(), "svg")?;
+            store::write_svg(record, states, target)
+        }
+        Format::Page => store::write_page(record, states, target),
+        Format::Dump => store::write_dump(record, states, target),
+    }
+    .map_err(Failure::failed)?;
+    let mut written = vec![target.to_owned()];
+    for (name, write) in more(record, format) {
+        let stem = target.file_stem().unwrap_or_default().to_string_lossy();
+        let path = target.with_file_name(format!("{stem}-{name}.{}", format.extension()));
+        write(record, &path).map_err(Failure::failed)?;
+        written.push(path);
+    }
+    Ok(written)
+}
+
+/// Writes a file about a record.
+type Write = fn(&RunRecord, &Path) -> Result<(), StoreError>;
+
+/// What goes to files beside that of the states: what their names say, and what writes them.
+fn more(record: &RunRecord, format: Format) -> Vec<(&'static str, Write)> {
+    let fixed: Option<Write> = match format {
+        Format::Xyz => Some(store::write_fixed_xyz),
+        Format::Csv => Some(store::write_fixed),
+        _ => None,
+    };
+    let observations: Option<Write> = match format {
+        Format::Csv => Some(store::write_observations),
+        _ => None,
+    };
+    let fixed = fixed.filter(|_| record.scene.geometry.is_some());
+    let named = [("observations", observations), ("fixed", fixed)];
+    let present = named.into_iter();
+    present
+        .filter_map(|(name, write)| Some((name, write?)))
+        .collect()
 }

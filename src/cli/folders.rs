@@ -39,3 +39,21 @@ pub(super) fn refuse_to_replace(path: &Path, kind: &str, signature: &[u8]) -> Re
 pub(super) fn make_for(file: &Path) -> Result<(), Failure> {
     make(file.parent().unwrap_or(Path::new("")))
 }
+
+/// Refuses a folder that holds frames which `count` new ones would not replace: what they are of
+/// could not be told any more.
+pub(super) fn refuse_other_frames(
+    folder: &Path,
+    count: usize,
+    extension: &str,
+) -> Result<(), Failure> {
+    let beyond = folder.join(store::frame_name(count, extension));
+    if beyond.exists() {
+        return Err(Failure::refused(format_args!(
+            "{}: this is a frame of another export, which had more of them; remove them, or choose \
+             another folder",
+            beyond.display()
+        )));
+    }
+    Ok(())
+}

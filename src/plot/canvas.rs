@@ -5,6 +5,7 @@
 //! PNG, which has [`PNG_SCALE`] of them per CSS pixel: no hairlines between cells, no blur.
 
 use super::text::{FONT, SUBSCRIPT_SIZE, runs};
+use crate::markup::escape;
 use crate::render::Image;
 use base64::Engine;
 use plotters_backend::text_anchor::{HPos, VPos};
@@ -233,23 +234,6 @@ fn spans(text: &str, size: f64) -> String {
         }
     }
     content
-}
-
-/// A text as XML; characters that XML cannot hold become U+FFFD.
-pub(super) fn escape(text: &str) -> String {
-    let mut escaped = String::new();
-    for character in text.chars() {
-        match character {
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            '&' => escaped.push_str("&amp;"),
-            '"' => escaped.push_str("&quot;"),
-            '\t' | '\n' | '\r' => escaped.push(' '),
-            '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
-            other => escaped.push(other),
-        }
-    }
-    escaped
 }
 
 /// A picture as an element, its PNG file in it; one pixel of it is one of the PNG of the figure.

@@ -1,7 +1,8 @@
 //! A finished figure: its SVG, its PNG, and where it comes from.
 
-use super::canvas::{self, PNG_SCALE, UNITS, escape};
+use super::canvas::{self, PNG_SCALE, UNITS};
 use super::{PlotError, Source, text};
+use crate::markup::escape;
 use crate::record::{Program, RunRecord};
 use crate::render::Image;
 use crate::scene::Scene;

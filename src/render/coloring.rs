@@ -23,6 +23,13 @@ pub enum ColorBy {
         /// The height of the last colour.
         high: f64,
     },
+    /// Radius, from `low` to `high` (m).
+    Radius {
+        /// The radius of the first colour.
+        low: f64,
+        /// The radius of the last colour.
+        high: f64,
+    },
     /// Index of the sphere: neighbours in the list differ, so that single spheres can be followed.
     Index,
 }
@@ -49,23 +56,36 @@ impl ColorBy {
             .into_iter()
             .flat_map(|snapshot| snapshot.position.column(2))
             .filter(|height| height.is_finite());
-        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &z| {
-            (z.min(low), z.max(high))
-        });
+        let (low, high) = range(heights);
         Self::Height { low, high }
     }
 
-    /// The colour of every sphere of a snapshot.
-    pub fn colors(self, snapshot: &Snapshot) -> Vec<Rgb> {
+    /// By radius, over the range of these (m).
+    pub fn radius_of<'a>(radius: impl IntoIterator<Item = &'a f64>) -> Self {
+        let (low, high) = range(radius);
+        Self::Radius { low, high }
+    }
+
+    /// The colour of every sphere of a snapshot; `radius` holds the radius of each (m).
+    pub fn colors(self, snapshot: &Snapshot, radius: &[f64]) -> Vec<Rgb> {
         (0..snapshot.position.nrows())
             .map(|sphere| match self {
                 Self::Nothing => PLAIN,
                 Self::Speed { fastest } => mapped(speed(snapshot, sphere), 0.0, fastest),
                 Self::Height { low, high } => mapped(snapshot.position[[sphere, 2]], low, high),
+                Self::Radius { low, high } => mapped(radius[sphere], low, high),
                 Self::Index => ColorMap::Sequential.at((GOLDEN * sphere as f64) % 1.0),
             })
             .collect()
     }
+}
+
+/// The least and the largest of these values.
+fn range<'a>(values: impl IntoIterator<Item = &'a f64>) -> (f64, f64) {
+    let all = (f64::INFINITY, f64::NEG_INFINITY);
+    values
+        .into_iter()
+        .fold(all, |(low, high), value| (value.min(low), value.max(high)))
 }
 
 fn mapped(value: f64, low: f64, high: f64) -> Rgb {

@@ -1,4 +1,4 @@
-//! Pictures of spheres in their tank: a small software renderer.
+//! Pictures of spheres in their tank: a small software renderer; and flat ones of discs.
 //!
 //! An orthographic [`Camera`] looks at a [`Stage`]; [`picture`] draws every sphere as what it is,
 //! so that spheres that overlap meet in the right circle. Light comes from the upper left of the
@@ -9,6 +9,7 @@ mod animation;
 mod camera;
 mod coloring;
 mod depth;
+pub(crate) mod flat;
 mod image;
 mod palette;
 mod panel;
@@ -20,8 +21,9 @@ mod vector;
 pub use animation::Animation;
 pub use camera::Camera;
 pub use coloring::{ColorBy, Rgb};
+pub use flat::Scenery;
 pub use image::Image;
-pub use panel::{panel, strip};
+pub use panel::strip;
 pub use sheet::Sheet;
 pub(crate) use sheet::round_down;
 pub use stage::Stage;
@@ -50,7 +52,7 @@ use crate::observe::Snapshot;
 /// };
 /// let radius = [0.01, 0.01];
 /// let stage = Stage::new(Some(0.06), Some(-0.2)).around([&snapshot], &radius);
-/// let color = ColorBy::Speed { fastest: 0.1 }.colors(&snapshot);
+/// let color = ColorBy::Speed { fastest: 0.1 }.colors(&snapshot, &radius);
 /// let image = picture(&snapshot, &radius, &color, &stage, &Camera::side(&stage), 300, 200);
 /// assert_eq!(image.rgba.len(), 4 * 300 * 200);
 /// ```

@@ -1,52 +1,90 @@
-//! The state of the tank at a glance: a caption, the view from the side, the view from above.
+//! A state at a glance: a caption, and below it the view from the side and that from above, or one
+//! flat view.
 
 use super::vector::{self, Anchor};
-use super::{Camera, Image, Rgb, Stage, picture};
+use super::{Camera, Image, Rgb, Scenery, Stage, flat, picture};
 use crate::observe::Snapshot;
 
-/// Height of the caption over the width of a panel.
+/// Height of a line of the caption over the width of a panel.
 const CAPTION: f64 = 0.08;
-/// Size of the letters of the caption over its height.
-const LETTERS: f64 = 0.7;
+/// Size of the letters of the caption over the height of a line, of one line and of several.
+const LETTERS: [f64; 2] = [0.7, 0.55];
 /// Space between pictures over the width of a panel.
 const GAP: f64 = 0.03;
 
-/// A caption, the view from the side and below it that from above, at one scale. The panel is
-/// `width` pixels wide and as high as the stage asks for.
+/// The view from the side, and that from above, at one scale.
 ///
 /// Units of `radius` and meaning of `color` are those of [`picture`].
-pub fn panel(
+pub(super) fn views(
     snapshot: &Snapshot,
     radius: &[f64],
     color: &[Rgb],
     stage: &Stage,
     width: usize,
-    text: &str,
-) -> Image {
-    let mut views = [Camera::side(stage), Camera::top(stage)].map(|camera| {
+) -> Vec<Image> {
+    let views = [Camera::side(stage), Camera::top(stage)].map(|camera| {
         let height = share(1.0 / camera.aspect(), width);
         picture(snapshot, radius, color, stage, &camera, width, height)
     });
+    let mut views = Vec::from(views);
     if stage.radius.is_none() {
         // No wall shows where the picture ends.
         views.iter_mut().for_each(Image::outline);
     }
-    let (caption, gap) = (share(CAPTION, width), share(GAP, width));
-    let mut panel = Image::white(width, height(stage, width));
-    let (middle, base) = (0.5 * width as f64, 0.75 * caption as f64);
-    let words = vector::text(
-        text,
-        (middle, base),
-        LETTERS * caption as f64,
-        Anchor::Middle,
-    );
-    panel.paste(&vector::drawing(&words, width, caption), 0, 0);
-    let mut top = caption + gap;
-    for view in &views {
-        panel.paste(view, 0, top);
-        top += view.height + gap;
+    views
+}
+
+/// The flat view; without colours, spheres have that of grains.
+pub(super) fn flat_view(
+    snapshot: &Snapshot,
+    radius: &[f64],
+    colors: Option<&[Rgb]>,
+    scenery: &Scenery,
+    stage: &Stage,
+    width: usize,
+) -> Image {
+    let camera = Camera::side(stage);
+    let height = share(1.0 / camera.aspect(), width);
+    let elements = scenery.elements(snapshot, radius, colors, &flat::window(stage));
+    let scale = camera.scale(width, height);
+    let left = 0.5 * width as f64 - scale * camera.centre.x;
+    let top = 0.5 * height as f64 + scale * camera.centre.z;
+    let scaled = format!("<g transform=\"translate({left} {top}) scale({scale})\">{elements}</g>");
+    let mut view = vector::drawing(&scaled, width, height);
+    view.outline();
+    view
+}
+
+/// Views below each other, below a caption.
+pub(super) fn panel(views: &[Image], width: usize, caption: &[String]) -> Image {
+    let (line, gap) = (share(CAPTION, width), share(GAP, width));
+    let heights = views.iter().map(|view| gap + view.height);
+    let mut top = caption.len() * line;
+    let mut panel = Image::white(width, top + heights.sum::<usize>());
+    panel.paste(&words(caption, width, line), 0, 0);
+    for view in views {
+        panel.paste(view, 0, top + gap);
+        top += gap + view.height;
     }
     panel
+}
+
+/// The lines of a caption; one that is too long is in smaller letters.
+fn words(caption: &[String], width: usize, line: usize) -> Image {
+    let middle = 0.5 * width as f64;
+    let [one, several] = LETTERS;
+    let letters = if caption.len() > 1 { several } else { one };
+    let elements: String = caption
+        .iter()
+        .enumerate()
+        .map(|(index, text)| {
+            let fitting = width as f64 / vector::width(text, 1.0).max(1.0);
+            let base = (index as f64 + 0.75) * line as f64;
+            let size = (letters * line as f64).min(fitting);
+            vector::text(text, (middle, base), size, Anchor::Middle)
+        })
+        .collect();
+    vector::drawing(&elements, width, caption.len() * line)
 }
 
 /// A share of a width, in whole pixels.
@@ -54,11 +92,13 @@ fn share(share: f64, width: usize) -> usize {
     (share * width as f64).round().max(1.0) as usize
 }
 
-/// Height of a panel of that width (pixels).
-pub(super) fn height(stage: &Stage, width: usize) -> usize {
+/// Height of a panel of that width (pixels), with so many lines of a caption.
+pub(super) fn height(stage: &Stage, is_flat: bool, lines: usize, width: usize) -> usize {
     let cameras = [Camera::side(stage), Camera::top(stage)];
-    let views = cameras.map(|camera| share(1.0 / camera.aspect(), width));
-    share(CAPTION, width) + 2 * share(GAP, width) + views[0] + views[1]
+    let gap = share(GAP, width);
+    let views = cameras[..if is_flat { 1 } else { 2 }].iter();
+    let views = views.map(|camera| gap + share(1.0 / camera.aspect(), width));
+    lines * share(CAPTION, width) + views.sum::<usize>()
 }
 
 /// Room between panels of that width (pixels).

@@ -1,7 +1,7 @@
 //! Panels with what one needs to read them: title, legend of the colours, a length to compare with.
 
 use super::vector::{self, Anchor};
-use super::{Camera, ColorBy, Image, Stage, panel, strip};
+use super::{Camera, ColorBy, Image, Scenery, Stage, panel, strip};
 use crate::color::ColorMap;
 use crate::observe::Snapshot;
 
@@ -27,19 +27,32 @@ pub struct Sheet {
     pub stage: Stage,
     /// What the colours stand for.
     pub color: ColorBy,
+    /// What a flat view shows besides the spheres. Without it, panels show the view from the side
+    /// and that from above.
+    pub flat: Option<Scenery>,
 }
 
 impl Sheet {
-    /// A panel of a state, `width` pixels wide, below a caption.
-    pub fn panel(&self, snapshot: &Snapshot, width: usize, caption: &str) -> Image {
-        let colors = self.color.colors(snapshot);
-        panel::panel(snapshot, &self.radius, &colors, &self.stage, width, caption)
+    /// A panel of a state, `width` pixels wide, below the lines of a caption.
+    pub fn panel(&self, snapshot: &Snapshot, width: usize, caption: &[String]) -> Image {
+        let colors = self.color.colors(snapshot, &self.radius);
+        let (radius, stage) = (&self.radius, &self.stage);
+        let views = match &self.flat {
+            Some(scenery) => {
+                let colors = (self.color != ColorBy::Nothing).then_some(&colors[..]);
+                let view = panel::flat_view(snapshot, radius, colors, scenery, stage, width);
+                vec![view]
+            }
+            None => panel::views(snapshot, radius, &colors, stage, width),
+        };
+        panel::panel(&views, width, caption)
     }
 
-    /// Height of a picture of `count` panels of that width (pixels).
-    pub fn height(&self, count: usize, width: usize) -> usize {
+    /// Height of a picture of `count` panels of that width (pixels), with so many lines of a caption.
+    pub fn height(&self, count: usize, lines: usize, width: usize) -> usize {
         let words = Words::new(self, count, width);
-        words.head + panel::height(&self.stage, width) + words.foot
+        let panel = panel::height(&self.stage, self.flat.is_some(), lines, width);
+        words.head + panel + words.foot
     }
 
     /// Panels of equal size beside each other, with title, legend and length.
@@ -133,6 +146,7 @@ impl Words {
             ColorBy::Index => return words("colours tell spheres apart"),
             ColorBy::Speed { fastest } => ("speed (m/s)", 0.0, fastest),
             ColorBy::Height { low, high } => ("height (m)", low, high),
+            ColorBy::Radius { low, high } => ("radius (mm)", 1e3 * low, 1e3 * high),
         };
         if low >= high {
             return words(&format!("{label}: {} everywhere", number(low)));

@@ -46,23 +46,40 @@ impl Stage {
         snapshots: impl IntoIterator<Item = &'a Snapshot>,
         radius: &[f64],
     ) -> Self {
-        let mut empty = self.radius.is_none() && self.floor.is_none();
         for snapshot in snapshots {
-            for (centre, &radius) in snapshot.position.rows().into_iter().zip(radius) {
-                if !(centre.iter().all(|value| value.is_finite()) && radius.is_finite()) {
-                    continue;
-                }
-                if empty {
-                    self.seen = [[centre[0], centre[1], centre[2]]; 2];
-                    empty = false;
-                }
-                for axis in 0..3 {
-                    self.seen[0][axis] = self.seen[0][axis].min(centre[axis] - radius);
-                    self.seen[1][axis] = self.seen[1][axis].max(centre[axis] + radius);
-                }
+            let centres = snapshot.position.rows().into_iter();
+            let spheres = centres.zip(radius);
+            self = self.around_spheres(
+                spheres.map(|(centre, &radius)| ([centre[0], centre[1], centre[2]], radius)),
+            );
+        }
+        self
+    }
+
+    /// The stage seen so far up and wide that it holds spheres with these centres and radii (m).
+    #[must_use]
+    pub(super) fn around_spheres(
+        mut self,
+        spheres: impl IntoIterator<Item = ([f64; 3], f64)>,
+    ) -> Self {
+        for (centre, radius) in spheres {
+            if !(centre.iter().all(|value| value.is_finite()) && radius.is_finite()) {
+                continue;
+            }
+            if self.is_empty() {
+                self.seen = [centre; 2];
+            }
+            for (axis, value) in centre.into_iter().enumerate() {
+                self.seen[0][axis] = self.seen[0][axis].min(value - radius);
+                self.seen[1][axis] = self.seen[1][axis].max(value + radius);
             }
         }
         self
+    }
+
+    /// Whether there is nothing to see yet, neither walls nor spheres.
+    fn is_empty(&self) -> bool {
+        self.radius.is_none() && self.floor.is_none() && self.seen[0] == self.seen[1]
     }
 
     /// The stage seen up to the height `top` (m), whatever flies above.

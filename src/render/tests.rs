@@ -164,6 +164,7 @@ fn view_has_the_proportions_of_the_stage() {
 #[test]
 fn colors_follow_what_they_stand_for() {
     let mut all = snapshot(array![[0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 2.0]]);
+    let radius = [0.01, 0.02, 0.03];
     all.velocity = array![[3.0, 0.0, 4.0], [0.0, 0.0, 0.0], [0.0, 0.0, 2.5]];
     assert_eq!(ColorBy::speed_of([&all]), ColorBy::Speed { fastest: 5.0 });
     let height = ColorBy::height_of([&all]);
@@ -174,14 +175,19 @@ fn colors_follow_what_they_stand_for() {
             high: 2.0
         }
     );
-    let (by_speed, by_height) = (ColorBy::speed_of([&all]).colors(&all), height.colors(&all));
+    let (by_speed, by_height) = (
+        ColorBy::speed_of([&all]).colors(&all, &radius),
+        height.colors(&all, &radius),
+    );
     assert_eq!([by_height[2], by_height[0], by_height[1]], by_speed[..]);
-    let by_index = ColorBy::Index.colors(&all);
+    let by_radius = ColorBy::radius_of(&radius).colors(&all, &radius);
+    assert_eq!(by_radius, by_height);
+    let by_index = ColorBy::Index.colors(&all, &radius);
     assert!(by_index[0] != by_index[1] && by_index[1] != by_index[2]);
     // Nothing moves, or all is at one height.
     let rest = snapshot(array![[0.0, 0.0, 1.0]]);
     for by in [ColorBy::speed_of([&rest]), ColorBy::height_of([&rest])] {
-        assert_eq!(by.colors(&rest), [by_speed[1]]);
+        assert_eq!(by.colors(&rest, &[0.01]), [by_speed[1]]);
     }
 }
 

@@ -1,6 +1,7 @@
 //! Words and simple shapes in a picture.
 
 use super::Image;
+use crate::markup::escape;
 use resvg::{tiny_skia, usvg};
 use std::sync::Arc;
 
@@ -57,7 +58,7 @@ pub(super) fn text(text: &str, (x, y): (f64, f64), size: f64, anchor: Anchor) ->
     };
     // XML cannot hold control characters.
     let sound: String = text.chars().filter(|c| !c.is_control()).collect();
-    let escaped = sound.replace('&', "&amp;").replace('<', "&lt;");
+    let escaped = escape(&sound);
     format!(
         "<text x=\"{x}\" y=\"{y}\" text-anchor=\"{anchor}\" font-size=\"{size}\">{escaped}</text>"
     )

@@ -102,6 +102,7 @@ pub fn write_dump(record: &RunRecord, states: &[&Snapshot], path: &Path) -> Resu
 fn values(record: &RunRecord, states: &[&Snapshot]) -> Array3<f64> {
     let count = record.radius.len();
     let gravity = record.scene.gravity.as_ref();
+    let inertia_factor = record.scene.spheres.shape.inertia_factor();
     let whole = run::frames(&record.scene).1 as usize + 1;
     let (rows, broken) = match &record.outcome {
         Outcome::Completed => (states.len(), f64::INFINITY),
@@ -118,7 +119,8 @@ fn values(record: &RunRecord, states: &[&Snapshot]) -> Array3<f64> {
             let (mass, radius) = (record.mass[sphere], record.radius[sphere]);
             let mut energy = 0.5 * mass * square(state.velocity.row(sphere));
             if state.spin.nrows() > 0 {
-                energy += 0.2 * mass * radius * radius * square(state.spin.row(sphere));
+                let inertia = inertia_factor * mass * radius * radius;
+                energy += 0.5 * inertia * square(state.spin.row(sphere));
             }
             let position = state.position.row(sphere);
             energy += gravity.map_or(0.0, |it| it.energy(mass, position[0], position[2]));

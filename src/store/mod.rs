@@ -1,4 +1,4 @@
-//! Files: run records (HDF5), tables (CSV), states for other programs (XYZ, VTK, NPY, CSV). One file per format, the only place that knows it.
+//! Files: run records (HDF5), tables (CSV), states for other programs (XYZ, VTK, NPY, CSV, SVG, pages). One file per format, the only place that knows it.
 //!
 //! Whatever is written here appears whole or not at all (see [`write_atomic`]).
 
@@ -17,7 +17,8 @@ mod text;
 pub use atomic::{remove_leftovers, write_atomic};
 pub use dump::{DumpName, read_dump, write_dump};
 pub use export::{
-    SPHERES_SIGNATURE, write_arrays, write_observations, write_spheres, write_vtk, write_xyz,
+    PAGE_SIGNATURE, SPHERES_SIGNATURE, frame_name, write_arrays, write_fixed, write_fixed_xyz,
+    write_observations, write_page, write_spheres, write_svg, write_vtk, write_xyz,
 };
 pub use failures::{read_failures, write_failures};
 pub use geometry::read_geometry;

@@ -134,3 +134,61 @@ fn what_is_no_dump_of_the_scene_is_refused() {
         .code(1)
         .complains("it has 8 spheres, but spheres.count of the scene is 9");
 }
+
+/// A disc has a moment of inertia of m r^2 / 2, not that of a sphere.
+#[test]
+fn energies_of_discs_are_those_of_discs() {
+    let place = Workplace::new();
+    place.write(
+        "discs.toml",
+        r#"
+[spheres]
+count = 2
+radius = 0.04
+shape = "disc"
+density = 10.0
+[contact]
+law = "linear"
+stiffness = 100.0
+damping = 0.0
+[friction]
+law = "coulomb"
+coefficient = 0.3
+regularisation = 1e-3
+[start]
+kind = "list"
+spheres = [
+    { position = [0.0, 0.0, 0.0], velocity = [0.0, 0.0, 2.0], spin = [0.0, 30.0, 0.0] },
+    { position = [1.0, 0.0, 0.0], spin = [0.0, -5.0, 0.0] },
+]
+[time]
+dt = 1e-3
+duration = 0.01
+frame_interval = 0.01
+"#,
+    );
+    place
+        .phase(&["run", "discs.toml", "--trajectory", "--out", "run.h5"])
+        .code(0);
+    place.phase(&["export", "run.h5", "--to", "dump"]).code(0);
+    let [dump] = std::fs::read_dir(place.path(""))
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|it| it == "npy"))
+        .collect::<Vec<_>>()
+        .try_into()
+        .unwrap();
+    let values = phase::store::read_dump(&dump).unwrap();
+    let mass = 10.0 * 0.04 * 0.04;
+    let rotational = |spin: f64| 0.25 * mass * 0.04 * 0.04 * spin * spin;
+    for (sphere, expected) in [
+        (0, 0.5 * mass * 4.0 + rotational(30.0)),
+        (1, rotational(5.0)),
+    ] {
+        let found = values[[0, sphere, 3]];
+        assert!(
+            (found - expected).abs() < 1e-12 * expected,
+            "{found} {expected}"
+        );
+    }
+}

@@ -4,10 +4,16 @@
 //! skipped; with `PHASE_NEED_READERS=1` in the environment, as in continuous integration, they
 //! fail.
 
-use crate::support::{Workplace, scene_file};
+use crate::support::{Workplace, scene_file, silo_file};
+use ndarray_npy::ReadNpyExt;
+use phase::observe::Snapshot;
+use phase::scene::FixedSphere;
+use phase::store::read_record;
 use std::io::Write;
 use std::path::Path;
 use std::process::Command;
+
+const FORMATS: [&str; 5] = ["xyz", "vtk", "npy", "csv", "dump"];
 
 fn python() -> String {
     std::env::var("PHASE_PYTHON").unwrap_or_else(|_| "python3".to_owned())
@@ -41,10 +47,10 @@ fn scene(friction: bool) -> String {
     text
 }
 
-/// Exports a record in all formats and has the result read.
-fn exported_and_read(place: &Workplace, every: usize, states: &str) {
+/// Exports a record in these formats and has the result read.
+fn exported_and_read(place: &Workplace, formats: &[&str], every: usize, states: &str) {
     let step = every.to_string();
-    for format in ["xyz", "vtk", "npy", "csv", "dump"] {
+    for &format in formats {
         let mut arguments = vec!["export", "run.h5", "--to", format, "--out", "out"];
         if format != "dump" {
             arguments.extend(["--every", &step]);
@@ -76,7 +82,12 @@ fn others_read_every_number_of_a_trajectory() {
     place
         .phase(&["run", "scene.toml", "--trajectory", "--out", "run.h5"])
         .code(0);
-    exported_and_read(&place, 50, "run.h5: the trajectory, every frame: ");
+    exported_and_read(
+        &place,
+        &FORMATS,
+        50,
+        "run.h5: the trajectory, every frame: ",
+    );
 }
 
 #[test]
@@ -88,8 +99,78 @@ fn others_read_every_number_of_snapshots() {
         .code(0);
     exported_and_read(
         &place,
+        &FORMATS,
         1,
         "run.h5: the snapshots, as there is no trajectory: 3 states",
+    );
+}
+
+#[test]
+fn others_read_the_grains_that_are_in() {
+    let friction = "[friction]\nlaw = \"coulomb\"\ncoefficient = 0.3\nregularisation = 1e-3\n";
+    for more in ["", friction] {
+        let place = Workplace::new();
+        place.write("silo.toml", &(silo_file() + more));
+        place
+            .phase(&["run", "silo.toml", "--out", "run.h5"])
+            .code(0);
+        exported_and_read(&place, &FORMATS[..4], 1, "run.h5: the snapshots");
+        place
+            .phase(&["export", "run.h5", "--to", "dump"])
+            .code(2)
+            .complains("spheres come and go in this run")
+            .complains("npy holds the same numbers");
+    }
+}
+
+#[test]
+fn tables_hold_the_grains_that_are_in_and_what_is_fixed() {
+    let place = Workplace::new();
+    place.write("silo.toml", &silo_file());
+    place
+        .phase(&["run", "silo.toml", "--out", "run.h5"])
+        .code(0);
+    for format in ["xyz", "csv", "npy"] {
+        place.phase(&["export", "run.h5", "--to", format]).code(0);
+    }
+    let record = read_record(&place.path("run.h5")).unwrap();
+    let inside = |state: &Snapshot| {
+        state
+            .position
+            .column(0)
+            .iter()
+            .filter(|x| !x.is_nan())
+            .count()
+    };
+    let counts: Vec<usize> = record.snapshots.iter().map(inside).collect();
+    assert!(
+        counts.contains(&0) && counts.contains(&12) && counts.iter().any(|it| (1..12).contains(it))
+    );
+
+    let table = place.read("run.csv");
+    assert!(!table.contains("NaN"));
+    assert_eq!(table.lines().count(), 1 + counts.iter().sum::<usize>());
+    let xyz = place.read("run.xyz");
+    let heads = xyz.lines().filter_map(|line| line.parse::<usize>().ok());
+    assert_eq!(heads.collect::<Vec<_>>(), counts);
+    assert!(!xyz.contains("NaN"));
+    let file = std::fs::File::open(place.path("run/position.npy")).unwrap();
+    let array = ndarray::Array3::<f64>::read_npy(file).unwrap();
+    let numbers = array.iter().filter(|value| !value.is_nan()).count();
+    assert_eq!(numbers, 3 * counts.iter().sum::<usize>());
+
+    let fixed = record.scene.geometry.unwrap().spheres();
+    let rows = |kind: &str, spheres: &[FixedSphere]| -> String {
+        let row = |it: &FixedSphere| {
+            let [x, y, z] = it.position;
+            format!("{kind},{x:?},{y:?},{z:?},{:?}\n", it.radius)
+        };
+        spheres.iter().map(row).collect()
+    };
+    let expected = rows("wall", &fixed.walls) + &rows("door", &fixed.door);
+    assert_eq!(
+        place.read("run-fixed.csv"),
+        format!("kind,x,y,z,radius\n{expected}")
     );
 }
 
@@ -132,7 +213,7 @@ fn exports_go_where_they_are_sent() {
         .complains("leave out --every");
     export(&["--to", "pdb"])
         .code(2)
-        .complains("possible values: xyz, vtk, npy, csv, dump");
+        .complains("possible values: xyz, vtk, npy, csv, svg, page, dump");
     place
         .phase(&["export", "scene.toml", "--to", "xyz"])
         .code(2)

@@ -5,7 +5,9 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod browser;
 mod dumps;
 mod export;
+mod flat;
 mod run_again;
 mod view;

@@ -11,7 +11,7 @@ fn run(more: &[&str]) -> Workplace {
 }
 
 /// A decoded PNG: width, height, number of animated pictures, colours of the pixels.
-fn decode(place: &Workplace, name: &str) -> (u32, u32, u32, Vec<u8>) {
+pub(crate) fn decode(place: &Workplace, name: &str) -> (u32, u32, u32, Vec<u8>) {
     let file = std::fs::File::open(place.path(name)).unwrap();
     let mut decoder = png::Decoder::new(std::io::BufReader::new(file));
     decoder.set_transformations(png::Transformations::EXPAND);
@@ -70,7 +70,7 @@ fn times_are_rounded() {
 }
 
 /// Whether a picture holds a colour, to within a few steps.
-fn holds(pixels: &[u8], color: [u8; 3]) -> bool {
+pub(crate) fn holds(pixels: &[u8], color: [u8; 3]) -> bool {
     let near = |pixel: &[u8]| (0..3).all(|channel| pixel[channel].abs_diff(color[channel]) < 16);
     pixels.chunks(4).any(near)
 }

@@ -169,6 +169,53 @@ pub(crate) fn scene_file() -> String {
     scene("", 2.0, 0.01)
 }
 
+/// A silo that twelve grains of two sizes fill, come to rest in and leave, in 3.6 s.
+pub(crate) fn silo_file() -> String {
+    r#"
+title = "Small <silo> & more"
+[spheres]
+count = 12
+radius = [{ radius = 0.04, share = 1 }, { radius = 0.03, share = 1 }]
+shape = "disc"
+density = 1.0
+[contact]
+law = "linear"
+stiffness = 100.0
+damping = 0.05
+drag = "whole"
+[gravity]
+acceleration = 9.81
+[geometry]
+kind = "hopper"
+half_width = 0.3
+top = 0.9
+foot = 0.4
+slope = 0.75
+opening = 0.2
+spacing = 0.05
+radius = 0.03
+[start]
+kind = "feed"
+position = [0.01, 0.0, 0.9]
+velocity = [0.0, 0.0, -1.0]
+interval = 0.1
+[rest]
+kinetic_energy = 1e-4
+hold = 0.2
+[door]
+[outlet]
+height = -0.3
+[time]
+dt = 1e-3
+duration = 30.0
+frame_interval = 0.05
+integrator = "velocity-verlet"
+[output]
+snapshot_interval = 0.2
+"#
+    .to_owned()
+}
+
 fn scene(prefix: &str, duration: f64, frame_interval: f64) -> String {
     format!(
         r#"

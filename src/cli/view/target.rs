@@ -3,7 +3,7 @@
 use super::Arguments;
 use crate::cli::exit::Failure;
 use crate::cli::folders;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// A kind of file.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -40,8 +40,13 @@ impl Target {
     /// The file that the command line asks for, of the kind that its name says.
     pub(super) fn new(arguments: &Arguments) -> Result<Self, Failure> {
         let path = arguments.animate.as_ref().or(arguments.out.as_ref());
+        if arguments.records.len() > 1 && path.is_none() {
+            return Err(Failure::refused(
+                "name the picture of several records with --out",
+            ));
+        }
         let path = path.cloned();
-        let path = path.unwrap_or_else(|| arguments.record.with_extension("png"));
+        let path = path.unwrap_or_else(|| arguments.records[0].with_extension("png"));
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         let kind = match (extension.to_str(), &arguments.animate) {
             (Some("png"), _) | (Some("apng"), Some(_)) => Kind::Png,
@@ -62,14 +67,15 @@ impl Target {
         Ok(Self { path, kind })
     }
 
-    /// Refuses to write over the record, or over anything but a picture of the same kind.
-    pub(super) fn check(&self, record: &Path) -> Result<(), Failure> {
+    /// Refuses to write over a record, or over anything but a picture of the same kind.
+    pub(super) fn check(&self, records: &[PathBuf]) -> Result<(), Failure> {
         let refused = |why: &str| {
             let path = self.path.display();
             Err(Failure::refused(format_args!("{path}: {why}")))
         };
-        let (target, source) = (self.path.canonicalize(), record.canonicalize());
-        if matches!((target, source), (Ok(target), Ok(source)) if target == source) {
+        let target = self.path.canonicalize().ok();
+        let is_target = |record: &PathBuf| record.canonicalize().ok() == target;
+        if target.is_some() && records.iter().any(is_target) {
             return refused("this is the record itself; give the picture another name");
         }
         if self.path.is_dir() {

@@ -1,20 +1,45 @@
 //! States of all spheres, for other programs: one file per format.
 
 mod npy;
+mod page;
+mod svg;
 mod table;
 mod vtk;
 mod xyz;
 
 pub(in crate::store) use npy::write_array;
 pub use npy::write_arrays;
-pub use table::{SPHERES_SIGNATURE, write_observations, write_spheres};
+pub use page::PAGE_SIGNATURE;
+pub use page::write_page;
+pub use svg::write_svg;
+pub use table::{SPHERES_SIGNATURE, write_fixed, write_observations, write_spheres};
 pub use vtk::write_vtk;
-pub use xyz::write_xyz;
+pub use xyz::{write_fixed_xyz, write_xyz};
 
 use super::StoreError;
 use crate::observe::Snapshot;
+use crate::record::RunRecord;
+use crate::scene::{FixedSpheres, Geometry};
 use std::fs;
 use std::path::Path;
+
+/// Name of the file of one state, counted from 0.
+pub fn frame_name(frame: usize, extension: &str) -> String {
+    format!("frame_{frame:05}.{extension}")
+}
+
+/// The spheres that are in. Where spheres come and go, others have no numbers.
+fn present(record: &RunRecord, state: &Snapshot) -> Vec<usize> {
+    let has_flow = record.scene.has_flow();
+    let is_in = |&sphere: &usize| !has_flow || !state.position[[sphere, 0]].is_nan();
+    (0..record.radius.len()).filter(is_in).collect()
+}
+
+/// The fixed spheres of a scene: walls and door.
+fn fixed(record: &RunRecord) -> FixedSpheres {
+    let geometry = record.scene.geometry.as_ref();
+    geometry.map(Geometry::spheres).unwrap_or_default()
+}
 
 fn make_folder(path: &Path) -> Result<(), StoreError> {
     fs::create_dir_all(path).map_err(|error| StoreError::writing(path, error))

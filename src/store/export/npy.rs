@@ -1,8 +1,9 @@
 //! NumPy arrays: a folder with one `.npy` file per quantity.
 
-use super::{make_folder, rotate};
+use super::{fixed, make_folder, rotate};
 use crate::observe::Snapshot;
 use crate::record::RunRecord;
+use crate::scene::FixedSphere;
 use crate::store::StoreError;
 use crate::store::atomic::write_atomic_with;
 use ndarray::{Array1, Array2, Array3, ArrayBase, ArrayView2, Axis, Data, Dimension};
@@ -12,7 +13,9 @@ use std::path::Path;
 
 /// Writes these states of a record into `folder` as arrays of 64-bit floating point numbers:
 /// `time` (s; states), `position` (m), `velocity` (m/s) and, of spheres that rotate, `spin` (rad/s;
-/// all states x n x 3), `radius` (m; n), `mass` (kg; n).
+/// all states x n x 3), `radius` (m; n), `mass` (kg; n). Where spheres come and go, one that is not in
+/// has no numbers (NaN). Of fixed spheres `walls` and `door` (x, y, z and radius, all in m; number of
+/// spheres x 4).
 ///
 /// # Errors
 /// [`StoreError::DiskFull`] or [`StoreError::Write`].
@@ -31,7 +34,22 @@ pub fn write_arrays(
         write_array(&stack(states, |state| &state.spin), &file("spin"))?;
     }
     write_array(&Array1::from(record.radius.clone()), &file("radius"))?;
-    write_array(&Array1::from(record.mass.clone()), &file("mass"))
+    write_array(&Array1::from(record.mass.clone()), &file("mass"))?;
+    let fixed = fixed(record);
+    for (name, spheres) in [("walls", &fixed.walls), ("door", &fixed.door)] {
+        if !spheres.is_empty() {
+            write_array(&rows(spheres), &file(name))?;
+        }
+    }
+    Ok(())
+}
+
+/// One row of x, y, z and radius per sphere.
+fn rows(spheres: &[FixedSphere]) -> Array2<f64> {
+    Array2::from_shape_fn((spheres.len(), 4), |(sphere, column)| {
+        let FixedSphere { position, radius } = spheres[sphere];
+        position.get(column).copied().unwrap_or(radius)
+    })
 }
 
 fn stack(states: &[&Snapshot], part: impl Fn(&Snapshot) -> &Array2<f64>) -> Array3<f64> {

@@ -1,7 +1,9 @@
 //! CSV tables for spreadsheets and pandas: all spheres, and all observables.
 
+use super::{fixed, present};
 use crate::observe::Snapshot;
 use crate::record::RunRecord;
+use crate::scene::FixedSphere;
 use crate::store::StoreError;
 use crate::store::atomic::write_atomic_with;
 use std::io::Write;
@@ -12,7 +14,8 @@ pub const SPHERES_SIGNATURE: &[u8] = b"time,sphere,x,y,z,";
 
 /// Writes these states of a record as a table of one row per state and sphere: `time` (s),
 /// `sphere` (from 0), centre `x`, `y`, `z` (m), velocity `vx`, `vy`, `vz` (m/s), spin `wx`, `wy`,
-/// `wz` (rad/s; empty without rotation), `radius` (m), `mass` (kg).
+/// `wz` (rad/s; empty without rotation), `radius` (m), `mass` (kg). Where spheres come and go there is
+/// no row for one that is not in.
 ///
 /// # Errors
 /// [`StoreError::DiskFull`] or [`StoreError::Write`].
@@ -24,7 +27,8 @@ pub fn write_spheres(
     write_atomic_with(path, |file| {
         writeln!(file, "time,sphere,x,y,z,vx,vy,vz,wx,wy,wz,radius,mass")?;
         for state in states {
-            for (sphere, (radius, mass)) in record.radius.iter().zip(&record.mass).enumerate() {
+            for sphere in present(record, state) {
+                let (radius, mass) = (record.radius[sphere], record.mass[sphere]);
                 write!(file, "{:?},{sphere}", state.time)?;
                 let centre = state.position.row(sphere);
                 for number in centre.into_iter().chain(state.velocity.row(sphere)) {
@@ -38,6 +42,25 @@ pub fn write_spheres(
                     write!(file, ",,,")?;
                 }
                 writeln!(file, ",{radius:?},{mass:?}")?;
+            }
+        }
+        Ok(())
+    })
+}
+
+/// Writes the fixed spheres of a record's scene as a table of one row per sphere: `kind` (`wall` or
+/// `door`), centre `x`, `y`, `z` (m), `radius` (m).
+///
+/// # Errors
+/// [`StoreError::DiskFull`] or [`StoreError::Write`].
+pub fn write_fixed(record: &RunRecord, path: &Path) -> Result<(), StoreError> {
+    let fixed = fixed(record);
+    write_atomic_with(path, |file| {
+        writeln!(file, "kind,x,y,z,radius")?;
+        for (kind, spheres) in [("wall", &fixed.walls), ("door", &fixed.door)] {
+            for FixedSphere { position, radius } in spheres {
+                let [x, y, z] = position;
+                writeln!(file, "{kind},{x:?},{y:?},{z:?},{radius:?}")?;
             }
         }
         Ok(())

@@ -4,10 +4,14 @@
 //! The numbers of a VTP file follow its XML as they are in memory ("appended", "raw"): 64-bit
 //! floating point and integers, little-endian, each array behind its size in bytes.
 
-use super::{make_folder, rotate};
+use super::{fixed, frame_name, make_folder, present, rotate};
+use crate::markup::escape;
 use crate::observe::Snapshot;
 use crate::record::RunRecord;
+use crate::render::Scenery;
+use crate::scene::FixedSphere;
 use crate::store::{StoreError, write_atomic};
+use ndarray::{Array2, Axis};
 use std::fs;
 use std::io::{ErrorKind, Write};
 use std::path::Path;
@@ -15,7 +19,9 @@ use std::path::Path;
 /// Writes these states of a record as a series for ParaView: the file `series` (`….pvd`), which
 /// names the files `frame_00000.vtp` and so on in the folder of its name without `.pvd`. Each
 /// holds the centres as points, with `radius` (m), `mass` (kg), `velocity` (m/s) and, of spheres
-/// that rotate, `spin` (rad/s). The series appears last: when it is there, all its files are.
+/// that rotate, `spin` (rad/s). Where spheres come and go, a file holds those that are in, with `id`,
+/// the index of each. Fixed spheres are further parts of the series, `walls.vtp` and, as long as it
+/// is closed, `door.vtp`. The series appears last: when it is there, all its files are.
 ///
 /// # Errors
 /// [`StoreError::DiskFull`] or [`StoreError::Write`].
@@ -32,19 +38,33 @@ pub fn write_vtk(
         }
         _ => make_folder(&folder)?,
     }
+    let write = |file: &str, bytes: Vec<u8>| {
+        let path = folder.join(file);
+        // Not made durable one by one, which takes longer than all the rest: the series decides.
+        fs::write(&path, bytes).map_err(|error| StoreError::writing(&path, error))
+    };
+    let fixed = fixed(record);
+    for (file, spheres) in [(WALLS, &fixed.walls), (DOOR, &fixed.door)] {
+        if !spheres.is_empty() {
+            write(file, fixed_file(spheres))?;
+        }
+    }
+    let scenery = Scenery::new(&record.scene, &record.milestones);
     let spins = rotate(states);
     let mut collection = String::new();
     for (frame, state) in states.iter().enumerate() {
-        let file = format!("frame_{frame:05}.vtp");
-        let path = folder.join(&file);
-        // Not made durable one by one, which takes longer than all the rest: the series decides.
-        fs::write(&path, points(record, state, spins))
-            .map_err(|error| StoreError::writing(&path, error))?;
-        collection += &format!(
-            "    <DataSet timestep=\"{:?}\" part=\"0\" file=\"{}/{file}\"/>\n",
-            state.time,
-            escaped(&name)
-        );
+        let file = frame_name(frame, "vtp");
+        write(&file, state_file(record, state, spins))?;
+        let walls = (!fixed.walls.is_empty()).then_some(WALLS);
+        let door = (!scenery.door_at(state.time).is_empty()).then_some(DOOR);
+        for (part, file) in [Some(&file[..]), walls, door].into_iter().enumerate() {
+            let Some(file) = file else { continue };
+            collection += &format!(
+                "    <DataSet timestep=\"{:?}\" part=\"{part}\" file=\"{}/{file}\"/>\n",
+                state.time,
+                escape(&name)
+            );
+        }
     }
     let text = format!(
         "<?xml version=\"1.0\"?>\n\
@@ -54,17 +74,45 @@ pub fn write_vtk(
     write_atomic(series, text.as_bytes())
 }
 
-/// One VTP file.
-fn points(record: &RunRecord, state: &Snapshot, spins: bool) -> Vec<u8> {
-    let count = record.radius.len();
+/// Names of the files of fixed spheres.
+const WALLS: &str = "walls.vtp";
+const DOOR: &str = "door.vtp";
+
+/// The VTP file of a state.
+fn state_file(record: &RunRecord, state: &Snapshot, spins: bool) -> Vec<u8> {
+    let spheres = present(record, state);
+    let rows = |values: &Array2<f64>| values.select(Axis(0), &spheres);
+    let some = |values: &[f64]| -> Vec<f64> { spheres.iter().map(|&it| values[it]).collect() };
     let mut arrays = Appended::default();
-    let position = arrays.floats("Points", 3, &state.position);
-    let mut data = arrays.floats("radius", 1, &record.radius);
-    data += &arrays.floats("mass", 1, &record.mass);
-    data += &arrays.floats("velocity", 3, &state.velocity);
+    let position = arrays.floats("Points", 3, &rows(&state.position));
+    let mut data = arrays.floats("radius", 1, &some(&record.radius));
+    data += &arrays.floats("mass", 1, &some(&record.mass));
+    data += &arrays.floats("velocity", 3, &rows(&state.velocity));
     if spins {
-        data += &arrays.floats("spin", 3, &state.spin);
+        data += &arrays.floats("spin", 3, &rows(&state.spin));
     }
+    if record.scene.has_flow() {
+        data += &arrays.integers("id", spheres.iter().map(|&it| it as i64));
+    }
+    points(
+        arrays,
+        spheres.len(),
+        &position,
+        &format!("<PointData Scalars=\"radius\" Vectors=\"velocity\">\n{data}</PointData>"),
+    )
+}
+
+/// The VTP file of fixed spheres.
+fn fixed_file(spheres: &[FixedSphere]) -> Vec<u8> {
+    let mut arrays = Appended::default();
+    let position = arrays.floats("Points", 3, spheres.iter().flat_map(|it| &it.position));
+    let radius = arrays.floats("radius", 1, spheres.iter().map(|it| &it.radius));
+    let data = format!("<PointData Scalars=\"radius\">\n{radius}</PointData>");
+    points(arrays, spheres.len(), &position, &data)
+}
+
+/// A VTP file of so many points.
+fn points(mut arrays: Appended, count: usize, position: &str, data: &str) -> Vec<u8> {
     // Each point is a vertex, so that it is seen without any filter.
     let connectivity = arrays.integers("connectivity", 0..count as i64);
     let offsets = arrays.integers("offsets", 1..=count as i64);
@@ -75,7 +123,7 @@ fn points(record: &RunRecord, state: &Snapshot, spins: bool) -> Vec<u8> {
          <PolyData>\n    \
          <Piece NumberOfPoints=\"{count}\" NumberOfVerts=\"{count}\" NumberOfLines=\"0\" \
          NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n\
-         <PointData Scalars=\"radius\" Vectors=\"velocity\">\n{data}</PointData>\n\
+         {data}\n\
          <Points>\n{position}</Points>\n\
          <Verts>\n{connectivity}{offsets}</Verts>\n    \
          </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_"
@@ -128,11 +176,4 @@ impl Appended {
              format=\"appended\" offset=\"{offset}\"/>\n"
         )
     }
-}
-
-/// Text as it may stand in an XML attribute.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('"', "&quot;")
 }

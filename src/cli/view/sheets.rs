@@ -1,0 +1,171 @@
+//! The panels of one run, or of several beside each other.
+
+use super::{Arguments, Color, words};
+use crate::cli::console::Console;
+use crate::cli::exit::Failure;
+use phase::observe::Snapshot;
+use phase::record::RunRecord;
+use phase::render::{ColorBy, Image, Scenery, Sheet, Stage};
+use phase::sweep::work;
+
+/// Greatest height of the view from the side, over its width.
+const TALLEST: f64 = 8.0;
+
+/// A run, and which of its states are shown.
+pub(super) struct Run<'a> {
+    pub(super) record: &'a RunRecord,
+    pub(super) shown: Vec<&'a Snapshot>,
+}
+
+/// What all panels have in common, and the sheet of each run.
+pub(super) struct Sheets<'a> {
+    runs: &'a [Run<'a>],
+    sheets: Vec<Sheet>,
+}
+
+impl<'a> Sheets<'a> {
+    /// Sheets whose panels have one scale, of length and of colour.
+    ///
+    /// # Errors
+    /// If some runs are drawn flat and others are not.
+    pub(super) fn new(runs: &'a [Run<'a>], arguments: &Arguments) -> Result<Self, Failure> {
+        let all = || runs.iter().flat_map(|run| run.shown.iter().copied());
+        let color = match arguments.color {
+            Color::Speed => ColorBy::speed_of(all()),
+            Color::Height => ColorBy::height_of(all()),
+            Color::Radius => ColorBy::radius_of(runs.iter().flat_map(|run| &run.record.radius)),
+            Color::Index => ColorBy::Index,
+            Color::None => ColorBy::Nothing,
+        };
+        let mut sheets: Vec<Sheet> = runs.iter().map(|run| sheet(run, color)).collect();
+        if sheets.iter().any(|it| it.flat.is_some()) && sheets.iter().any(|it| it.flat.is_none()) {
+            return Err(Failure::refused(
+                "scenes of discs are drawn flat, others from two sides: draw them apart",
+            ));
+        }
+        if runs.len() == 1 {
+            let record = runs[0].record;
+            let title = record.scene.title.iter().cloned();
+            sheets[0].title = title.chain([words::place(record)]).collect();
+        }
+        let stages = sheets.iter().map(|sheet| sheet.stage.seen);
+        let seen = stages.reduce(union).unwrap_or_default();
+        sheets.iter_mut().for_each(|sheet| sheet.stage.seen = seen);
+        Ok(Self { runs, sheets })
+    }
+
+    /// Whether the view is a flat one.
+    pub(super) fn are_flat(&self) -> bool {
+        self.sheets[0].flat.is_some()
+    }
+
+    /// Height of the top that is seen (m).
+    pub(super) fn top(&self) -> f64 {
+        self.sheets[0].stage.seen[1][2]
+    }
+
+    /// Shows nothing above that height (m).
+    pub(super) fn show_up_to(&mut self, top: f64) {
+        for sheet in &mut self.sheets {
+            sheet.stage = sheet.stage.up_to(top);
+        }
+    }
+
+    /// Leaves out the upper part of a tall tank, and says so.
+    pub(super) fn limit_height(&mut self, console: &Console) {
+        let top = self.top();
+        for sheet in &mut self.sheets {
+            sheet.stage = sheet.stage.no_taller(TALLEST);
+        }
+        let limit = self.top();
+        if limit < top {
+            console.note(format_args!(
+                "shows up to z = {limit:.3} m; spheres above are not drawn"
+            ));
+        }
+    }
+
+    /// The largest width of panels, not above `width`, with which a picture of `count` panels is at
+    /// most `most` pixels high.
+    pub(super) fn fitted(&self, count: usize, width: usize, most: usize) -> usize {
+        let lines = self.caption_lines();
+        let height = |width| self.sheets[0].height(count, lines, width);
+        let mut fitted = width;
+        while height(fitted) > most && fitted > 1 {
+            let shrunk = fitted * most / height(fitted);
+            fitted = shrunk.clamp(1, fitted - 1);
+        }
+        fitted
+    }
+
+    /// A panel of every state, drawn on all cores.
+    pub(super) fn panels(&self, width: usize) -> Result<Vec<Image>, Failure> {
+        let numbered = self.runs.iter().enumerate();
+        let panels: Vec<(usize, &Snapshot)> = numbered
+            .flat_map(|(run, it)| it.shown.iter().map(move |state| (run, *state)))
+            .collect();
+        on_all_cores(&panels, |&(run, state)| self.panel(run, state, width))
+    }
+
+    /// A picture of one state of the first run.
+    pub(super) fn picture_of(&self, state: &Snapshot, width: usize) -> Image {
+        self.picture(&[self.panel(0, state, width)])
+    }
+
+    fn panel(&self, run: usize, state: &Snapshot, width: usize) -> Image {
+        let caption = self.caption(self.runs[run].record, state);
+        self.sheets[run].panel(state, width, &caption)
+    }
+
+    /// Panels beside each other, with all the words.
+    pub(super) fn picture(&self, panels: &[Image]) -> Image {
+        self.sheets[0].picture(panels)
+    }
+
+    /// One run has its title above all panels, of several each panel says which it is of.
+    fn caption(&self, record: &RunRecord, state: &Snapshot) -> Vec<String> {
+        let time = words::caption(record, state);
+        if self.runs.len() == 1 {
+            return vec![time];
+        }
+        let title = record.scene.title.clone().unwrap_or_default();
+        vec![title, words::place(record), time]
+    }
+
+    fn caption_lines(&self) -> usize {
+        if self.runs.len() == 1 { 1 } else { 3 }
+    }
+}
+
+/// What `draw` makes of every item.
+pub(super) fn on_all_cores<T: Sync, U: Send + Sync>(
+    items: &[T],
+    draw: impl Fn(&T) -> U + Sync,
+) -> Result<Vec<U>, Failure> {
+    work::map(work::default_workers(), items, draw).map_err(Failure::failed)
+}
+
+/// The sheet of a run, without a title.
+fn sheet(run: &Run<'_>, color: ColorBy) -> Sheet {
+    let record = run.record;
+    let flat = Scenery::if_flat(&record.scene, &record.milestones);
+    let stage = Stage::of_scene(&record.scene).around(run.shown.iter().copied(), &record.radius);
+    Sheet {
+        title: Vec::new(),
+        radius: record.radius.clone(),
+        stage: match &flat {
+            Some(scenery) => scenery.on(stage),
+            None => stage,
+        },
+        color,
+        flat,
+    }
+}
+
+/// The box that holds two others.
+fn union(one: [[f64; 3]; 2], other: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
+    let of = |corner: usize, pick: fn(f64, f64) -> f64| {
+        std::array::from_fn(|axis| pick(one[corner][axis], other[corner][axis]))
+    };
+    [of(0, f64::min), of(1, f64::max)]
+}

@@ -1,0 +1,65 @@
+//! What is written around the panels, and into the metadata.
+
+use super::moment;
+use phase::observe::Snapshot;
+use phase::record::RunRecord;
+use phase::scene::Radii;
+
+/// A time as text, with as many digits as the frames ask for.
+fn seconds(record: &RunRecord, time: f64) -> String {
+    let interval = record.scene.time.frame_interval;
+    let tenfold = std::iter::successors(Some(interval), |scaled| Some(10.0 * scaled));
+    let digits = tenfold.take(6).position(|scaled| scaled >= 1.0 - 1e-9);
+    format!("{time:.*}", digits.unwrap_or(6))
+}
+
+/// The same without zeros at its end.
+pub(super) fn brief(record: &RunRecord, time: f64) -> String {
+    let text = seconds(record, time);
+    text.parse()
+        .map_or(text, |rounded: f64| rounded.to_string())
+}
+
+/// The caption of a state: its time, and what happened since the state before it.
+pub(super) fn caption(record: &RunRecord, state: &Snapshot) -> String {
+    let time = format!("t = {} s", seconds(record, state.time));
+    let news = moment::news(record, state).map(|kind| kind.name().to_owned());
+    let words: Vec<String> = std::iter::once(time).chain(news).collect();
+    words.join(", ")
+}
+
+/// What is known of the run's place in a sweep.
+pub(super) fn place(record: &RunRecord) -> String {
+    let scene = &record.scene;
+    let mut place = vec![format!("n = {}", record.radius.len())];
+    let millimetres = |radius: f64| rounded(1e3 * radius).to_string();
+    match &scene.spheres.radius {
+        Radii::One(radius) => place.push(format!("r = {} mm", millimetres(*radius))),
+        Radii::Shares(shares) => {
+            let radii: Vec<String> = shares.iter().map(|it| millimetres(it.radius)).collect();
+            place.push(format!("r = {} mm", radii.join(" and ")));
+        }
+        Radii::File { .. } | Radii::Each(_) => {}
+    }
+    if let Some(swirl) = &scene.swirl {
+        place.push(format!("Ω = {} rad/s", rounded(swirl.omega)));
+    }
+    place.push(format!("seed {}", scene.seed));
+    place.join(", ")
+}
+
+/// A number to four digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
+/// What the metadata of a picture says.
+pub(super) fn texts(record: &RunRecord) -> Vec<(&'static str, String)> {
+    vec![
+        ("Title", record.scene.title.clone().unwrap_or_default()),
+        ("Software", format!("phase {}", record.program.version)),
+        ("Commit", record.program.commit.clone()),
+        ("Run", record.scene.identity()),
+        ("Seed", record.scene.seed.to_string()),
+    ]
+}
