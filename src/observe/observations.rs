@@ -104,6 +104,7 @@ scalars! {
     released "1" "Number of spheres that came in";
     discharged "1" "Number of spheres that left";
     coordination "1" "Mean number of contacts of a sphere, not a number without spheres";
+    mass_inside "kg" "Mass of all spheres that are in";
 }
 }
 
