@@ -107,7 +107,7 @@ fn shipped_sweeps_have_the_grids_they_promise() {
     let of_silos = [
         ("silo", 9 * 6 * 3),
         ("silo-quick", 3 * 2),
-        ("beverloo", 8 * 2 * 5),
+        ("beverloo", 8 * 2 * 4),
         ("silo-fillings", 2 * 12),
     ];
     for (name, jobs) in of_silos {

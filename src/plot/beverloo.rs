@@ -62,12 +62,14 @@ impl Figure for Beverloo {
             panel.lines.push(curve(fitted, line, &axis, panel.x.1));
             panel.bars.extend(bars(source, line, axis.factor));
         }
-        let tops = panel.bars.iter().map(|bar| bar.ends()[1]);
-        panel.y = (0.0, 1.05 * tops.fold(0.0, f64::max));
+        let bars = panel.bars.iter().map(|bar| bar.ends()[1]);
+        let curves = panel.lines.iter().flat_map(|line| &line.points);
+        let tops = bars.chain(curves.map(|point| point.1));
+        panel.y = (0.0, 1.03 * tops.fold(0.0, f64::max));
         let legend = lines.iter().zip(&fitted);
         Chart {
             name: self.name(),
-            common: vec!["$W$ = $C$ √$g$ $n$ ($D$ − $k$ $d$)³ᐟ²".to_owned()],
+            common: vec!["$W$ = $C$ √$g$ $n$ ($D$ − $k$ $d$)³⁄²".to_owned()],
             columns: 1,
             height: px(400),
             panels: vec![panel],

@@ -258,7 +258,7 @@ impl Layout {
                     )
                 })
                 .collect(),
-            legend: (legend(&chart.legend), (left, 0)),
+            legend: (legend(&chart.legend, WIDTH - MARGIN - left), (left, 0)),
         };
         let mut bottom = layout.end().1 + TICKS_BELOW + px(6) + LABEL + px(4);
         let legend = layout.legend.0.size().1;
@@ -292,12 +292,12 @@ impl Layout {
     }
 }
 
-fn legend(names: &[(RGBColor, String)]) -> Legend {
+fn legend(names: &[(RGBColor, String)], room: i32) -> Legend {
     let entry = |(color, text): &(RGBColor, String)| Entry {
         key: Key::Line(*color),
         text: text.clone(),
     };
-    Legend::new(names.iter().map(entry).collect(), WIDTH - 2 * MARGIN)
+    Legend::new(names.iter().map(entry).collect(), room)
 }
 
 /// How far the first and the last tick label of a horizontal axis reach beyond its ends.

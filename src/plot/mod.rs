@@ -87,7 +87,6 @@ trait Figure: Sync {
 fn all() -> Vec<&'static dyn Figure> {
     let mut figures: Vec<&dyn Figure> = vec![
         &phase::PhaseDiagram,
-        &measures::MeasuresFigure,
         &states::States,
         &speeds::Speeds,
         &energies::ENERGIES,
@@ -95,6 +94,7 @@ fn all() -> Vec<&'static dyn Figure> {
         &critical_rotation::CriticalRotation,
         &net_force::NetForce,
         &beverloo::Beverloo,
+        &measures::MeasuresFigure,
     ];
     figures.extend(map::MAPS.iter().map(|map| map as &dyn Figure));
     figures
