@@ -13,6 +13,7 @@
 //! | the label of a record | [`classify`](mod@classify) |
 //! | many scenes at once, their labels, and figures of them | [`sweep`], [`plot`] |
 //! | records and tables as files | [`store`] |
+//! | laws that results are compared with | [`theory`], [`beverloo`] |
 //!
 //! SI units throughout, angles in radians, z up. The same scene gives the same bits on every machine.
 //!
@@ -67,6 +68,7 @@
 //!
 //! The folder `examples/` has more: a scene built in code, and a simulation watched step by step.
 
+pub mod beverloo;
 pub mod classify;
 mod color;
 pub mod cost;
@@ -83,6 +85,7 @@ pub mod render;
 pub mod replay;
 pub mod run;
 pub mod scene;
+pub mod statistics;
 pub mod store;
 pub mod sweep;
 pub mod theory;

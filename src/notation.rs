@@ -172,6 +172,9 @@ pub const OTHER_UNITS: &[(&str, &str)] = &[
     ("sieves.spout.radius", ""),
     ("sieves.spout.small", ""),
     ("sieves.spout.large", ""),
+    ("sieves.emptied.share", ""),
+    ("sieves.arching.window", "s"),
+    ("sieves.flowing.window", "s"),
 ];
 
 /// The unit of a number in a scene or sweep file, if it is known; empty for a pure number. That of

@@ -5,7 +5,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use ndarray::{Array2, Array3};
-use phase::classify::{Evidence, Label, OrderParameters, Sieves, Verdict};
+use phase::classify::{Family, Label, Measures, Sieves, TankMeasures, Verdict};
 use phase::observe::{Observations, Snapshot};
 use phase::plot::{self, PlotError, Source, Svg};
 use phase::record::{Outcome, Program, RunRecord};
@@ -67,9 +67,10 @@ impl Tank {
                         seed,
                         verdict: Verdict {
                             label: label(radius, omega, seed),
-                            settle_time: Some(2.0),
-                            evidence: Evidence::default(),
-                            order: OrderParameters::default(),
+                            measures: Measures::Tank(TankMeasures {
+                                settle_time: Some(2.0),
+                                ..TankMeasures::default()
+                            }),
                         },
                     });
                 }
@@ -77,6 +78,7 @@ impl Tank {
         }
         Self {
             table: LabelTable {
+                family: Family::Tank,
                 axes: axes.iter().map(|axis| axis.name.clone()).collect(),
                 rows,
             },

@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use phase::classify::{Evidence, Label, OrderParameters, Sieves, Verdict};
+use phase::classify::{Family, Label, Measures, OrderParameters, Sieves, TankMeasures, Verdict};
 use phase::plot::{self, PlotError, Source, Svg};
 use phase::record::Program;
 use phase::scene::Scene;
@@ -102,6 +102,7 @@ fn table(sweep: &Sweep, verdict: impl Fn(&[f64], u64) -> Option<Verdict>) -> Lab
         }
     }
     LabelTable {
+        family: Family::Tank,
         axes: sweep.axes.iter().map(|axis| axis.name.clone()).collect(),
         rows,
     }
@@ -110,9 +111,15 @@ fn table(sweep: &Sweep, verdict: impl Fn(&[f64], u64) -> Option<Verdict>) -> Lab
 fn verdict(label: Label) -> Verdict {
     Verdict {
         label,
-        settle_time: None,
-        evidence: Evidence::default(),
-        order: OrderParameters::default(),
+        measures: Measures::none(Family::Tank),
+    }
+}
+
+/// The measures of a row of a tank, to change them.
+fn measures(row: &mut LabelRow) -> &mut TankMeasures {
+    match &mut row.verdict.measures {
+        Measures::Tank(measures) => measures,
+        Measures::Silo(_) => panic!("a row of a silo"),
     }
 }
 
@@ -135,15 +142,19 @@ fn made_up(radius: f64, omega: f64, jitter: f64) -> Verdict {
     } else {
         Label::Settled
     };
+    let settle_time = 0.5 + 20.0 * radius * omega + jitter;
     Verdict {
-        settle_time: (label > Label::Unsettled).then_some(0.5 + 20.0 * radius * omega + jitter),
-        order: OrderParameters {
-            hole_radius: Some((ratio - 0.6).clamp(0.0, 0.9)),
-            paraboloid_rotation: Some(omega - 0.6 * critical),
-            rotation: (omega > 0.0).then_some(1.0 / (1.0 + 0.1 * ratio)),
-            ..OrderParameters::default()
-        },
-        ..verdict(label)
+        label,
+        measures: Measures::Tank(TankMeasures {
+            settle_time: (label > Label::Unsettled).then_some(settle_time),
+            order: OrderParameters {
+                hole_radius: Some((ratio - 0.6).clamp(0.0, 0.9)),
+                paraboloid_rotation: Some(omega - 0.6 * critical),
+                rotation: (omega > 0.0).then_some(1.0 / (1.0 + 0.1 * ratio)),
+                ..OrderParameters::default()
+            },
+            ..TankMeasures::default()
+        }),
     }
 }
 
@@ -344,7 +355,7 @@ fn maps_without_values_have_no_colour_bar() {
     let without = draw("no-values", "settle-time", &sweep, &table);
     assert!(has(&without, "settle time (s): no values"));
     assert!(!has(&without, "settle time (s)") && !has(&without, "no value"));
-    table.rows[0].verdict.settle_time = Some(2.0);
+    measures(&mut table.rows[0]).settle_time = Some(2.0);
     let with = draw("one-value", "settle-time", &sweep, &table);
     assert!(has(&with, "settle time (s)") && has(&with, "no value"));
 }
@@ -353,7 +364,7 @@ fn maps_without_values_have_no_colour_bar() {
 fn margins_have_zero_in_the_middle_even_if_all_are_negative() {
     let (sweep, mut table) = nine();
     for (index, row) in table.rows.iter_mut().enumerate() {
-        row.verdict.evidence.spout_margin = Some(-0.5 - 0.5 * (index % 2) as f64);
+        measures(row).evidence.spout_margin = Some(-0.5 - 0.5 * (index % 2) as f64);
     }
     let svg = draw("negative-margins", "spout-margin", &sweep, &table);
     for tick in ["−0.8", "0.0", "0.8"] {
@@ -378,7 +389,7 @@ fn the_full_diagram_with_gaps_and_its_maps() {
         (!missing).then(|| made_up(values[0], values[1], 0.0))
     });
     let svg = draw("full", "phase", &sweep, &table);
-    for label in Label::ALL {
+    for &label in Family::Tank.labels() {
         assert!(has(&svg, &label.name().replace('-', " ")));
     }
     assert!(has(&svg, "not run"));
@@ -554,11 +565,33 @@ fn every_figure_can_be_drawn_of_a_table_without_values() {
     for figure in figures {
         assert!(!figure.description.is_empty());
         if figure.default_runs.is_none()
-            && !["critical-rotation", "net-force"].contains(&figure.name)
+            && figure.applies_to(Family::Tank)
+            && !["critical-rotation", "net-force", "measures"].contains(&figure.name)
         {
             of_table(figure.name, &sweep, &table).unwrap();
         }
     }
+    // A panel per measure that a run has: of none there is nothing to draw.
+    let nothing = of_table("measures", &sweep, &table);
+    assert!(matches!(nothing, Err(PlotError::NoMeasures)));
+}
+
+#[test]
+fn measures_of_a_tank_have_a_line_for_up_to_four_values() {
+    let axes = vec![
+        axis(RADIUS, &linear(0.002, 0.006, 5)),
+        axis(OMEGA, &linear(0.0, 30.0, 7)),
+    ];
+    let sweep = sweep("Measures", axes, &[1, 2]);
+    let table = table(&sweep, |values, seed| {
+        Some(made_up(values[0], values[1], 0.01 * seed as f64))
+    });
+    let svg = draw("measures", "measures", &sweep, &table);
+    for text in ["settle time (s)", "Ω = 0 rad/s", "Ω = 30 rad/s"] {
+        assert!(has(&svg, text), "{text} not in {:?}", texts(&svg));
+    }
+    assert!(has(&svg, "4 of 7 lines are shown."));
+    assert!(!has(&svg, "margin of the spout sieve") && !has(&svg, "packing height / R"));
 }
 
 #[test]

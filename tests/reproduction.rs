@@ -213,11 +213,9 @@ fn the_border_of_the_hole() {
         for (omega, expected) in [(low - 1.0, false), (high, true)] {
             let share = |seed: u64| {
                 let record = run_of("theoretical", radius, omega, seed);
-                classify(&record, &sieves)
-                    .unwrap()
-                    .evidence
-                    .pinned_share
-                    .unwrap_or(0.0)
+                let verdict = classify(&record, &sieves).unwrap();
+                let evidence = &verdict.tank().unwrap().evidence;
+                evidence.pinned_share.unwrap_or(0.0)
             };
             let shares: Vec<f64> = (1..=9_u64).into_par_iter().map(share).collect();
             println!("r = {radius} m, Omega = {omega}: hole in {shares:.2?} of a window");
@@ -244,7 +242,7 @@ fn settle_times() {
         let times = rows
             .into_iter()
             .flatten()
-            .map(|row| row.verdict.settle_time);
+            .map(|row| row.verdict.tank().unwrap().settle_time);
         let times: Vec<f64> = times.map(|time| time.unwrap_or(f64::INFINITY)).collect();
         assert_eq!(times.len(), 4 * 3);
         median(times)

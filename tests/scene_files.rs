@@ -104,10 +104,22 @@ fn shipped_sweeps_have_the_grids_they_promise() {
     let names: Vec<&str> = sweep.axes.iter().map(|axis| axis.name.as_str()).collect();
     assert_eq!(names, ["radius", "omega", "density", "coefficient"]);
     assert_eq!(sweep.jobs().unwrap().len(), 180);
+    let of_silos = [
+        ("silo", 9 * 6 * 3),
+        ("silo-quick", 3 * 2),
+        ("beverloo", 8 * 2 * 4),
+        ("silo-fillings", 2 * 12),
+    ];
+    for (name, jobs) in of_silos {
+        let sweep = load_sweep(format!("sweeps/{name}.toml"));
+        assert_eq!(sweep.jobs().unwrap().len(), jobs, "{name}");
+    }
     for path in files("sweeps") {
         let name = path.file_stem().unwrap().to_str().unwrap();
         assert!(
-            name == "density-friction" || grids.iter().any(|grid| grid.0 == name),
+            name == "density-friction"
+                || of_silos.iter().any(|silo| silo.0 == name)
+                || grids.iter().any(|grid| grid.0 == name),
             "{name} is not in this test"
         );
     }
@@ -128,6 +140,19 @@ fn every_job_of_the_sweeps_off_the_main_road_is_stable() {
             let limit = phase::dem::timestep::largest_stable(&job.scene).unwrap();
             assert!(job.scene.time.dt < 0.8 * limit.seconds, "{name}: {limit:?}");
         }
+    }
+}
+
+#[test]
+fn the_two_fillings_are_dealt_exactly() {
+    let sweep = load_sweep("sweeps/silo-fillings.toml");
+    for job in sweep.jobs().unwrap() {
+        let grains = phase::dem::start::place(&job.scene).unwrap();
+        let small = grains.radius.iter().filter(|radius| **radius == 0.03);
+        assert_eq!(small.count(), if job.values[0] == 0.0 { 0 } else { 500 });
+        assert_eq!(grains.radius.len(), 1000);
+        // A radius that does not occur sets no limit.
+        assert_eq!(job.scene.radius_range().0 == 0.04, job.values[0] == 0.0);
     }
 }
 

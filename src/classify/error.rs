@@ -24,6 +24,12 @@ pub enum ClassifyError {
         /// The key that would supply it.
         key: &'static str,
     },
+    /// The sieves of a silo count the grains that leave it, and none can.
+    #[error(
+        "the sieves of a silo count the grains that leave it, and this scene has no outlet: give it \
+         `outlet.height`, or do not classify its runs"
+    )]
+    NoOutlet,
     /// The run did not count the rising spheres that the spout sieve asks for.
     #[error(
         "`sieves.spout.{key}` is {value}, but the run counted rising spheres for {counted:?} only: \

@@ -110,12 +110,12 @@ mod tests {
     fn nine_tenths_of_a_window_make_a_fluid() {
         let fluid = judge(&quiet(FRAMES).with_fluid(1000..2350));
         assert_eq!(fluid.label, Label::Fluid);
-        assert_eq!(fluid.evidence.fluid_margin, Some(0.0));
+        assert_eq!(fluid.of_tank().evidence.fluid_margin, Some(0.0));
 
         let almost = judge(&quiet(FRAMES).with_fluid(1000..2349));
         assert_eq!(almost.label, Label::Settled);
-        assert_eq!(almost.evidence.fluid_share, Some(1349.0 / 1500.0));
-        assert!(almost.evidence.fluid_margin.unwrap() < 0.0);
+        assert_eq!(almost.of_tank().evidence.fluid_share, Some(1349.0 / 1500.0));
+        assert!(almost.of_tank().evidence.fluid_margin.unwrap() < 0.0);
     }
 
     #[test]
@@ -139,9 +139,21 @@ mod tests {
     #[test]
     fn a_run_too_short_for_a_yes_has_no_evidence() {
         let frames = START + 1350;
-        assert!(judge(&quiet(frames)).evidence.fluid_share.is_some());
-        assert_eq!(judge(&quiet(frames - 1)).evidence.fluid_share, None);
-        assert_eq!(judge(&quiet(frames - 1)).evidence.fluid_margin, None);
+        assert!(
+            judge(&quiet(frames))
+                .of_tank()
+                .evidence
+                .fluid_share
+                .is_some()
+        );
+        assert_eq!(
+            judge(&quiet(frames - 1)).of_tank().evidence.fluid_share,
+            None
+        );
+        assert_eq!(
+            judge(&quiet(frames - 1)).of_tank().evidence.fluid_margin,
+            None
+        );
     }
 
     #[test]
@@ -169,16 +181,31 @@ mod tests {
     fn an_empty_bin_is_lowest_and_two_empty_neighbours_fail() {
         let empty = f32::NAN;
         let hole = [empty, 0.001, 0.002, 0.003, 0.004, 0.005, 0.006, 0.007];
-        assert_eq!(judge(&surface(hole)).evidence.fluid_share, Some(1.0));
+        assert_eq!(
+            judge(&surface(hole)).of_tank().evidence.fluid_share,
+            Some(1.0)
+        );
         // Below the bin inside it, above that outside: one failure.
         let gap = [0.0, 0.001, 0.002, empty, 0.004, 0.005, 0.006, 0.007];
-        assert_eq!(judge(&surface(gap)).evidence.fluid_share, Some(1.0));
+        assert_eq!(
+            judge(&surface(gap)).of_tank().evidence.fluid_share,
+            Some(1.0)
+        );
         let wide_gap = [0.0, 0.001, empty, empty, 0.004, 0.005, 0.006, 0.007];
-        assert_eq!(judge(&surface(wide_gap)).evidence.fluid_share, Some(0.0));
+        assert_eq!(
+            judge(&surface(wide_gap)).of_tank().evidence.fluid_share,
+            Some(0.0)
+        );
         let wide_hole = [empty, empty, 0.002, 0.003, 0.004, 0.005, 0.006, 0.007];
-        assert_eq!(judge(&surface(wide_hole)).evidence.fluid_share, Some(1.0));
+        assert_eq!(
+            judge(&surface(wide_hole)).of_tank().evidence.fluid_share,
+            Some(1.0)
+        );
         let wider_hole = [empty, empty, empty, 0.003, 0.004, 0.005, 0.006, 0.007];
-        assert_eq!(judge(&surface(wider_hole)).evidence.fluid_share, Some(0.0));
+        assert_eq!(
+            judge(&surface(wider_hole)).of_tank().evidence.fluid_share,
+            Some(0.0)
+        );
     }
 
     #[test]
@@ -187,6 +214,6 @@ mod tests {
         record.observations.profile = ndarray::Array2::zeros((FRAMES, 2));
         let verdict = judge(&record);
         assert_eq!(verdict.label, Label::Settled);
-        assert_eq!(verdict.evidence.fluid_share, None);
+        assert_eq!(verdict.of_tank().evidence.fluid_share, None);
     }
 }

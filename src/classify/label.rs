@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 pub enum Label {
     /// A numerical guard ended the run.
     Unstable,
-    /// No steady state was reached.
+    /// No steady state was reached; of a silo: its door did not open, or so late that nothing can be
+    /// said.
     Unsettled,
     /// Steady, and none of the states below.
     Settled,
@@ -20,11 +21,17 @@ pub enum Label {
     SmallSpout,
     /// Many spheres rise in the middle.
     LargeSpout,
+    /// The grains of a silo have stopped to leave it, and most are still in.
+    Arching,
+    /// Grains are leaving a silo when the run ends.
+    Flowing,
+    /// (Nearly) all grains have left a silo.
+    Emptied,
 }
 
 impl Label {
     /// All labels, in the order of their codes.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 10] = [
         Self::Unstable,
         Self::Unsettled,
         Self::Settled,
@@ -32,9 +39,13 @@ impl Label {
         Self::Pinned,
         Self::SmallSpout,
         Self::LargeSpout,
+        Self::Arching,
+        Self::Flowing,
+        Self::Emptied,
     ];
 
-    /// The thesis's number of the state: 0 unsettled to 5 large spout; -1 unstable.
+    /// Number of the state: that of the thesis for a tank, 0 unsettled to 5 large spout; 6 to 8 for
+    /// those of a silo; -1 unstable.
     pub fn code(self) -> i8 {
         self as i8 - 1
     }
@@ -49,6 +60,9 @@ impl Label {
             Self::Pinned => "pinned",
             Self::SmallSpout => "small-spout",
             Self::LargeSpout => "large-spout",
+            Self::Arching => "arching",
+            Self::Flowing => "flowing",
+            Self::Emptied => "emptied",
         }
     }
 

@@ -1,254 +1,216 @@
 //! The sieves: from the observables of a run to its label.
 //!
-//! Rice (2012), section 3. A run first has to settle; each further sieve then looks for its state
-//! in what follows, and [`classify`] lets the first of them in a fixed order decide. Every sieve
-//! is one file, its windows are durations, and it reads records, never simulations.
+//! Each of the two [families](Family) of scenes has sieves of its own. Of a tank (Rice, 2012, section
+//! 3) a run first has to settle; each further sieve then looks for its state in what follows, and
+//! [`classify`] lets the first of them in a fixed order decide. Of a silo the sieves look at what
+//! leaves it once its door is open. Every sieve is one file, its windows are durations, and it reads
+//! records, never simulations.
 
 mod error;
+mod family;
 mod fluid;
 mod label;
 mod order_parameters;
 mod pinned;
 mod run;
 mod settle;
+mod silo;
 mod spout;
 #[cfg(test)]
 mod synthetic;
+mod tank;
 mod window;
 
 pub use error::ClassifyError;
+pub use family::Family;
 pub use fluid::FluidSieve;
 pub use label::Label;
 pub use order_parameters::OrderParameters;
 pub use pinned::PinnedSieve;
 pub use settle::SettleSieve;
+pub use silo::{
+    ArchingSieve, EmptiedSieve, FlowingSieve, SiloEvidence, SiloMeasures, SiloOrder,
+    packing_fraction,
+};
 pub use spout::SpoutSieve;
+pub use tank::{Evidence, TankMeasures};
 
 use crate::record::{Outcome, RunRecord};
 use crate::scene::Scene;
-use run::Run;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use spout::Spout;
 
-/// Thresholds of all sieves; every default is that of the thesis's listing.
+/// Thresholds of all sieves; every default of a tank's is that of the thesis's listing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sieves {
-    /// When a run counts as steady.
+    /// Tank: when a run counts as steady.
     pub settle: SettleSieve,
-    /// When a surface counts as a fluid's.
+    /// Tank: when a surface counts as a fluid's.
     pub fluid: FluidSieve,
-    /// When a hole counts as pinned.
+    /// Tank: when a hole counts as pinned.
     pub pinned: PinnedSieve,
-    /// When rising spheres count as a spout.
+    /// Tank: when rising spheres count as a spout.
     pub spout: SpoutSieve,
+    /// Silo: when it counts as empty.
+    pub emptied: EmptiedSieve,
+    /// Silo: when an arch has stopped the outflow.
+    pub arching: ArchingSieve,
+    /// Silo: when grains are still leaving.
+    pub flowing: FlowingSieve,
 }
 
 impl Sieves {
-    /// Whether these sieves can judge runs of this scene, which needs no run to tell.
+    /// Whether these sieves can judge runs of this scene, which needs no run to tell. Those of the
+    /// other family do not matter.
     ///
     /// # Errors
-    /// A threshold is out of range, the scene has no energy scale m g R, or it does not count the
-    /// rising spheres that the spout sieve asks for.
+    /// A threshold is out of range; a tank has no energy scale m g R, or does not count the rising
+    /// spheres that the spout sieve asks for; a silo has no outlet.
     pub fn check(&self, scene: &Scene) -> Result<(), ClassifyError> {
         let interval = scene.time.frame_interval;
-        self.settle.check(interval)?;
-        self.fluid.check(interval)?;
-        self.pinned.check(interval)?;
-        self.spout.check(interval)?;
-        self.spout.column(&scene.output)?;
-        run::energy_scale(scene).map(|_| ())
+        match Family::of(scene) {
+            Family::Tank => {
+                self.settle.check(interval)?;
+                self.fluid.check(interval)?;
+                self.pinned.check(interval)?;
+                self.spout.check(interval)?;
+                self.spout.column(&scene.output)?;
+                run::energy_scale(scene).map(|_| ())
+            }
+            Family::Silo => {
+                self.emptied.check()?;
+                self.arching.check(interval)?;
+                self.flowing.check(interval)?;
+                let outlet = scene.outlet.as_ref();
+                outlet.map(|_| ()).ok_or(ClassifyError::NoOutlet)
+            }
+        }
+    }
+
+    /// Names of the sieves of a family, as in `[sieves.NAME]`.
+    pub(crate) fn names(family: Family) -> &'static [&'static str] {
+        match family {
+            Family::Tank => &["settle", "fluid", "pinned", "spout"],
+            Family::Silo => &["emptied", "arching", "flowing"],
+        }
     }
 }
 
 /// What the sieves say of one run.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
     /// The label.
     pub label: Label,
-    /// Time from which the run counts as steady (s): the middle of the first steady window.
-    pub settle_time: Option<f64>,
-    /// How clearly each sieve decided.
-    pub evidence: Evidence,
-    /// Continuous measures besides the label, averaged over the steady part (over the last
-    /// quarter of a run that did not settle).
-    pub order: OrderParameters,
+    /// What was measured besides.
+    pub measures: Measures,
 }
 
-/// How clearly each sieve decided, whichever of them gave the label.
-///
-/// A sieve says yes exactly when its margin is zero or more. Fields are empty where a sieve could
-/// not act: on a run that did not settle, or too late in it for a yes.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Evidence {
-    /// Least mean energy change of any window in which all spheres are low enough, over the
-    /// tolerance; yes up to 1. Empty if there is no such window.
-    pub settle_change: Option<f64>,
-    /// Largest share of passing frames of any fluid window; frames outside the steady part count
-    /// as failing.
-    pub fluid_share: Option<f64>,
-    /// That share less the threshold.
-    pub fluid_margin: Option<f64>,
-    /// Largest share of frames with a hole of any pinned window; frames outside the steady part
-    /// count as having none.
-    pub pinned_share: Option<f64>,
-    /// That share less the threshold.
-    pub pinned_margin: Option<f64>,
-    /// Largest share of frames that qualify as a spout of any spout window.
-    pub spout_share: Option<f64>,
-    /// Longest time without a frame that does not qualify as a spout, over the window, less 1.
-    pub spout_margin: Option<f64>,
-    /// Largest number of rising spheres in the window that decided for a spout, over all
-    /// spheres: a small spout below the threshold `small`. Empty without a spout.
-    pub spout_peak: Option<f64>,
+/// What is measured of a run besides its label, by its family. Nothing is measured on an unstable
+/// run, whose numbers mean nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Measures {
+    /// Of a tank.
+    Tank(TankMeasures),
+    /// Of a silo.
+    Silo(SiloMeasures),
+}
+
+impl Measures {
+    /// No measures of a family.
+    pub fn none(family: Family) -> Self {
+        match family {
+            Family::Tank => Self::Tank(TankMeasures::default()),
+            Family::Silo => Self::Silo(SiloMeasures::default()),
+        }
+    }
+
+    /// The family whose measures these are.
+    pub fn family(&self) -> Family {
+        match self {
+            Self::Tank(_) => Family::Tank,
+            Self::Silo(_) => Family::Silo,
+        }
+    }
+}
+
+impl Verdict {
+    /// The measures of a tank; none of a silo.
+    pub fn tank(&self) -> Option<&TankMeasures> {
+        match &self.measures {
+            Measures::Tank(measures) => Some(measures),
+            Measures::Silo(_) => None,
+        }
+    }
+
+    /// The measures of a silo; none of a tank.
+    pub fn silo(&self) -> Option<&SiloMeasures> {
+        match &self.measures {
+            Measures::Silo(measures) => Some(measures),
+            Measures::Tank(_) => None,
+        }
+    }
 }
 
 /// Labels one run.
 ///
-/// The first of these that applies is the label: unstable, large spout, small spout, pinned,
-/// fluid, settled, unsettled. Nothing is measured on an unstable run, whose numbers mean nothing.
+/// The first of these that applies is the label, of a tank: unstable, large spout, small spout,
+/// pinned, fluid, settled, unsettled; of a silo: unstable, emptied, arching, flowing, unsettled.
 ///
 /// # Errors
 /// The sieves cannot judge runs of this scene (see [`Sieves::check`]), or the record contradicts
 /// itself.
 pub fn classify(record: &RunRecord, sieves: &Sieves) -> Result<Verdict, ClassifyError> {
     sieves.check(&record.scene)?;
+    let family = Family::of(&record.scene);
     if let Outcome::Unstable(_) = record.outcome {
         return Ok(Verdict {
             label: Label::Unstable,
-            settle_time: None,
-            evidence: Evidence::default(),
-            order: OrderParameters::default(),
+            measures: Measures::none(family),
         });
     }
-    let run = Run::new(record, sieves.spout.column(&record.scene.output)?)?;
-    let settling = sieves.settle.sift(&run);
-    let mut evidence = Evidence {
-        settle_change: settling.least_change,
-        ..Evidence::default()
+    let (label, measures) = match family {
+        Family::Tank => {
+            let (label, measures) = tank::judge(record, sieves)?;
+            (label, Measures::Tank(measures))
+        }
+        Family::Silo => {
+            let (label, measures) = silo::judge(record, sieves)?;
+            (label, Measures::Silo(measures))
+        }
     };
-    let Some(start) = settling.start else {
-        let last_quarter = run.frames() * 3 / 4;
-        return Ok(Verdict {
-            label: Label::Unsettled,
-            settle_time: None,
-            evidence,
-            order: OrderParameters::measure(&run, last_quarter),
-        });
-    };
-    let fluid = sieves.fluid.sift(&run, start);
-    let pinned = sieves.pinned.sift(&run, start);
-    let spout = sieves.spout.sift(&run, start);
-    evidence.fluid_share = fluid;
-    evidence.fluid_margin = fluid.map(|share| share - sieves.fluid.share);
-    evidence.pinned_share = pinned;
-    evidence.pinned_margin = pinned.map(|share| share - sieves.pinned.share);
-    evidence.spout_share = spout.share;
-    evidence.spout_margin = spout.longest.map(|windows| windows - 1.0);
-    evidence.spout_peak = spout.peak;
-
-    let yes = |margin: Option<f64>| margin.is_some_and(|margin| margin >= 0.0);
-    let label = match spout.kind {
-        Some(Spout::Large) => Label::LargeSpout,
-        Some(Spout::Small) => Label::SmallSpout,
-        None if yes(evidence.pinned_margin) => Label::Pinned,
-        None if yes(evidence.fluid_margin) => Label::Fluid,
-        None => Label::Settled,
-    };
-    Ok(Verdict {
-        label,
-        settle_time: Some(run.time(start)),
-        evidence,
-        order: OrderParameters::measure(&run, start),
-    })
+    Ok(Verdict { label, measures })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::synthetic::quiet;
     use super::*;
 
-    const FRAMES: usize = 5000;
-
-    fn label(record: &RunRecord) -> Label {
-        classify(record, &Sieves::default()).unwrap().label
+    #[test]
+    fn every_label_is_of_a_family_and_in_the_order_of_codes() {
+        for label in Label::ALL {
+            let of = |family: Family| family.labels().contains(&label);
+            assert!(of(Family::Tank) || of(Family::Silo), "{label:?}");
+        }
+        for family in [Family::Tank, Family::Silo] {
+            assert!(family.labels().is_sorted());
+        }
+        let codes = Label::ALL.map(Label::code);
+        assert_eq!(codes, [-1, 0, 1, 2, 3, 4, 5, 6, 7, 8]);
     }
 
     #[test]
-    fn sieves_decide_in_their_order() {
-        let run = quiet(FRAMES);
-        assert_eq!(label(&run), Label::Settled);
-        let run = run.with_fluid(0..FRAMES);
-        assert_eq!(label(&run), Label::Fluid);
-        let run = run.with_hole(0.02, 0..FRAMES);
-        assert_eq!(label(&run), Label::Pinned);
-        let run = run.with_rising(10, 0..FRAMES);
-        assert_eq!(label(&run), Label::SmallSpout);
-        let run = run.with_rising(40, 0..FRAMES);
-        assert_eq!(label(&run), Label::LargeSpout);
-        let mut unsettled = run.clone();
-        unsettled.observations.height_max.fill(1.0);
-        assert_eq!(label(&unsettled), Label::Unsettled);
-        assert_eq!(label(&run.unstable()), Label::Unstable);
-    }
-
-    #[test]
-    fn all_sieves_give_evidence_whichever_decides() {
-        let run = quiet(FRAMES)
-            .with_fluid(0..FRAMES)
-            .with_hole(0.02, 0..FRAMES)
-            .with_rising(10, 0..FRAMES);
-        let evidence = classify(&run, &Sieves::default()).unwrap().evidence;
-        assert_eq!(evidence.fluid_margin, Some(1.0 - 0.9));
-        assert_eq!(evidence.pinned_margin, Some(0.5));
-        assert_eq!(evidence.spout_margin, Some(4748.0 / 2000.0 - 1.0));
-    }
-
-    #[test]
-    fn an_unsettled_run_has_no_evidence_of_a_state() {
-        let mut run = quiet(FRAMES).with_fluid(0..FRAMES);
-        run.observations.height_max.fill(1.0);
-        let verdict = classify(&run, &Sieves::default()).unwrap();
-        assert_eq!(verdict.settle_time, None);
-        assert_eq!(verdict.evidence, Evidence::default());
-    }
-
-    #[test]
-    fn nothing_is_measured_on_an_unstable_run() {
-        let verdict = classify(&quiet(FRAMES).unstable(), &Sieves::default()).unwrap();
-        assert_eq!(verdict.evidence, Evidence::default());
-        assert_eq!(verdict.order, OrderParameters::default());
-        assert_eq!(verdict.settle_time, None);
-    }
-
-    #[test]
-    fn windows_are_durations() {
-        // With frames of 5 ms, nine tenths of the fluid window of 1.5 s are 270 frames.
-        let mut run = quiet(1000).with_fluid(500..770);
-        run.scene.time.frame_interval = 5e-3;
-        assert_eq!(label(&run), Label::Fluid);
-        let mut run = quiet(1000).with_fluid(500..769);
-        run.scene.time.frame_interval = 5e-3;
-        assert_eq!(label(&run), Label::Settled);
-    }
-
-    #[test]
-    fn a_record_that_contradicts_itself_is_an_error() {
-        let mut run = quiet(FRAMES);
-        run.observations.rotation.pop();
-        let error = classify(&run, &Sieves::default()).unwrap_err();
-        assert!(
-            error.to_string().contains("`rotation` holds 4999 of 5000"),
-            "{error}"
-        );
-
-        let mut run = quiet(FRAMES);
-        run.scene.output.rise_radii.push(0.9);
-        assert!(classify(&run, &Sieves::default()).is_err());
-
-        let mut run = quiet(FRAMES);
-        run.mass.clear();
-        assert!(classify(&run, &Sieves::default()).is_err());
+    fn every_sieve_is_of_one_family() {
+        let all = serde_json::to_value(Sieves::default()).unwrap();
+        let mut names: Vec<&str> = all
+            .as_object()
+            .unwrap()
+            .keys()
+            .map(String::as_str)
+            .collect();
+        let mut known = [Sieves::names(Family::Tank), Sieves::names(Family::Silo)].concat();
+        names.sort_unstable();
+        known.sort_unstable();
+        assert_eq!(names, known);
     }
 }

@@ -130,7 +130,11 @@ mod tests {
     use crate::record::RunRecord;
 
     fn measure(record: &RunRecord) -> OrderParameters {
-        classify(record, &Sieves::default()).unwrap().order
+        classify(record, &Sieves::default())
+            .unwrap()
+            .of_tank()
+            .order
+            .clone()
     }
 
     fn close(measured: Option<f64>, expected: f64) -> bool {
@@ -223,7 +227,7 @@ mod tests {
         record.observations.hole_radius[750..].fill(0.06);
         let verdict = classify(&record, &Sieves::default()).unwrap();
         assert_eq!(verdict.label, Label::Unsettled);
-        assert!(close(verdict.order.hole_radius, 1.0));
+        assert!(close(verdict.of_tank().order.hole_radius, 1.0));
     }
 
     #[test]

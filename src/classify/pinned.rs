@@ -74,11 +74,11 @@ mod tests {
     fn half_of_a_window_pins() {
         let pinned = judge(&quiet(FRAMES).with_hole(WIDE, 500..1500));
         assert_eq!(pinned.label, Label::Pinned);
-        assert_eq!(pinned.evidence.pinned_margin, Some(0.0));
+        assert_eq!(pinned.of_tank().evidence.pinned_margin, Some(0.0));
 
         let almost = judge(&quiet(FRAMES).with_hole(WIDE, 500..1499));
         assert_eq!(almost.label, Label::Settled);
-        assert_eq!(almost.evidence.pinned_share, Some(0.4995));
+        assert_eq!(almost.of_tank().evidence.pinned_share, Some(0.4995));
     }
 
     #[test]
@@ -113,7 +113,16 @@ mod tests {
     #[test]
     fn a_run_too_short_for_a_yes_has_no_evidence() {
         let frames = START + 1000;
-        assert!(judge(&quiet(frames)).evidence.pinned_share.is_some());
-        assert_eq!(judge(&quiet(frames - 1)).evidence.pinned_share, None);
+        assert!(
+            judge(&quiet(frames))
+                .of_tank()
+                .evidence
+                .pinned_share
+                .is_some()
+        );
+        assert_eq!(
+            judge(&quiet(frames - 1)).of_tank().evidence.pinned_share,
+            None
+        );
     }
 }

@@ -76,6 +76,24 @@ pub(super) fn energy_scale(scene: &Scene) -> Result<(f64, f64), ClassifyError> {
 /// Whether all observables have one entry per frame, and rising spheres one per distance and
 /// speed of the scene.
 fn check_shapes(record: &RunRecord) -> Result<(), ClassifyError> {
+    check_lengths(record)?;
+    let output = &record.scene.output;
+    let expected = (
+        record.observations.frames(),
+        output.rise_radii.len(),
+        output.rise_speeds.len(),
+    );
+    let found = record.observations.rising.dim();
+    if found != expected {
+        return Err(ClassifyError::Inconsistent(format!(
+            "`rising` has the shape {found:?} instead of {expected:?}"
+        )));
+    }
+    Ok(())
+}
+
+/// Whether all spheres have radius and mass, and all observables one entry per frame.
+pub(super) fn check_lengths(record: &RunRecord) -> Result<(), ClassifyError> {
     let inconsistent = |message: String| Err(ClassifyError::Inconsistent(message));
     let observations = &record.observations;
     let frames = observations.frames();
@@ -91,14 +109,6 @@ fn check_shapes(record: &RunRecord) -> Result<(), ClassifyError> {
         if length != frames {
             return inconsistent(format!("`{name}` holds {length} of {frames} frames"));
         }
-    }
-    let output = &record.scene.output;
-    let expected = (frames, output.rise_radii.len(), output.rise_speeds.len());
-    let found = observations.rising.dim();
-    if found != expected {
-        return inconsistent(format!(
-            "`rising` has the shape {found:?} instead of {expected:?}"
-        ));
     }
     Ok(())
 }

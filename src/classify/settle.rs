@@ -132,8 +132,8 @@ mod tests {
     fn a_run_settles_in_the_middle_of_its_first_steady_window() {
         let verdict = judge(&quiet(1000));
         assert_eq!(verdict.label, Label::Settled);
-        assert_eq!(verdict.settle_time, Some(START as f64 * 1e-3));
-        assert_eq!(verdict.evidence.settle_change, Some(0.0));
+        assert_eq!(verdict.of_tank().settle_time, Some(START as f64 * 1e-3));
+        assert_eq!(verdict.of_tank().evidence.settle_change, Some(0.0));
     }
 
     #[test]
@@ -142,7 +142,7 @@ mod tests {
         assert_eq!(judge(&quiet(501)).label, Label::Settled);
         let short = judge(&quiet(500));
         assert_eq!(short.label, Label::Unsettled);
-        assert_eq!(short.evidence.settle_change, None);
+        assert_eq!(short.of_tank().evidence.settle_change, None);
         assert_eq!(judge(&quiet(0)).label, Label::Unsettled);
     }
 
@@ -151,7 +151,7 @@ mod tests {
         for (jump, label) in [(0.99e-3, Label::Settled), (1.01e-3, Label::Unsettled)] {
             let verdict = judge(&restless(jump));
             assert_eq!(verdict.label, label);
-            let change = verdict.evidence.settle_change.unwrap();
+            let change = verdict.of_tank().evidence.settle_change.unwrap();
             assert!((change - jump / 1e-3).abs() < 1e-5, "{change}");
         }
     }
@@ -171,7 +171,7 @@ mod tests {
     fn changes_are_per_millisecond_whatever_the_frames() {
         let mut record = restless(4e-3);
         record.scene.time.frame_interval = 5e-3;
-        let change = judge(&record).evidence.settle_change.unwrap();
+        let change = judge(&record).of_tank().evidence.settle_change.unwrap();
         assert!((change - 0.8).abs() < 1e-5, "{change}");
     }
 
@@ -181,20 +181,23 @@ mod tests {
         // after the frame it leads into.
         let mut record = quiet(2000);
         record.observations.gravitational[300..].fill((256.0 * ENERGY_UNIT * 0.6) as f32);
-        assert_eq!(judge(&record).settle_time, Some(551.0 * 1e-3));
+        assert_eq!(judge(&record).of_tank().settle_time, Some(551.0 * 1e-3));
     }
 
     #[test]
     fn a_sphere_may_be_at_the_height_but_not_above() {
         let mut record = quiet(2000);
         record.observations.height_max.fill(0.2);
-        assert_eq!(judge(&record).settle_time, Some(START as f64 * 1e-3));
+        assert_eq!(
+            judge(&record).of_tank().settle_time,
+            Some(START as f64 * 1e-3)
+        );
         record.observations.height_max[400] = 0.200_001;
-        assert_eq!(judge(&record).settle_time, Some(651.0 * 1e-3));
+        assert_eq!(judge(&record).of_tank().settle_time, Some(651.0 * 1e-3));
         record.observations.height_max.fill(0.3);
         let high = judge(&record);
         assert_eq!(high.label, Label::Unsettled);
-        assert_eq!(high.evidence.settle_change, None);
+        assert_eq!(high.of_tank().evidence.settle_change, None);
     }
 
     #[test]

@@ -160,15 +160,15 @@ mod tests {
     fn every_frame_of_a_window_must_qualify() {
         let spout = judge(&quiet(FRAMES).with_rising(5, 500..2500));
         assert_eq!(spout.label, Label::SmallSpout);
-        assert_eq!(spout.evidence.spout_share, Some(1.0));
-        assert_eq!(spout.evidence.spout_margin, Some(0.0));
-        assert_eq!(spout.evidence.spout_peak, Some(5.0 / 256.0));
+        assert_eq!(spout.of_tank().evidence.spout_share, Some(1.0));
+        assert_eq!(spout.of_tank().evidence.spout_margin, Some(0.0));
+        assert_eq!(spout.of_tank().evidence.spout_peak, Some(5.0 / 256.0));
 
         let short = judge(&quiet(FRAMES).with_rising(5, 500..2499));
         assert_eq!(short.label, Label::Settled);
-        assert_eq!(short.evidence.spout_share, Some(0.9995));
-        assert!(short.evidence.spout_margin.unwrap() < 0.0);
-        assert_eq!(short.evidence.spout_peak, None);
+        assert_eq!(short.of_tank().evidence.spout_share, Some(0.9995));
+        assert!(short.of_tank().evidence.spout_margin.unwrap() < 0.0);
+        assert_eq!(short.of_tank().evidence.spout_peak, None);
 
         let gap = judge(
             &quiet(FRAMES)
@@ -176,8 +176,11 @@ mod tests {
                 .with_rising(4, 2000..2001),
         );
         assert_eq!(gap.label, Label::Settled);
-        assert_eq!(gap.evidence.spout_share, Some(0.9995));
-        assert_eq!(gap.evidence.spout_margin, Some(1999.0 / 2000.0 - 1.0));
+        assert_eq!(gap.of_tank().evidence.spout_share, Some(0.9995));
+        assert_eq!(
+            gap.of_tank().evidence.spout_margin,
+            Some(1999.0 / 2000.0 - 1.0)
+        );
     }
 
     #[test]
@@ -202,7 +205,7 @@ mod tests {
             .with_rising(10, 0..FRAMES)
             .with_rising(32, 1000..1001);
         assert_eq!(judge(&record).label, Label::LargeSpout);
-        assert_eq!(judge(&record).evidence.spout_peak, Some(0.125));
+        assert_eq!(judge(&record).of_tank().evidence.spout_peak, Some(0.125));
     }
 
     #[test]
@@ -228,8 +231,8 @@ mod tests {
         assert_eq!(judge(&enough).label, Label::SmallSpout);
         let short = judge(&quiet(frames - 1).with_rising(10, 0..frames - 1));
         assert_eq!(short.label, Label::Settled);
-        assert_eq!(short.evidence.spout_share, None);
-        assert_eq!(short.evidence.spout_margin, None);
+        assert_eq!(short.of_tank().evidence.spout_share, None);
+        assert_eq!(short.of_tank().evidence.spout_margin, None);
     }
 
     #[test]

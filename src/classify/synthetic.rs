@@ -1,5 +1,6 @@
 //! Made-up records to try the sieves on.
 
+use super::{TankMeasures, Verdict};
 use crate::observe::Observations;
 use crate::record::{Guard, Instability, Outcome, Program, RunRecord};
 use ndarray::{Array2, Array3};
@@ -45,6 +46,13 @@ pub(super) fn quiet(frames: usize) -> RunRecord {
         snapshots: Vec::new(),
         trajectory: Vec::new(),
         cpu_seconds: 0.0,
+    }
+}
+
+impl Verdict {
+    /// The measures of what must be a tank.
+    pub(super) fn of_tank(&self) -> &TankMeasures {
+        self.tank().unwrap()
     }
 }
 

@@ -156,7 +156,7 @@ pub(super) struct Summary {
     folder: PathBuf,
     /// Runs that have a label.
     labelled: usize,
-    /// Runs by label; all labels are there.
+    /// Runs by label; all labels of the family are there.
     labels: BTreeMap<&'static str, usize>,
     /// Jobs without a record.
     not_run: usize,
@@ -285,7 +285,8 @@ fn counts(table: &LabelTable) -> Vec<(Label, usize)> {
             labels.clone().filter(|&other| other == label).count(),
         )
     };
-    Label::ALL.into_iter().map(count).collect()
+    let family = table.family.labels().iter();
+    family.copied().map(count).collect()
 }
 
 fn describe_counts(counts: &[(Label, usize)], runs: usize) -> String {

@@ -2,10 +2,11 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
-use phase::plot::{self, Svg};
+use phase::classify::Family;
+use phase::plot::{self, PlotError, Svg};
 use phase::record::Program;
 use phase::store;
-use phase::sweep::{Folder, LabelTable, Sweep, parse_point};
+use phase::sweep::{Folder, FolderError, LabelTable, Sweep, parse_point};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -13,8 +14,8 @@ use std::path::{Path, PathBuf};
 /// tracks of the spheres from the record of one run.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Example: what can be drawn, and one of it
-  phase plot --list
+Example: what can be drawn of a folder, and one of it
+  phase plot --list results/quick
   phase plot results/quick --figure hole-radius
 Example: the speeds in two runs
   phase plot results/quick --figure speeds --point radius=0.002,omega=8 --point radius=0.006,omega=8
@@ -24,15 +25,16 @@ pub(crate) struct Arguments {
     /// A results folder of `phase sweep`, a folder that holds several, or a record (.h5).
     #[arg(required_unless_present = "list")]
     dir: Option<PathBuf>,
-    /// A figure to draw; may be given several times [default: phase and settle-time of a folder,
-    /// tracks of a record].
+    /// A figure to draw; may be given several times [default: phase and settle-time of a tank's folder,
+    /// phase and discharge-rate of a silo's, tracks of a record].
     #[arg(short, long, value_name = "NAME", value_delimiter = ',')]
     figure: Vec<String>,
     /// A point of the grid, such as `radius=0.003,omega=6`, and if you like `seed=2`, for figures of
     /// single runs; may be given several times.
     #[arg(short, long = "point", value_name = "POINT", requires = "figure")]
     points: Vec<String>,
-    /// Print the names of all figures and what they show.
+    /// Print the names of all figures, or of those that can be drawn of DIR, and what they show; draw
+    /// nothing.
     #[arg(short, long)]
     list: bool,
     /// Print the result as one JSON object (docs/json.md) instead of text.
@@ -43,24 +45,23 @@ pub(crate) struct Arguments {
 /// Values by name of an axis.
 type Point = Vec<(String, f64)>;
 
-/// What is drawn if nothing else is asked for.
-const DEFAULT_FIGURES: [&str; 2] = ["phase", "settle-time"];
+/// The figure whose fits are printed.
+const BEVERLOO: &str = "beverloo";
 
 /// The figure of a single run.
 const TRACKS: &str = "tracks";
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    let figures = match arguments.list {
-        true => list(console)?,
-        false => Vec::new(),
-    };
+    let (mut figures, mut fits) = (Vec::new(), Vec::new());
     match &arguments.dir {
+        dir if arguments.list => figures = list(dir.as_deref(), console)?,
         Some(path) if path.is_file() => draw_record(path, &arguments.figure, console)?,
-        Some(dir) => draw_folders(dir, arguments, console)?,
+        Some(dir) => fits = draw_folders(dir, arguments, console)?,
         None => {}
     }
     console.answer(&Answer {
         figures,
+        fits,
         files: console.files(),
     })?;
     Ok(Exit::Done)
@@ -69,8 +70,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Answer {
-    /// All figures, if they were asked for.
+    /// The figures that can be drawn, if they were asked for.
     figures: Vec<Entry>,
+    /// The laws that were fitted for figures.
+    fits: Vec<FitEntry>,
     /// The files written.
     files: Vec<PathBuf>,
 }
@@ -82,26 +85,70 @@ struct Entry {
     description: String,
     /// The runs that a figure of single runs shows without --point.
     default_runs: Option<&'static str>,
+    /// `tank` or `silo`; none for both.
+    family: Option<&'static str>,
 }
 
-/// Prints name and description of every figure.
-fn list(console: &Console) -> Result<Vec<Entry>, Failure> {
+/// A law that was fitted for a figure.
+#[derive(Serialize)]
+struct FitEntry {
+    folder: PathBuf,
+    figure: &'static str,
+    /// The line of the figure, by its values on the other axes.
+    line: String,
+    /// C and k, each with half of its 95 % interval.
+    c: f64,
+    c_half_width: f64,
+    k: f64,
+    k_half_width: f64,
+    /// Grains per area of the bed at rest (1/m2).
+    number_density: f64,
+    /// Root mean square residual (grains per second).
+    residual: f64,
+    /// Runs that were fitted, and runs without a rate.
+    runs: usize,
+    without_rate: usize,
+}
+
+/// Prints name and description of every figure, or of those that can be drawn of what is at `dir`.
+fn list(dir: Option<&Path>, console: &Console) -> Result<Vec<Entry>, Failure> {
+    let (families, record) = match dir {
+        None => (vec![Family::Tank, Family::Silo], true),
+        Some(path) if path.is_file() => (Vec::new(), true),
+        Some(dir) => {
+            let folders = Folder::find(dir).map_err(Failure::refused)?.into_iter();
+            let family = |folder: Folder| Ok(Family::of(&folder.read_sweep()?.scene));
+            let families = folders.map(family).collect::<Result<_, FolderError>>();
+            (families.map_err(Failure::failed)?, false)
+        }
+    };
     let mut entries: Vec<Entry> = plot::figures()
         .into_iter()
+        .filter(|figure| families.iter().any(|family| figure.applies_to(*family)))
         .map(|figure| Entry {
             name: figure.name,
             description: figure.description,
             default_runs: figure.default_runs,
+            family: figure.family.map(Family::name),
         })
         .collect();
-    entries.push(Entry {
-        name: TRACKS,
-        description: "paths of the spheres, from the record of one run with its trajectory"
-            .to_owned(),
-        default_runs: None,
-    });
+    if record {
+        entries.push(Entry {
+            name: TRACKS,
+            description: "paths of the spheres, from the record of one run with its trajectory"
+                .to_owned(),
+            default_runs: None,
+            family: None,
+        });
+    }
     for entry in &entries {
-        console.result(format_args!("{:<22} {}", entry.name, entry.description))?;
+        // What is listed for a folder applies to it.
+        let family = entry.family.filter(|_| dir.is_none());
+        let family = family.map_or(String::new(), |name| format!(" [{name}]"));
+        console.result(format_args!(
+            "{:<22} {}{family}",
+            entry.name, entry.description
+        ))?;
         if let Some(runs) = entry.default_runs {
             console.result(format_args!(
                 "{:<22} of the runs at --point, or else {runs}",
@@ -113,7 +160,11 @@ fn list(console: &Console) -> Result<Vec<Entry>, Failure> {
 }
 
 /// Draws the figures of every results folder at `dir`.
-fn draw_folders(dir: &Path, arguments: &Arguments, console: &Console) -> Result<(), Failure> {
+fn draw_folders(
+    dir: &Path,
+    arguments: &Arguments,
+    console: &Console,
+) -> Result<Vec<FitEntry>, Failure> {
     if arguments.figure.iter().any(|name| name == TRACKS) {
         return Err(Failure::refused(format_args!(
             "`{TRACKS}` is drawn from the record of one run; name its .h5 file instead of {}",
@@ -128,6 +179,7 @@ fn draw_folders(dir: &Path, arguments: &Arguments, console: &Console) -> Result<
     }
     let points = arguments.points.iter().map(|point| parse_point(point));
     let points: Vec<Point> = points.collect::<Result<_, _>>().map_err(Failure::refused)?;
+    let mut fits = Vec::new();
     for folder in Folder::find(dir).map_err(Failure::refused)? {
         let sweep = folder.read_sweep().map_err(Failure::failed)?;
         let path = folder.labels();
@@ -144,9 +196,62 @@ fn draw_folders(dir: &Path, arguments: &Arguments, console: &Console) -> Result<
         }
         for name in &arguments.figure {
             draw(name, &folder, &sweep, &table, &points, console)?;
+            if name == BEVERLOO {
+                fits.extend(print_fits(&folder, &sweep, &table, console)?);
+            }
         }
     }
-    Ok(())
+    Ok(fits)
+}
+
+/// Prints the constants of the law that the figure `beverloo` shows.
+fn print_fits(
+    folder: &Folder,
+    sweep: &Sweep,
+    table: &LabelTable,
+    console: &Console,
+) -> Result<Vec<FitEntry>, Failure> {
+    let program = Program::current();
+    let lines = plot::fitted_lines(&plot::Source {
+        sweep,
+        table,
+        record: &|id| folder.read_record(id),
+        points: &[],
+        program: &program,
+    });
+    let entries = lines
+        .map_err(refused_or_failed)?
+        .into_iter()
+        .map(|line| FitEntry {
+            folder: folder.root().to_owned(),
+            figure: BEVERLOO,
+            c: line.fit.c.value,
+            c_half_width: line.fit.c.half_width,
+            k: line.fit.k.value,
+            k_half_width: line.fit.k.half_width,
+            number_density: line.bed.number_density,
+            residual: line.fit.residual,
+            runs: line.fit.discharges,
+            without_rate: line.without_rate,
+            line: line.name,
+        });
+    let entries: Vec<FitEntry> = entries.collect();
+    for entry in &entries {
+        let line = match entry.line.as_str() {
+            "" => String::new(),
+            line => format!("{line}: "),
+        };
+        console.result(format_args!(
+            "{line}C = {:.4} +- {:.4}, k = {:.4} +- {:.4} (95 %, {}; {} without a rate)",
+            entry.c,
+            entry.c_half_width,
+            entry.k,
+            entry.k_half_width,
+            super::format::count(entry.runs, "run"),
+            entry.without_rate
+        ))?;
+    }
+    Ok(entries)
 }
 
 /// Draws what is drawn if nothing else is asked for.
@@ -160,7 +265,7 @@ pub(super) fn draw_default_figures(
         console.note("a sweep without axes has no diagram: no figures");
         return Ok(());
     }
-    DEFAULT_FIGURES
+    plot::default_figures(table.family)
         .iter()
         .try_for_each(|name| draw(name, folder, sweep, table, &[], console))
 }
@@ -174,21 +279,27 @@ fn draw(
     points: &[Point],
     console: &Console,
 ) -> Result<(), Failure> {
-    let source = plot::Source {
-        sweep,
-        table,
-        record: &|id| folder.read_record(id),
-        points,
-        program: &Program::current(),
-    };
-    let figure = plot::draw(name, &source).map_err(|error| {
-        if error.is_of_request() {
-            Failure::refused(error)
-        } else {
-            Failure::failed(error)
-        }
-    })?;
+    let program = Program::current();
+    let figure = plot::draw(
+        name,
+        &plot::Source {
+            sweep,
+            table,
+            record: &|id| folder.read_record(id),
+            points,
+            program: &program,
+        },
+    );
+    let figure = figure.map_err(refused_or_failed)?;
     write(&figure, |extension| folder.figure(name, extension), console)
+}
+
+fn refused_or_failed(error: PlotError) -> Failure {
+    if error.is_of_request() {
+        Failure::refused(error)
+    } else {
+        Failure::failed(error)
+    }
 }
 
 /// Draws the tracks of a record beside it: NAME.h5 gives NAME-tracks.svg and .png.

@@ -105,6 +105,7 @@ scalars! {
     discharged "1" "Number of spheres that left";
     discharge_rate "1/s" "Number of spheres that left per second, over the last second or since the start";
     coordination "1" "Mean number of contacts of a sphere, not a number without spheres";
+    mass_inside "kg" "Mass of all spheres that are in";
 }
 }
 

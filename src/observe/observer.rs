@@ -136,6 +136,8 @@ impl Observer {
         observations.discharge_rate.push(rate);
         let coordination = flow.contacts as f64 / frame.count() as f64;
         observations.coordination.push(coordination as f32);
+        let mass = sum([frame.mass], |[mass]| mass);
+        observations.mass_inside.push(mass as f32);
     }
 
     fn measure_velocities(&mut self, frame: &FrameView<'_>) {

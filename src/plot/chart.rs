@@ -25,8 +25,29 @@ pub(super) struct Line {
     pub(super) color: RGBColor,
 }
 
+/// The mean of several values and its interval, a point between two ends.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bar {
+    pub(super) at: (f64, f64),
+    /// Half the length of the interval; none is drawn where it is infinite.
+    pub(super) half: f64,
+    pub(super) color: RGBColor,
+}
+
+impl Bar {
+    /// Ends of what is drawn, the lower first.
+    pub(super) fn ends(&self) -> [f64; 2] {
+        let half = if self.half.is_finite() {
+            self.half
+        } else {
+            0.0
+        };
+        [self.at.1 - half, self.at.1 + half]
+    }
+}
+
 /// A panel.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Panel {
     /// What stands above it, with markup: items of a list, which breaks between them.
     pub(super) head: Vec<String>,
@@ -34,6 +55,8 @@ pub(super) struct Panel {
     pub(super) x: (f64, f64),
     pub(super) y: (f64, f64),
     pub(super) lines: Vec<Line>,
+    /// Drawn over the lines.
+    pub(super) bars: Vec<Bar>,
 }
 
 /// A chart.
@@ -100,6 +123,13 @@ impl Chart {
             let places = line.points.iter().filter(inside);
             let places = thinned(places.map(|point| plot.map_coordinate(point)));
             style::line(sheet, &places, line.color)?;
+        }
+        for bar in &panel.bars {
+            let point = plot.map_coordinate(&bar.at);
+            let ends = bar
+                .ends()
+                .map(|end| plot.map_coordinate(&(bar.at.0, end)).1);
+            style::bar(sheet, point, ends, bar.color)?;
         }
         axes.draw()?;
         let head = letters(SMALL, HPos::Center, VPos::Bottom);
@@ -234,7 +264,7 @@ impl Layout {
                     )
                 })
                 .collect(),
-            legend: (legend(&chart.legend), (left, 0)),
+            legend: (legend(&chart.legend, WIDTH - MARGIN - left), (left, 0)),
         };
         let mut bottom = layout.end().1 + TICKS_BELOW + px(6) + LABEL + px(4);
         let legend = layout.legend.0.size().1;
@@ -268,12 +298,12 @@ impl Layout {
     }
 }
 
-fn legend(names: &[(RGBColor, String)]) -> Legend {
+fn legend(names: &[(RGBColor, String)], room: i32) -> Legend {
     let entry = |(color, text): &(RGBColor, String)| Entry {
         key: Key::Line(*color),
         text: text.clone(),
     };
-    Legend::new(names.iter().map(entry).collect(), WIDTH - 2 * MARGIN)
+    Legend::new(names.iter().map(entry).collect(), room)
 }
 
 /// How far the first and the last tick label of a horizontal axis reach beyond its ends.

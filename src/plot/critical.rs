@@ -139,7 +139,7 @@ fn clipped(points: &[(f64, f64)], low: f64, high: f64) -> Vec<Piece> {
 mod tests {
     use super::super::Source;
     use super::*;
-    use crate::classify::{Evidence, Label, OrderParameters, Sieves, Verdict};
+    use crate::classify::{Family, Label, Measures, Sieves, Verdict};
     use crate::record::Program;
     use crate::scene::RadiusShare;
     use crate::sweep::{Axis, LabelRow, LabelTable, PlotSettings, Sweep};
@@ -181,12 +181,11 @@ mod tests {
             seed: 1,
             verdict: Verdict {
                 label: Label::Settled,
-                settle_time: None,
-                evidence: Evidence::default(),
-                order: OrderParameters::default(),
+                measures: Measures::none(Family::Tank),
             },
         };
         let table = LabelTable {
+            family: Family::Tank,
             axes: axes.iter().map(|(key, _)| (*key).to_owned()).collect(),
             rows: vec![row],
         };

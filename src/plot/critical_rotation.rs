@@ -4,6 +4,7 @@ use super::chart::{self, Chart, Line, Panel};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, choice, palette};
+use crate::classify::Family;
 use crate::scene::Scene;
 use crate::theory::critical_rotation;
 use plotters::style::RGBColor;
@@ -24,6 +25,10 @@ impl Figure for CriticalRotation {
 
     fn description(&self) -> String {
         "theory: critical rotation over the radius of the spheres (eq. 43)".to_owned()
+    }
+
+    fn family(&self) -> Option<Family> {
+        Some(Family::Tank)
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
@@ -55,6 +60,7 @@ impl Figure for CriticalRotation {
                 x: (low * 1e3, high * 1e3),
                 y: (0.0, top),
                 lines: curves.into_iter().map(|(_, line)| line).collect(),
+                bars: Vec::new(),
             }],
             columns: 1,
             height: px(400),

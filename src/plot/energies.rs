@@ -5,6 +5,7 @@ use super::choice::{self, Run};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, palette, scale};
+use crate::classify::Family;
 use crate::record::RunRecord;
 
 /// Energies over time.
@@ -59,6 +60,10 @@ impl Figure for Energies {
 
     fn default_runs(&self) -> Option<&'static str> {
         Some(self.default_runs)
+    }
+
+    fn family(&self) -> Option<Family> {
+        Some(Family::Tank)
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
@@ -120,7 +125,7 @@ fn energies(run: &Run<'_>, record: &RunRecord) -> Lines {
             .collect()
     };
     let duration = record.scene.time.duration;
-    let settled = run.row.verdict.settle_time;
+    let settled = run.row.verdict.tank().and_then(|it| it.settle_time);
     let zero = mean_after(
         &observations.time,
         &observations.gravitational,
@@ -182,5 +187,6 @@ fn panels(head: Vec<String>, energies: &Lines, factor: f64) -> [Panel; 2] {
         x: (0.0, end),
         y,
         lines: lines.clone(),
+        bars: Vec::new(),
     })
 }

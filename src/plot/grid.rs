@@ -17,11 +17,12 @@ pub(super) struct GridAxis {
     pub(super) symbol: String,
     pub(super) unit: String,
     /// Its index among the sweep's axes.
-    index: usize,
+    pub(super) index: usize,
 }
 
 impl GridAxis {
-    fn new(index: usize, sweep: &Sweep, table: &LabelTable) -> Self {
+    /// The axis of that index among those of the sweep.
+    pub(super) fn new(index: usize, sweep: &Sweep, table: &LabelTable) -> Self {
         let axis = &sweep.axes[index];
         let mut values: Vec<f64> = axis.values.clone();
         values.extend(table.rows.iter().map(|row| row.values[index]));
@@ -32,7 +33,10 @@ impl GridAxis {
                 format!("${}$", notation.symbol),
                 notation.unit_in(&sweep.scene).to_owned(),
             ),
-            None => (axis.name.clone(), String::new()),
+            None => {
+                let share = share_of(axis, sweep);
+                (share.unwrap_or_else(|| axis.name.clone()), String::new())
+            }
         };
         let mut shown = Self {
             key: axis.key.clone(),
@@ -42,12 +46,9 @@ impl GridAxis {
             unit,
             index,
         };
-        // Radii are shown over that of the tank, unless that is swept too.
-        let tank = sweep.scene.tank.as_ref().and_then(|tank| tank.radius);
-        let swept = sweep.axes.iter().any(|axis| axis.key == "tank.radius");
-        if let (Some(tank), "spheres.radius", false) = (tank, axis.key.as_str(), swept) {
-            shown.factor = 1.0 / tank;
-            shown.symbol = "$r$ / $R$".to_owned();
+        if let Some((scale, symbol)) = scale(&axis.key, sweep) {
+            shown.factor = 1.0 / scale;
+            shown.symbol = symbol.to_owned();
             shown.unit = String::new();
         }
         shown
@@ -123,6 +124,33 @@ impl GridAxis {
         let value = point.values[self.index];
         self.values.iter().position(|&other| other == value)
     }
+}
+
+/// The length (m) that values of a key are shown over, and the symbol of the ratio: radii over that of
+/// the tank, openings over the mean diameter of the grains, unless what they are shown over is swept
+/// too.
+fn scale(key: &str, sweep: &Sweep) -> Option<(f64, &'static str)> {
+    let swept = |name: &str| sweep.axes.iter().any(|axis| axis.key.starts_with(name));
+    match key {
+        "spheres.radius" if !swept("tank.radius") => {
+            let radius = sweep.scene.tank.as_ref()?.radius?;
+            Some((radius, "$r$ / $R$"))
+        }
+        "geometry.opening" if !swept("spheres.radius") => {
+            let diameter = 2.0 * sweep.scene.spheres.radius.mean();
+            Some((diameter, "$D$ / $d$"))
+        }
+        _ => None,
+    }
+}
+
+/// What an axis over the share of one of several radii is called.
+fn share_of(axis: &Axis, sweep: &Sweep) -> Option<String> {
+    let index = axis.key.strip_prefix("spheres.radius[")?;
+    let index: usize = index.strip_suffix("].share")?.parse().ok()?;
+    let radius = sweep.scene.spheres.radius.shares().get(index)?.radius;
+    let radius = super::scale::number(radius * 1e3);
+    Some(format!("relative share of grains of $r$ = {radius} mm"))
 }
 
 /// One of the small multiples.

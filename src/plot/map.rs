@@ -7,7 +7,8 @@ use super::grid::Grid;
 use super::style::Fill;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
-use crate::classify::Verdict;
+use crate::classify::{Family, Verdict};
+use crate::statistics::Estimate;
 use crate::sweep::Point;
 
 /// A map of one number of the verdicts.
@@ -19,29 +20,51 @@ pub(super) struct Map {
     unit: &'static str,
     /// Whether zero is a natural middle.
     signed: bool,
+    /// Whether it says how clearly a sieve decided, and not what the run did.
+    evidence: bool,
+    family: Family,
     value: fn(&Verdict) -> Option<f64>,
 }
 
 /// All maps.
 #[rustfmt::skip]
-pub(super) static MAPS: [Map; 16] = [
-    map("settle-time", "settle time", "s", |verdict| verdict.settle_time),
-    map("hole-radius", "hole radius / $R$", "", |verdict| verdict.order.hole_radius),
-    signed("paraboloid-rotation", "paraboloid rotation", "rad/s", |verdict| verdict.order.paraboloid_rotation),
-    map("paraboloid-residual", "paraboloid residual / $r$", "", |verdict| verdict.order.paraboloid_residual),
-    map("rotation", "rotation of the spheres / $Ω$", "", |verdict| verdict.order.rotation),
-    map("mobility", "velocity fluctuation / √(2$rg$)", "", |verdict| verdict.order.mobility),
-    map("packing-height", "packing height / $R$", "", |verdict| verdict.order.packing_height),
-    map("spout-count", "rising spheres / $n$", "", |verdict| verdict.order.spout_count),
-    map("settle-change", "least change of energy / tolerance", "", |verdict| verdict.evidence.settle_change),
-    map("fluid-share", "share of fluid frames", "", |verdict| verdict.evidence.fluid_share),
-    signed("fluid-margin", "margin of the fluid sieve", "", |verdict| verdict.evidence.fluid_margin),
-    map("pinned-share", "share of frames with a hole", "", |verdict| verdict.evidence.pinned_share),
-    signed("pinned-margin", "margin of the pinned sieve", "", |verdict| verdict.evidence.pinned_margin),
-    map("spout-share", "share of frames with a spout", "", |verdict| verdict.evidence.spout_share),
-    signed("spout-margin", "margin of the spout sieve", "", |verdict| verdict.evidence.spout_margin),
-    map("spout-peak", "most rising spheres / $n$", "", |verdict| verdict.evidence.spout_peak),
+pub(super) static MAPS: [Map; 29] = [
+    map("settle-time", "settle time", "s", |verdict| verdict.tank()?.settle_time),
+    map("hole-radius", "hole radius / $R$", "", |verdict| verdict.tank()?.order.hole_radius),
+    signed(map("paraboloid-rotation", "paraboloid rotation", "rad/s", |verdict| verdict.tank()?.order.paraboloid_rotation)),
+    map("paraboloid-residual", "paraboloid residual / $r$", "", |verdict| verdict.tank()?.order.paraboloid_residual),
+    map("rotation", "rotation of the spheres / $Ω$", "", |verdict| verdict.tank()?.order.rotation),
+    map("mobility", "velocity fluctuation / √(2$rg$)", "", |verdict| verdict.tank()?.order.mobility),
+    map("packing-height", "packing height / $R$", "", |verdict| verdict.tank()?.order.packing_height),
+    map("spout-count", "rising spheres / $n$", "", |verdict| verdict.tank()?.order.spout_count),
+    evidence(map("settle-change", "least change of energy / tolerance", "", |verdict| verdict.tank()?.evidence.settle_change)),
+    evidence(map("fluid-share", "share of fluid frames", "", |verdict| verdict.tank()?.evidence.fluid_share)),
+    evidence(signed(map("fluid-margin", "margin of the fluid sieve", "", |verdict| verdict.tank()?.evidence.fluid_margin))),
+    evidence(map("pinned-share", "share of frames with a hole", "", |verdict| verdict.tank()?.evidence.pinned_share)),
+    evidence(signed(map("pinned-margin", "margin of the pinned sieve", "", |verdict| verdict.tank()?.evidence.pinned_margin))),
+    evidence(map("spout-share", "share of frames with a spout", "", |verdict| verdict.tank()?.evidence.spout_share)),
+    evidence(signed(map("spout-margin", "margin of the spout sieve", "", |verdict| verdict.tank()?.evidence.spout_margin))),
+    evidence(map("spout-peak", "most rising spheres / $n$", "", |verdict| verdict.tank()?.evidence.spout_peak)),
+    silo(map("rest-time", "time at rest", "s", |verdict| verdict.silo()?.order.rest_time)),
+    silo(map("heap-height", "height of the highest centre at rest", "m", |verdict| verdict.silo()?.order.heap_height)),
+    silo(map("packing-fraction", "packing fraction at rest", "", |verdict| verdict.silo()?.order.packing_fraction)),
+    silo(map("coordination", "contacts of a grain at rest", "", |verdict| verdict.silo()?.order.coordination)),
+    silo(map("discharge-rate", "discharge rate", "grains/s", |verdict| verdict.silo()?.order.discharge_rate)),
+    silo(map("mass-rate", "discharge rate", "kg/s", |verdict| verdict.silo()?.order.mass_rate)),
+    silo(map("discharged-share", "share of the grains that left", "", |verdict| verdict.silo()?.order.discharged_share)),
+    silo(map("emptying-time", "time to empty", "s", |verdict| verdict.silo()?.order.emptying_time)),
+    silo(evidence(signed(map("emptied-margin", "margin of the emptied sieve", "", |verdict| verdict.silo()?.evidence.emptied_margin)))),
+    silo(evidence(map("arching-pause", "time without an outflow", "s", |verdict| verdict.silo()?.evidence.arching_pause))),
+    silo(evidence(signed(map("arching-margin", "margin of the arching sieve", "", |verdict| verdict.silo()?.evidence.arching_margin)))),
+    silo(evidence(map("flowing-count", "grains in the last window", "", |verdict| verdict.silo()?.evidence.flowing_count))),
+    silo(evidence(signed(map("flowing-margin", "margin of the flowing sieve", "", |verdict| verdict.silo()?.evidence.flowing_margin)))),
 ];
+
+/// The maps of what runs of a family did, without the evidence of its sieves.
+pub(super) fn of_measures(family: Family) -> impl Iterator<Item = &'static Map> {
+    MAPS.iter()
+        .filter(move |map| map.family == family && !map.evidence)
+}
 
 const fn map(
     name: &'static str,
@@ -54,34 +77,52 @@ const fn map(
         quantity,
         unit,
         signed: false,
+        evidence: false,
+        family: Family::Tank,
         value,
     }
 }
 
-const fn signed(
-    name: &'static str,
-    quantity: &'static str,
-    unit: &'static str,
-    value: fn(&Verdict) -> Option<f64>,
-) -> Map {
+const fn signed(map: Map) -> Map {
     Map {
         signed: true,
-        ..map(name, quantity, unit, value)
+        ..map
+    }
+}
+
+const fn evidence(map: Map) -> Map {
+    Map {
+        evidence: true,
+        ..map
+    }
+}
+
+const fn silo(map: Map) -> Map {
+    Map {
+        family: Family::Silo,
+        ..map
     }
 }
 
 impl Map {
-    /// Mean over the seeds of a point that have a value. One that is not a number is none.
+    /// Quantity and unit, with markup.
+    pub(super) fn label(&self) -> String {
+        match self.unit {
+            "" => self.quantity.to_owned(),
+            unit => format!("{} ({unit})", self.quantity),
+        }
+    }
+
+    /// Values of the seeds of a point that have one. One that is not a number is none.
+    pub(super) fn values(&self, source: &Source<'_>, point: &Point) -> Vec<f64> {
+        let rows = point.rows.iter().map(|&row| &source.table.rows[row]);
+        let values = rows.filter_map(|row| (self.value)(&row.verdict));
+        values.filter(|value| value.is_finite()).collect()
+    }
+
+    /// Mean over the seeds of a point that have a value.
     fn mean(&self, source: &Source<'_>, point: &Point) -> Option<f64> {
-        let verdicts = point
-            .rows
-            .iter()
-            .map(|&row| &source.table.rows[row].verdict);
-        let values: Vec<f64> = verdicts
-            .filter_map(self.value)
-            .filter(|value| value.is_finite())
-            .collect();
-        (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+        Estimate::of_mean(&self.values(source, point)).map(|mean| mean.value)
     }
 }
 
@@ -91,12 +132,11 @@ impl Figure for Map {
     }
 
     fn description(&self) -> String {
-        let unit = if self.unit.is_empty() {
-            String::new()
-        } else {
-            format!(" ({})", self.unit)
-        };
-        format!("map: {}{unit}", super::text::plain(self.quantity))
+        format!("map: {}", super::text::plain(&self.label()))
+    }
+
+    fn family(&self) -> Option<Family> {
+        Some(self.family)
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
@@ -106,11 +146,7 @@ impl Figure for Map {
             .iter()
             .flat_map(|panel| panel.cells.iter().flatten());
         let values = points.filter_map(|point| self.mean(source, point));
-        let label = if self.unit.is_empty() {
-            self.quantity.to_owned()
-        } else {
-            format!("{} ({})", self.quantity, self.unit)
-        };
+        let label = self.label();
         let bar = ColorBar::new(values, self.signed, label.clone());
         Diagram {
             name: self.name,
@@ -137,20 +173,64 @@ impl Figure for Map {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::classify::{Evidence, OrderParameters};
+    use crate::classify::{Measures, SiloMeasures, TankMeasures};
     use std::collections::BTreeSet;
 
-    #[test]
-    fn every_order_parameter_and_evidence_has_its_map() {
-        let mut fields = BTreeSet::from(["settle-time".to_owned()]);
-        for value in [
-            serde_json::to_value(OrderParameters::default()).unwrap(),
-            serde_json::to_value(Evidence::default()).unwrap(),
-        ] {
-            let table = value.as_object().unwrap();
-            fields.extend(table.keys().map(|key| key.replace('_', "-")));
+    /// Names of all numbers in a tree, as those of maps.
+    fn names(value: &serde_json::Value, names: &mut BTreeSet<String>) {
+        for (key, value) in value.as_object().unwrap() {
+            if value.is_object() {
+                self::names(value, names);
+            } else {
+                names.insert(key.replace('_', "-"));
+            }
         }
-        let maps: BTreeSet<String> = MAPS.iter().map(|map| map.name.to_owned()).collect();
-        assert_eq!(maps, fields);
+    }
+
+    #[test]
+    fn every_measure_and_evidence_has_its_map() {
+        let tank = serde_json::to_value(TankMeasures::default()).unwrap();
+        let silo = serde_json::to_value(SiloMeasures::default()).unwrap();
+        for (family, measures) in [(Family::Tank, tank), (Family::Silo, silo)] {
+            let mut fields = BTreeSet::new();
+            names(&measures, &mut fields);
+            let of_family = MAPS.iter().filter(|map| map.family == family);
+            let maps: BTreeSet<String> = of_family.map(|map| map.name.to_owned()).collect();
+            assert_eq!(maps, fields);
+        }
+    }
+
+    #[test]
+    fn a_map_reads_the_measure_of_its_name() {
+        // Every number of a verdict is another one.
+        for family in [Family::Tank, Family::Silo] {
+            for map in MAPS.iter().filter(|map| map.family == family) {
+                let verdict = Verdict {
+                    label: crate::classify::Label::Unsettled,
+                    measures: with_one(family, &map.name.replace('-', "_")),
+                };
+                assert_eq!((map.value)(&verdict), Some(7.0), "{}", map.name);
+            }
+        }
+    }
+
+    /// Measures of which only the one of that name is there, and 7.
+    fn with_one(family: Family, name: &str) -> Measures {
+        fn set<T: serde::Serialize + serde::de::DeserializeOwned>(measures: &T, name: &str) -> T {
+            let mut tree = serde_json::to_value(measures).unwrap();
+            let table = tree.as_object_mut().unwrap();
+            for (key, value) in table.iter_mut() {
+                match value.as_object_mut() {
+                    Some(inner) if inner.contains_key(name) => inner[name] = 7.0.into(),
+                    None if key == name => *value = 7.0.into(),
+                    _ => {}
+                }
+            }
+            serde_json::from_value(tree).unwrap()
+        }
+        match Measures::none(family) {
+            Measures::Tank(measures) => Measures::Tank(set(&measures, name)),
+            Measures::Silo(measures) => Measures::Silo(set(&measures, name)),
+        }
     }
 }

@@ -8,6 +8,7 @@
 //! To add a figure: a file with an implementation of `Figure`, and a line in `all`.
 
 mod axes;
+mod beverloo;
 mod canvas;
 mod chart;
 mod choice;
@@ -20,10 +21,12 @@ mod grid;
 mod layout;
 mod legend;
 mod map;
+mod measures;
 mod net_force;
 mod palette;
 mod phase;
 mod scale;
+mod series;
 mod speeds;
 mod states;
 pub mod step_time;
@@ -32,9 +35,11 @@ mod svg;
 mod text;
 mod tracks;
 
+pub use beverloo::{FittedLine, fitted_lines};
 pub use svg::Svg;
 pub use tracks::draw as draw_tracks;
 
+use crate::classify::Family;
 use crate::record::{Program, RunRecord};
 use crate::store::StoreError;
 use crate::sweep::{LabelTable, SelectError, Sweep};
@@ -70,6 +75,11 @@ trait Figure: Sync {
         None
     }
 
+    /// The family of scenes that it is for; none for both.
+    fn family(&self) -> Option<Family> {
+        None
+    }
+
     /// Draws it.
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError>;
 }
@@ -84,6 +94,8 @@ fn all() -> Vec<&'static dyn Figure> {
         &energies::STATE_ENERGIES,
         &critical_rotation::CriticalRotation,
         &net_force::NetForce,
+        &beverloo::Beverloo,
+        &measures::MeasuresFigure,
     ];
     figures.extend(map::MAPS.iter().map(|map| map as &dyn Figure));
     figures
@@ -99,6 +111,23 @@ pub struct About {
     /// Which runs it shows if no points are asked for; none for a figure that is not of single
     /// runs.
     pub default_runs: Option<&'static str>,
+    /// The family of scenes that it is for; none for both.
+    pub family: Option<Family>,
+}
+
+impl About {
+    /// Whether the figure can be drawn of scenes of a family.
+    pub fn applies_to(&self, family: Family) -> bool {
+        self.family.is_none_or(|own| own == family)
+    }
+}
+
+/// Names of the figures that say most of a sweep, by the family of its scene.
+pub fn default_figures(family: Family) -> &'static [&'static str] {
+    match family {
+        Family::Tank => &["phase", "settle-time"],
+        Family::Silo => &["phase", "discharge-rate"],
+    }
 }
 
 /// All figures.
@@ -109,6 +138,7 @@ pub fn figures() -> Vec<About> {
             name: figure.name(),
             description: figure.description(),
             default_runs: figure.default_runs(),
+            family: figure.family(),
         })
         .collect()
 }
@@ -130,6 +160,18 @@ pub fn draw(name: &str, source: &Source<'_>) -> Result<Svg, PlotError> {
             known: known.join(", "),
         });
     };
+    let family = source.table.family;
+    if figure.family().is_some_and(|own| own != family) {
+        let others = figures
+            .iter()
+            .filter(|other| other.family().is_none_or(|own| own == family));
+        let known: Vec<&str> = others.map(|figure| figure.name()).collect();
+        return Err(PlotError::OtherFamily {
+            name: figure.name(),
+            family: family.name(),
+            known: known.join(", "),
+        });
+    }
     if figure.default_runs().is_none() && !source.points.is_empty() {
         return Err(PlotError::NoPoints(figure.name()));
     }
@@ -146,6 +188,32 @@ pub enum PlotError {
         name: String,
         /// The names there are.
         known: String,
+    },
+    /// The figure is for the other family of scenes.
+    #[error("the figure `{name}` is none of a {family}; those are {known}")]
+    OtherFamily {
+        /// The name asked for.
+        name: &'static str,
+        /// The family of the sweep's scene.
+        family: &'static str,
+        /// The names that the family has.
+        known: String,
+    },
+    /// The sweep has no axis that the figure is over.
+    #[error("the figure `{figure}` needs a sweep over `{key}`")]
+    NeedsAxis {
+        /// The figure.
+        figure: &'static str,
+        /// The key of the axis.
+        key: &'static str,
+    },
+    /// The runs of a line do not allow to fit its law.
+    #[error("{line}: {reason}")]
+    Fit {
+        /// Which line.
+        line: String,
+        /// Why not.
+        reason: String,
     },
     /// The plot settings name an axis that the sweep does not have.
     #[error("[plot] names the axis `{name}`, but the axes of this sweep are {known}")]
@@ -211,6 +279,9 @@ pub enum PlotError {
     /// There is nothing to draw.
     #[error("the table of labels is empty: no run of this sweep has been classified yet")]
     EmptyTable,
+    /// No run has what the figure shows.
+    #[error("no run of this sweep has a measure that the figure shows")]
+    NoMeasures,
     /// The table was not made of this sweep.
     #[error("the table has the axes {table}, but the sweep has {sweep}; classify it again")]
     OtherAxes {
@@ -245,6 +316,8 @@ impl PlotError {
         matches!(
             self,
             Self::UnknownFigure { .. }
+                | Self::OtherFamily { .. }
+                | Self::NeedsAxis { .. }
                 | Self::NoPoints(_)
                 | Self::Select(_)
                 | Self::OpenAxis { .. }

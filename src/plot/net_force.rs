@@ -10,6 +10,7 @@ use super::critical_rotation::{radii, samples, volume};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, palette, scale};
+use crate::classify::Family;
 use crate::scene::{Scene, Updraught};
 use crate::theory::unshielded_lift;
 
@@ -27,6 +28,10 @@ impl Figure for NetForce {
     fn description(&self) -> String {
         "theory: net vertical force in a single layer over the radius, three rotations (eq. 46)"
             .to_owned()
+    }
+
+    fn family(&self) -> Option<Family> {
+        Some(Family::Tank)
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
@@ -68,6 +73,7 @@ impl Figure for NetForce {
                         color,
                     })
                     .collect(),
+                bars: Vec::new(),
             }],
             columns: 1,
             height: px(400),

@@ -1,7 +1,7 @@
 //! Colours: of states, and of continuous quantities.
 //!
-//! The colours of the states get darker from state to state, so that they stay apart in grey
-//! print and for every kind of colour blindness; the tests hold them to that.
+//! The colours of the states of a family get darker from state to state (those of a silo the less it
+//! lets out), so that they stay apart in grey print and for every kind of colour blindness; the tests hold them to that.
 
 use crate::classify::Label;
 use crate::color::{self, ColorMap};
@@ -16,6 +16,9 @@ pub(super) fn state(label: Label) -> RGBColor {
         Label::Pinned => rgb(0x2a_8a_5c),
         Label::SmallSpout => rgb(0x98_2c_74),
         Label::LargeSpout => rgb(0x3a_14_57),
+        Label::Emptied => rgb(0xe2_bd_6c),
+        Label::Flowing => rgb(0x3f_92_d2),
+        Label::Arching => rgb(0x7a_1f_4d),
         Label::Unstable => rgb(0x00_00_00),
     }
 }
@@ -72,6 +75,7 @@ fn mix(one: RGBColor, other: RGBColor, share: f64) -> RGBColor {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::classify::Family;
 
     type Matrix = [[f64; 3]; 3];
 
@@ -150,30 +154,47 @@ mod tests {
         lab(color, &VISIONS[0].1)[0]
     }
 
+    /// All pairs of states that one diagram may show.
+    fn pairs() -> Vec<(Label, Label)> {
+        let families = [Family::Tank, Family::Silo].into_iter().map(Family::labels);
+        let of_family = |labels: &'static [Label]| {
+            let pair = move |index: usize| {
+                let others = labels[index + 1..].iter();
+                others.map(move |other| (labels[index], *other))
+            };
+            (0..labels.len()).flat_map(pair)
+        };
+        families.flat_map(of_family).collect()
+    }
+
     #[test]
     fn states_stay_apart_for_every_vision() {
         for (name, vision) in &VISIONS {
-            for (index, one) in Label::ALL.into_iter().enumerate() {
-                for other in &Label::ALL[index + 1..] {
-                    let (a, b) = (lab(state(one), vision), lab(state(*other), vision));
-                    let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
-                    assert!(
-                        square.sqrt() >= LEAST_DISTANCE,
-                        "{name}: {one:?} and {other:?} are {:.1} apart",
-                        square.sqrt()
-                    );
-                }
+            for (one, other) in pairs() {
+                let (a, b) = (lab(state(one), vision), lab(state(other), vision));
+                let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
+                assert!(
+                    square.sqrt() >= LEAST_DISTANCE,
+                    "{name}: {one:?} and {other:?} are {:.1} apart",
+                    square.sqrt()
+                );
             }
         }
     }
 
     #[test]
     fn states_get_darker_in_order_and_unstable_is_black() {
-        let mut order = Label::ALL;
-        order.rotate_left(1);
-        for pair in order.windows(2) {
-            let step = lightness(state(pair[0])) - lightness(state(pair[1]));
-            assert!(step >= LEAST_STEP, "{pair:?}: {step:.1}");
+        let mut tank = Family::Tank.labels().to_vec();
+        tank.rotate_left(1);
+        // From the state in which most is let out.
+        let mut silo = Family::Silo.labels()[1..].to_vec();
+        silo[1..].reverse();
+        silo.push(Label::Unstable);
+        for order in [tank, silo] {
+            for pair in order.windows(2) {
+                let step = lightness(state(pair[0])) - lightness(state(pair[1]));
+                assert!(step >= LEAST_STEP, "{pair:?}: {step:.1}");
+            }
         }
     }
 

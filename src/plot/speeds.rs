@@ -4,6 +4,7 @@ use super::chart::{self, Chart, Line, Panel, columns};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, choice, palette};
+use crate::classify::Family;
 use crate::record::RunRecord;
 
 /// Speeds of air and spheres over time.
@@ -20,6 +21,10 @@ impl Figure for Speeds {
 
     fn default_runs(&self) -> Option<&'static str> {
         Some("the corners of the grid and between them")
+    }
+
+    fn family(&self) -> Option<Family> {
+        Some(Family::Tank)
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
@@ -75,5 +80,6 @@ fn panel(head: Vec<String>, record: &RunRecord) -> Panel {
         x: (0.0, record.scene.time.duration),
         y: (0.0, chart::range(speeds).map_or(1.0, |(_, high)| high)),
         lines,
+        bars: Vec::new(),
     }
 }

@@ -7,7 +7,7 @@ use super::layout::{TITLE_LINE, title_height, title_lines, whole};
 use super::style::{Drawn, LABEL, MARGIN, SMALL, Sheet, TITLE, WIDTH, frame, letters, px};
 use super::svg::{Placed, Svg};
 use super::{Figure, PlotError, Source, chart, palette, scale, text};
-use crate::classify::Label;
+use crate::classify::{Family, Label};
 use crate::observe::Snapshot;
 use crate::record::{Outcome, RunRecord};
 use crate::render::{Camera, Rgb, Stage, picture, round_down};
@@ -44,6 +44,10 @@ impl Figure for States {
 
     fn default_runs(&self) -> Option<&'static str> {
         Some("a typical run of every state")
+    }
+
+    fn family(&self) -> Option<Family> {
+        Some(Family::Tank)
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {

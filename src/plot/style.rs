@@ -176,6 +176,24 @@ pub(super) fn line(sheet: &Sheet<'_>, points: &[(i32, i32)], color: RGBColor) ->
     sheet.draw(&PathElement::new(points, color.stroke_width(15)))
 }
 
+/// Draws a point and, between the heights of two ends, its interval.
+pub(super) fn bar(
+    sheet: &Sheet<'_>,
+    (x, y): (i32, i32),
+    [low, high]: [i32; 2],
+    color: RGBColor,
+) -> Drawn {
+    const CAP: i32 = px(3);
+    if low != high {
+        let ink = color.stroke_width(12);
+        sheet.draw(&PathElement::new([(x, low), (x, high)], ink))?;
+        for end in [low, high] {
+            sheet.draw(&PathElement::new([(x - CAP, end), (x + CAP, end)], ink))?;
+        }
+    }
+    sheet.draw(&Circle::new((x, y), px(3), color.filled()))
+}
+
 /// Draws a straight line that helps the eye.
 pub(super) fn guide(sheet: &Sheet<'_>, ends: [(i32, i32); 2]) -> Drawn {
     sheet.draw(&PathElement::new(ends, palette::GUIDE.stroke_width(8)))

@@ -28,7 +28,8 @@ pub enum Radii {
 pub struct RadiusShare {
     /// Radius (m).
     pub radius: f64,
-    /// Relative share of the number of spheres; shares need not add up to one.
+    /// Relative share of the number of spheres; shares need not add up to one, and may be 0, but not
+    /// all of them.
     pub share: f64,
 }
 
@@ -38,15 +39,31 @@ impl Radii {
     pub fn values(&self) -> Vec<f64> {
         match self {
             Self::One(radius) => vec![*radius],
-            Self::Shares(shares) => shares.iter().map(|share| share.radius).collect(),
+            Self::Shares(shares) => {
+                let occurring = shares.iter().filter(|share| share.share > 0.0);
+                occurring.map(|share| share.radius).collect()
+            }
             Self::Each(radii) => radii.clone(),
             Self::File { .. } => Vec::new(),
+        }
+    }
+
+    /// The shares of several radii; none if radii are not given so.
+    pub fn shares(&self) -> &[RadiusShare] {
+        match self {
+            Self::Shares(shares) => shares,
+            _ => &[],
         }
     }
 
     /// Mean radius of the spheres (m); not a number for a file that has not been read.
     pub fn mean(&self) -> f64 {
         self.mean_of(|radius| radius)
+    }
+
+    /// Mean of the squares of the radii (m2); not a number for a file that has not been read.
+    pub fn mean_square(&self) -> f64 {
+        self.mean_of(|radius| radius * radius)
     }
 
     /// Mean volume of the spheres (m3); not a number for a file that has not been read.

@@ -65,7 +65,7 @@ const RADII: Kind = Kind::Either(&[
     LENGTH,
     Kind::List(&Kind::Table(&[
         needed("radius", LENGTH),
-        needed("share", POSITIVE),
+        needed("share", NOT_NEGATIVE),
     ])),
     Kind::List(&LENGTH),
     Kind::Table(&[needed("file", Kind::Text)]),

@@ -1,43 +1,55 @@
 //! `labels.csv`, one row per job, and `points.csv`, one row per point of the grid.
 //!
-//! Columns of `labels.csv`: `id`, the axes by their names, `seed`, `label`, its `code`,
-//! `settle_time`, then the fields of [`Evidence`] and of [`OrderParameters`] by their names. What
-//! is not known is empty. Numbers are written with as many digits as it takes to read back the
-//! same bits.
+//! Columns of `labels.csv`: `id`, the axes by their names, `seed`, `label`, its `code`, then the
+//! measures of the family by their names: of a tank `settle_time` and the fields of [`Evidence`] and
+//! [`OrderParameters`], of a silo those of [`SiloEvidence`] and [`SiloOrder`]. What is not known is
+//! empty. Numbers are written with as many digits as it takes to read back the same bits.
 
 use super::{StoreError, text, write_atomic};
-use crate::classify::{Evidence, Label, OrderParameters, Verdict};
+use crate::classify::{
+    Evidence, Family, Label, Measures, OrderParameters, SiloEvidence, SiloMeasures, SiloOrder,
+    TankMeasures, Verdict,
+};
 use crate::sweep::{LabelRow, LabelTable};
 use csv::StringRecord;
 use serde::Serialize;
 use std::path::Path;
 
-/// The columns between the axes and the evidence.
-const VERDICT: [&str; 4] = ["seed", "label", "code", "settle_time"];
+/// The columns between the axes and the measures.
+const VERDICT: [&str; 3] = ["seed", "label", "code"];
 
 /// Writes a table of labels.
 ///
 /// # Errors
 /// [`StoreError::DiskFull`], [`StoreError::Write`], or [`StoreError::Content`] if a row does not
-/// have one value per axis.
+/// have one value per axis, or is of another family than the table.
 pub fn write_labels(table: &LabelTable, path: &Path) -> Result<(), StoreError> {
     let fail = |error| StoreError::content(path, error);
     let mut writer = csv_writer();
-    writer.write_record(columns(&table.axes)).map_err(fail)?;
+    writer
+        .write_record(columns(table.family, &table.axes))
+        .map_err(fail)?;
     for row in &table.rows {
         let verdict = &row.verdict;
-        writer
-            .serialize((
-                &row.id,
-                &row.values,
-                row.seed,
-                verdict.label,
-                verdict.label.code(),
-                verdict.settle_time,
-                &verdict.evidence,
-                &verdict.order,
-            ))
-            .map_err(fail)?;
+        let family = verdict.measures.family();
+        if family != table.family {
+            let (row, table) = (family.name(), table.family.name());
+            let reason = format!("a row of a {row} in the table of a {table}");
+            return Err(StoreError::content(path, reason));
+        }
+        let label = (verdict.label, verdict.label.code());
+        let place = (&row.id, &row.values, row.seed, label);
+        match &verdict.measures {
+            Measures::Tank(TankMeasures {
+                settle_time,
+                evidence,
+                order,
+            }) => writer.serialize((place, settle_time, evidence, order)),
+            Measures::Silo(SiloMeasures { evidence, order }) => {
+                writer.serialize((place, evidence, order))
+            }
+        }
+        .map_err(fail)?;
     }
     save(writer, path)
 }
@@ -76,28 +88,37 @@ pub fn read_labels(path: &Path) -> Result<LabelTable, StoreError> {
     let content = text::read(path)?;
     let mut reader = csv::Reader::from_reader(content.as_bytes());
     let header = reader.headers().map_err(|error| malformed(path, &error))?;
-    let axes = read_header(header).map_err(|reason| StoreError::text(path, 1, reason))?;
-    let names = columns(&axes);
+    let (family, axes) = read_header(header).map_err(|reason| StoreError::text(path, 1, reason))?;
+    let names = columns(family, &axes);
     let rows = reader
         .records()
         .map(|record| {
             let record = record.map_err(|error| malformed(path, &error))?;
-            read_row(&names, axes.len(), &record).map_err(|reason| {
+            read_row(family, &names, axes.len(), &record).map_err(|reason| {
                 let line = record.position().map_or(1, csv::Position::line);
                 StoreError::text(path, line, reason)
             })
         })
         .collect::<Result<_, _>>()?;
-    Ok(LabelTable { axes, rows })
+    Ok(LabelTable { family, axes, rows })
 }
 
 /// Names of all columns.
-fn columns(axes: &[String]) -> Vec<String> {
+fn columns(family: Family, axes: &[String]) -> Vec<String> {
     let mut names = vec!["id".to_owned()];
     names.extend_from_slice(axes);
     names.extend(VERDICT.map(str::to_owned));
-    names.extend(field_names(&Evidence::default()));
-    names.extend(field_names(&OrderParameters::default()));
+    match family {
+        Family::Tank => {
+            names.push("settle_time".to_owned());
+            names.extend(field_names(&Evidence::default()));
+            names.extend(field_names(&OrderParameters::default()));
+        }
+        Family::Silo => {
+            names.extend(field_names(&SiloEvidence::default()));
+            names.extend(field_names(&SiloOrder::default()));
+        }
+    }
     names
 }
 
@@ -113,28 +134,34 @@ fn field_names(measures: &impl Serialize) -> Vec<String> {
     header.iter().map(str::to_owned).collect()
 }
 
-/// The axes that the header line names.
-fn read_header(header: &StringRecord) -> Result<Vec<String>, String> {
-    let others = columns(&[]).len();
-    let axes = header.len().saturating_sub(others);
-    let axes: Vec<_> = header
-        .iter()
-        .skip(1)
-        .take(axes)
-        .map(str::to_owned)
-        .collect();
-    let expected = columns(&axes);
-    if header.iter().eq(&expected) {
-        return Ok(axes);
-    }
-    Err(format!(
-        "the header line is not that of a table of labels, which is {}; \
-         make the table again with `phase classify`",
-        columns(&["<axes>".to_owned()]).join(",")
-    ))
+/// The family whose measures the header line names, and the axes.
+fn read_header(header: &StringRecord) -> Result<(Family, Vec<String>), String> {
+    let read = |family: Family| {
+        let others = columns(family, &[]).len();
+        let axes = header.len().checked_sub(others)?;
+        let axes = header.iter().skip(1).take(axes);
+        let axes: Vec<_> = axes.map(str::to_owned).collect();
+        let expected = columns(family, &axes);
+        header.iter().eq(&expected).then_some((family, axes))
+    };
+    let found = [Family::Tank, Family::Silo].into_iter().find_map(read);
+    found.ok_or_else(|| {
+        let of = |family: Family| columns(family, &["<axes>".to_owned()]).join(",");
+        format!(
+            "the header line is not that of a table of labels, which is {}, or of a silo {}; make the \
+             table again with `phase classify`",
+            of(Family::Tank),
+            of(Family::Silo)
+        )
+    })
 }
 
-fn read_row(names: &[String], axes: usize, record: &StringRecord) -> Result<LabelRow, String> {
+fn read_row(
+    family: Family,
+    names: &[String],
+    axes: usize,
+    record: &StringRecord,
+) -> Result<LabelRow, String> {
     fn parse<T: std::str::FromStr>(name: &str, field: &str, what: &str) -> Result<T, String> {
         let parsed = field.parse();
         parsed.map_err(|_| format!("column `{name}`: `{field}` is not {what}"))
@@ -145,31 +172,45 @@ fn read_row(names: &[String], axes: usize, record: &StringRecord) -> Result<Labe
         _ => number(at).map(Some),
     };
     let seed = 1 + axes;
-    let evidence = seed + VERDICT.len();
+    let first = seed + VERDICT.len();
 
     let label = Label::from_name(&record[seed + 1]);
-    let label = label.ok_or_else(|| format!("`{}` is not a label", &record[seed + 1]))?;
+    let label = label.filter(|label| family.labels().contains(label));
+    let label = label.ok_or_else(|| {
+        format!(
+            "`{}` is not a label of a {}",
+            &record[seed + 1],
+            family.name()
+        )
+    })?;
     if parse::<i8>("code", &record[seed + 2], "a whole number")? != label.code() {
         let (code, name) = (&record[seed + 2], label.name());
         return Err(format!("label `{name}` does not have code {code}"));
     }
-    for at in evidence..names.len() {
+    for at in first..names.len() {
         optional(at)?;
     }
-    let measures: StringRecord = record.iter().skip(evidence).collect();
-    let (evidence, order) = measures
-        .deserialize(None)
-        .map_err(|error| error.to_string())?;
+    let fields: StringRecord = record.iter().skip(first).collect();
+    let fail = |error: csv::Error| error.to_string();
+    let measures = match family {
+        Family::Tank => {
+            let (settle_time, evidence, order) = fields.deserialize(None).map_err(fail)?;
+            Measures::Tank(TankMeasures {
+                settle_time,
+                evidence,
+                order,
+            })
+        }
+        Family::Silo => {
+            let (evidence, order) = fields.deserialize(None).map_err(fail)?;
+            Measures::Silo(SiloMeasures { evidence, order })
+        }
+    };
     Ok(LabelRow {
         id: record[0].to_owned(),
         values: (1..seed).map(number).collect::<Result<_, _>>()?,
         seed: parse("seed", &record[seed], "a whole number")?,
-        verdict: Verdict {
-            label,
-            settle_time: optional(seed + 3)?,
-            evidence,
-            order,
-        },
+        verdict: Verdict { label, measures },
     })
 }
 
@@ -230,18 +271,21 @@ mod tests {
             seed,
             verdict: Verdict {
                 label,
-                settle_time,
-                evidence: Evidence {
-                    fluid_margin: Some(-0.9),
-                    ..Evidence::default()
-                },
-                order: OrderParameters {
-                    spout_count: Some(1e-300),
-                    ..OrderParameters::default()
-                },
+                measures: Measures::Tank(TankMeasures {
+                    settle_time,
+                    evidence: Evidence {
+                        fluid_margin: Some(-0.9),
+                        ..Evidence::default()
+                    },
+                    order: OrderParameters {
+                        spout_count: Some(1e-300),
+                        ..OrderParameters::default()
+                    },
+                }),
             },
         };
         LabelTable {
+            family: Family::Tank,
             axes: vec!["radius".to_owned(), "omega".to_owned()],
             rows: vec![
                 row(1, Label::Pinned, Some(0.25)),
@@ -300,7 +344,12 @@ mod tests {
             (
                 "small-spout",
                 "spout",
-                "labels.csv:3: `spout` is not a label",
+                "labels.csv:3: `spout` is not a label of a tank",
+            ),
+            (
+                "small-spout,4",
+                "arching,6",
+                "labels.csv:3: `arching` is not a label of a tank",
             ),
             (
                 "small-spout,4",
@@ -347,53 +396,149 @@ mod tests {
         assert!(!path.exists());
     }
 
-    fn any_table() -> impl Strategy<Value = LabelTable> {
-        let finite = || prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL | prop::num::f64::ZERO;
-        let row = move |axes: usize| {
-            (
-                "[0-9a-f]{16}",
-                prop::collection::vec(finite(), axes),
-                any::<u64>(),
-                prop::sample::select(&Label::ALL[..]),
-                prop::collection::vec(prop::option::of(finite()), 16),
-            )
-                .prop_map(|(id, values, seed, label, m)| LabelRow {
-                    id,
-                    values,
-                    seed,
-                    verdict: Verdict {
-                        label,
-                        settle_time: m[0],
-                        evidence: Evidence {
-                            settle_change: m[1],
-                            fluid_share: m[2],
-                            fluid_margin: m[3],
-                            pinned_share: m[4],
-                            pinned_margin: m[5],
-                            spout_share: m[6],
-                            spout_margin: m[7],
-                            spout_peak: m[8],
-                        },
-                        order: OrderParameters {
-                            hole_radius: m[9],
-                            paraboloid_rotation: m[10],
-                            paraboloid_residual: m[11],
-                            rotation: m[12],
-                            mobility: m[13],
-                            packing_height: m[14],
-                            spout_count: m[15],
-                        },
+    fn silo() -> LabelTable {
+        let row = |seed, label, rate| LabelRow {
+            id: format!("0123456789abcde{seed}"),
+            values: vec![0.24],
+            seed,
+            verdict: Verdict {
+                label,
+                measures: Measures::Silo(SiloMeasures {
+                    evidence: SiloEvidence {
+                        arching_pause: Some(2.5),
+                        ..SiloEvidence::default()
                     },
-                })
-        };
-        prop::collection::vec("[a-z_]{1,8}|a, \"quoted\" one|seed", 0..5).prop_flat_map(
-            move |axes| {
-                prop::collection::vec(row(axes.len()), 0..6).prop_map(move |rows| LabelTable {
-                    axes: axes.clone(),
-                    rows,
-                })
+                    order: SiloOrder {
+                        discharge_rate: rate,
+                        ..SiloOrder::default()
+                    },
+                }),
             },
+        };
+        LabelTable {
+            family: Family::Silo,
+            axes: vec!["opening".to_owned()],
+            rows: vec![
+                row(1, Label::Arching, None),
+                row(2, Label::Emptied, Some(29.7)),
+            ],
+        }
+    }
+
+    #[test]
+    fn a_table_of_a_silo_has_columns_of_its_own() {
+        let text = written(&silo(), write_labels);
+        let mut lines = text.lines();
+        assert_eq!(
+            lines.next().unwrap(),
+            "id,opening,seed,label,code,emptied_margin,arching_pause,arching_margin,flowing_count,\
+             flowing_margin,rest_time,heap_height,packing_fraction,coordination,discharge_rate,\
+             mass_rate,discharged_share,emptying_time"
+        );
+        assert_eq!(
+            lines.next().unwrap(),
+            "0123456789abcde1,0.24,1,arching,6,,2.5,,,,,,,,,,,"
+        );
+        assert!(lines.next().unwrap().contains(",2,emptied,8,,2.5,"));
+        let wrong = text.replace("arching,6", "settled,1");
+        let found = in_file(&wrong, read_labels).unwrap_err().to_string();
+        assert!(
+            found.contains("labels.csv:2: `settled` is not a label of a silo"),
+            "{found}"
+        );
+    }
+
+    #[test]
+    fn a_row_of_another_family_is_not_written() {
+        let mut mixed = silo();
+        mixed.rows[1].verdict = example().rows[0].verdict.clone();
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("labels.csv");
+        let message = write_labels(&mixed, &path).unwrap_err().to_string();
+        assert!(
+            message.contains("a row of a tank in the table of a silo"),
+            "{message}"
+        );
+    }
+
+    /// Measures of a family with these values, as many as it has fields.
+    fn measures(family: Family, m: &[Option<f64>]) -> Measures {
+        match family {
+            Family::Tank => Measures::Tank(TankMeasures {
+                settle_time: m[0],
+                evidence: Evidence {
+                    settle_change: m[1],
+                    fluid_share: m[2],
+                    fluid_margin: m[3],
+                    pinned_share: m[4],
+                    pinned_margin: m[5],
+                    spout_share: m[6],
+                    spout_margin: m[7],
+                    spout_peak: m[8],
+                },
+                order: OrderParameters {
+                    hole_radius: m[9],
+                    paraboloid_rotation: m[10],
+                    paraboloid_residual: m[11],
+                    rotation: m[12],
+                    mobility: m[13],
+                    packing_height: m[14],
+                    spout_count: m[15],
+                },
+            }),
+            Family::Silo => Measures::Silo(SiloMeasures {
+                evidence: SiloEvidence {
+                    emptied_margin: m[0],
+                    arching_pause: m[1],
+                    arching_margin: m[2],
+                    flowing_count: m[3],
+                    flowing_margin: m[4],
+                },
+                order: SiloOrder {
+                    rest_time: m[5],
+                    heap_height: m[6],
+                    packing_fraction: m[7],
+                    coordination: m[8],
+                    discharge_rate: m[9],
+                    mass_rate: m[10],
+                    discharged_share: m[11],
+                    emptying_time: m[12],
+                },
+            }),
+        }
+    }
+
+    fn any_row(family: Family, axes: usize) -> impl Strategy<Value = LabelRow> {
+        let finite = || prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL | prop::num::f64::ZERO;
+        (
+            "[0-9a-f]{16}",
+            prop::collection::vec(finite(), axes),
+            any::<u64>(),
+            prop::sample::select(family.labels()),
+            prop::collection::vec(prop::option::of(finite()), 16),
         )
+            .prop_map(move |(id, values, seed, label, m)| LabelRow {
+                id,
+                values,
+                seed,
+                verdict: Verdict {
+                    label,
+                    measures: measures(family, &m),
+                },
+            })
+    }
+
+    fn any_table() -> impl Strategy<Value = LabelTable> {
+        let axes = prop::collection::vec("[a-z_]{1,8}|a, \"quoted\" one|seed", 0..5);
+        let family = prop::sample::select(&[Family::Tank, Family::Silo][..]);
+        (axes, family).prop_flat_map(|(axes, family)| {
+            let rows = prop::collection::vec(any_row(family, axes.len()), 0..6);
+            rows.prop_map(move |rows| LabelTable {
+                family,
+                axes: axes.clone(),
+                rows,
+            })
+        })
     }
 
     proptest! {

@@ -1,7 +1,7 @@
 //! Labels the runs of a folder of dumps, as the thesis's analysis did.
 
 use super::{LabelRow, LabelTable, Labelling, work};
-use crate::classify::{self, Sieves};
+use crate::classify::{self, Family, Sieves};
 use crate::replay;
 use crate::scene::{Radii, Scene};
 use crate::store::{self, DumpName};
@@ -41,6 +41,7 @@ impl Labelling {
     ) -> Result<Self, rayon::ThreadPoolBuildError> {
         let mut labelling = Self {
             table: LabelTable {
+                family: Family::of(scene),
                 axes: ["radius", "density", "omega"].map(str::to_owned).into(),
                 rows: Vec::new(),
             },

@@ -1,7 +1,7 @@
 //! Labels every run of a results folder from its record.
 
 use super::{Folder, Job, LabelRow, LabelTable, Sweep, work};
-use crate::classify::{self, Label};
+use crate::classify::{self, Family, Label};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Labels of the runs in a results folder.
@@ -29,6 +29,7 @@ impl Labelling {
         let found = work::map(workers, jobs, |job| label(folder, sweep, job))?;
         let mut labelling = Self {
             table: LabelTable {
+                family: Family::of(&sweep.scene),
                 axes: sweep.axes.iter().map(|axis| axis.name.clone()).collect(),
                 rows: Vec::new(),
             },

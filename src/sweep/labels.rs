@@ -1,10 +1,12 @@
 //! The table of labels: one row per job, and the points where replicates are put together.
 
-use crate::classify::{Label, Verdict};
+use crate::classify::{Family, Label, Verdict};
 
 /// Labels of all jobs of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabelTable {
+    /// Whose labels and measures these are: all rows are of this family.
+    pub family: Family,
     /// Names of the axes, in the sweep's order.
     pub axes: Vec<String>,
     /// One row per job, in the sweep's order.

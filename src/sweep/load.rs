@@ -3,7 +3,7 @@
 use super::axis::AxisEntry;
 use super::schema::SWEEP;
 use super::{Axis, PlotSettings, Sweep};
-use crate::classify::Sieves;
+use crate::classify::{Family, Sieves};
 use crate::document::{Document, LoadError, Problem, one_of, suggest};
 use crate::scene::{self, Scene};
 use schemars::JsonSchema;
@@ -89,7 +89,7 @@ fn of_document(document: &Document) -> Result<Sweep, LoadError> {
         problems.push(Problem::new("", "the sweep varies nothing").help(help));
     }
     check_axes(&sweep.axes, &mut problems);
-    check_sieves(&sweep, &mut problems);
+    check_sieves(&sweep, document.tree(), &mut problems);
     document.accept(&problems)?;
     check_plot(&sweep, &mut problems);
     check_grid(&sweep, document, &mut problems);
@@ -187,8 +187,27 @@ fn check_axes(axes: &[Axis], problems: &mut Vec<Problem>) {
     }
 }
 
-/// The spout sieve reads counts that the scene must have asked for.
-fn check_sieves(sweep: &Sweep, problems: &mut Vec<Problem>) {
+/// Sieves must be those of the scene's family, and the spout sieve reads counts that the scene must
+/// have asked for.
+fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
+    let family = Family::of(&sweep.scene);
+    let own = Sieves::names(family);
+    let given = tree["sieves"].as_object().into_iter().flatten();
+    for (name, _) in given.filter(|(name, _)| !own.contains(&name.as_str())) {
+        let message = format!(
+            "`sieves.{name}` is none of the sieves of a {}",
+            family.name()
+        );
+        let help = format!("remove it; those are {}", one_of(own.iter().copied()));
+        problems.push(
+            Problem::new(format!("sieves.{name}"), message)
+                .help(help)
+                .at_key(),
+        );
+    }
+    if family == Family::Silo {
+        return;
+    }
     let (spout, output) = (&sweep.sieves.spout, &sweep.scene.output);
     let pairs = [
         (

@@ -73,6 +73,15 @@ const SIEVES: Kind = Kind::Table(&[
             optional("large", FRACTION),
         ]),
     ),
+    optional("emptied", Kind::Table(&[optional("share", FRACTION)])),
+    optional("arching", Kind::Table(&[optional("window", POSITIVE)])),
+    optional(
+        "flowing",
+        Kind::Table(&[
+            optional("window", POSITIVE),
+            optional("least", Kind::Whole(1)),
+        ]),
+    ),
 ]);
 
 const PLOT: Kind = Kind::Table(&[

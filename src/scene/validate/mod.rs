@@ -131,6 +131,11 @@ impl Scene {
                 Problem::new("spheres.radius", "`spheres.radius` is an empty list")
                     .help("give one radius, or a list such as `[{ radius = 0.004, share = 1 }]`"),
             ),
+            Radii::Shares(shares) if shares.iter().all(|share| share.share == 0.0) => problems
+                .push(
+                    Problem::new("spheres.radius", "all shares of `spheres.radius` are 0")
+                        .help("give one of them a share above 0"),
+                ),
             _ => {}
         }
         let Some(tank) = self.tank.as_ref().and_then(|tank| tank.radius) else {

@@ -1,0 +1,99 @@
+//! The sieve for arches: the outflow has stopped.
+
+use super::outflow::Outflow;
+use crate::classify::{ClassifyError, window};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Threshold of the arching sieve: the outflow has stopped if no grain left in the last window, or
+/// if the run ended because all grains were at rest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ArchingSieve {
+    /// Window (s). A slow outflow has pauses of 1 / rate between two grains, which must be shorter.
+    pub window: f64,
+}
+
+impl Default for ArchingSieve {
+    fn default() -> Self {
+        Self { window: 2.0 }
+    }
+}
+
+impl ArchingSieve {
+    pub(in crate::classify) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
+        window::check("arching.window", self.window, interval)
+    }
+
+    /// Time without an outflow at the end of the run (s).
+    pub(super) fn pause(&self, run: &Outflow<'_>) -> Option<f64> {
+        let last = run.last_exit()?;
+        Some(if run.stopped {
+            (run.record.scene.time.duration - last).max(self.window)
+        } else {
+            run.end - last
+        })
+    }
+
+    /// That time over the window, less 1.
+    pub(super) fn margin(&self, run: &Outflow<'_>) -> Option<f64> {
+        let pause = self.pause(run)?;
+        // A window that ends at the last frame is whole, whatever the last digits of its times say.
+        let pause = if (pause - self.window).abs() < run.tolerance() {
+            self.window
+        } else {
+            pause
+        };
+        Some(pause / self.window - 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::classify::silo::synthetic::{DURATION, OPENED, draining, draining_until, judge};
+    use crate::classify::{Label, Sieves};
+
+    #[test]
+    fn an_arch_holds_for_a_window() {
+        let arching = judge(&draining(50, 2.0));
+        assert_eq!(arching.label, Label::Arching);
+        assert_eq!(arching.silo().unwrap().evidence.arching_margin, Some(0.0));
+        let flowing = judge(&draining(50, 1.95));
+        assert_eq!(flowing.label, Label::Flowing);
+        assert!(flowing.silo().unwrap().evidence.arching_margin.unwrap() < 0.0);
+    }
+
+    #[test]
+    fn a_silo_that_nothing_left_is_blocked_from_its_opening_on() {
+        let verdict = judge(&draining(0, 0.0));
+        assert_eq!(verdict.label, Label::Arching);
+        let pause = verdict.silo().unwrap().evidence.arching_pause.unwrap();
+        assert!((pause - (DURATION - OPENED)).abs() < 1e-9, "{pause}");
+    }
+
+    #[test]
+    fn a_run_that_came_to_rest_needs_no_whole_window() {
+        let end = OPENED + 1.0;
+        let verdict = judge(&draining_until(end, 5, 0.5).at_rest(end));
+        assert_eq!(verdict.label, Label::Arching);
+        // Nothing more would have happened until its duration.
+        let pause = verdict.silo().unwrap().evidence.arching_pause.unwrap();
+        assert!(pause > DURATION - end, "{pause}");
+        let late = draining(5, 0.5).at_rest(DURATION - 0.1);
+        assert_eq!(
+            judge(&late).silo().unwrap().evidence.arching_margin,
+            Some(0.0)
+        );
+    }
+
+    #[test]
+    fn a_window_shorter_than_a_frame_is_refused() {
+        let mut sieves = Sieves::default();
+        sieves.arching.window = 0.01;
+        let error = sieves.check(&draining(1, 1.0).scene).unwrap_err();
+        assert!(
+            error.to_string().contains("`sieves.arching.window`"),
+            "{error}"
+        );
+    }
+}

@@ -1,0 +1,71 @@
+//! The sieve for emptied silos: (nearly) all grains have left.
+
+use super::outflow::Outflow;
+use crate::classify::{ClassifyError, window};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Threshold of the emptied sieve: a silo is empty if this share of its grains has left, since some
+/// may lie for good in corners and on obstacles.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct EmptiedSieve {
+    /// Share of all grains of the scene that must have left.
+    pub share: f64,
+}
+
+impl Default for EmptiedSieve {
+    fn default() -> Self {
+        Self { share: 0.95 }
+    }
+}
+
+impl EmptiedSieve {
+    pub(in crate::classify) fn check(&self) -> Result<(), ClassifyError> {
+        window::check_share("emptied.share", self.share)
+    }
+
+    /// Share of the grains that left, less the threshold.
+    pub(super) fn margin(&self, run: &Outflow<'_>) -> Option<f64> {
+        run.opened
+            .map(|_| run.discharged() / run.grains - self.share)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::classify::silo::synthetic::{draining, judge};
+    use crate::classify::{ClassifyError, Label, Sieves};
+
+    #[test]
+    fn the_share_itself_is_enough() {
+        // Of 200 grains, 190 are 95 %.
+        let emptied = judge(&draining(190, 1.0).at_rest(30.0));
+        assert_eq!(emptied.label, Label::Emptied);
+        assert_eq!(emptied.silo().unwrap().evidence.emptied_margin, Some(0.0));
+        let arching = judge(&draining(189, 1.0).at_rest(30.0));
+        assert_eq!(arching.label, Label::Arching);
+        assert!(arching.silo().unwrap().evidence.emptied_margin.unwrap() < 0.0);
+    }
+
+    #[test]
+    fn an_empty_silo_is_empty_however_late_its_last_grain_left() {
+        let verdict = judge(&draining(200, 0.05));
+        assert_eq!(verdict.label, Label::Emptied);
+        assert!(verdict.silo().unwrap().evidence.flowing_margin.unwrap() >= 0.0);
+    }
+
+    #[test]
+    fn a_share_out_of_range_is_named() {
+        let mut sieves = Sieves::default();
+        sieves.emptied.share = 1.5;
+        let error = sieves.check(&draining(1, 1.0).scene).unwrap_err();
+        assert!(matches!(
+            error,
+            ClassifyError::Threshold {
+                key: "emptied.share",
+                ..
+            }
+        ));
+    }
+}
