@@ -105,7 +105,7 @@ fn shipped_sweeps_have_the_grids_they_promise() {
     assert_eq!(names, ["radius", "omega", "density", "coefficient"]);
     assert_eq!(sweep.jobs().unwrap().len(), 180);
     let of_silos = [
-        ("silo", 9 * 6 * 3),
+        ("silo", 10 * 6 * 3),
         ("silo-quick", 3 * 2),
         ("beverloo", 8 * 2 * 4),
         ("silo-fillings", 2 * 12),

@@ -53,6 +53,7 @@ pub fn draw(
             .collect(),
         panels: vec![Panel {
             head: Vec::new(),
+            bars: Vec::new(),
             x: (0.0, largest),
             y: (0.0, 1.04 * factor * longest),
             lines: times
