@@ -103,6 +103,7 @@ fn new_files_pass_the_check() {
     for (arguments, path, says) in [
         (&["scene", "tank"][..], "tank.toml", "1 job"),
         (&["scene", "a/b/tank.toml"], "a/b/tank.toml", "1 job"),
+        (&["silo", "silo"], "silo.toml", "feed, door, outlet"),
         (&["sweep", "alone"], "alone.toml", "15 jobs"),
         (
             &["sweep", "a/diagram", "--scene", "b/tank.toml"],
@@ -122,7 +123,7 @@ fn new_files_pass_the_check() {
 #[test]
 fn new_files_comment_every_table() {
     let place = Workplace::new();
-    for kind in ["scene", "sweep"] {
+    for kind in ["scene", "sweep", "silo"] {
         place.phase(&["new", kind, kind]).code(0);
         let text = place.read(&format!("{kind}.toml"));
         assert!(text.starts_with("# "), "{text}");

@@ -317,6 +317,24 @@ fn a_run_writes_its_record_its_table_and_says_what_happened() {
 }
 
 #[test]
+fn a_new_silo_fills_rests_and_drains() {
+    let place = Workplace::new();
+    place.phase(&["new", "silo", "mine"]).code(0);
+    let answer = place.phase(&["run", "mine.toml"]).code(0);
+    for event in ["filled", "at rest", "door opened", "emptied"] {
+        assert!(
+            answer.stdout.contains(event),
+            "{event} in {}",
+            answer.stdout
+        );
+    }
+    let check = place
+        .phase(&["check", "mine.toml", "--no-trial", "--verbose"])
+        .code(0);
+    assert!(!check.stdout.contains("WARNING"), "{}", check.stdout);
+}
+
+#[test]
 fn friction_lets_grains_arch() {
     // With an opening of two grains; smooth ones run out.
     let narrow = ("opening = 0.3", "opening = 0.16");
