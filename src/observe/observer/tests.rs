@@ -1,6 +1,7 @@
 //! The observer against the definitions of what it measures.
 
 use super::*;
+use crate::observe::Flow;
 use proptest::prelude::*;
 
 /// A tank of R = 0.06 m with swirling air; frames of 1 ms.
@@ -69,6 +70,32 @@ fn observe(scene: &Scene, frames: &[Spheres]) -> Observations {
         observer.observe(index as f64 * scene.time.frame_interval, &frame.view());
     }
     observer.finish()
+}
+
+#[test]
+fn the_mass_that_is_in_is_that_of_the_spheres_of_the_frame() {
+    let mut spheres = Spheres::at(&[[0.0; 3], [0.1, 0.0, 0.0], [0.2, 0.0, 0.0]]);
+    spheres.mass = vec![0.001, 0.002, 0.004];
+    let flow = Flow {
+        number: &[0, 2, 3],
+        spheres: 5,
+        released: 4,
+        discharged: 1,
+        contacts: 6,
+    };
+    let mut scene = scene();
+    scene.outlet = Some(crate::scene::Outlet { height: -1.0 });
+    let mut observer = Observer::new(&scene, &[0.004; 5]);
+    let view = FrameView {
+        flow: Some(flow),
+        ..spheres.view()
+    };
+    observer.observe(0.0, &view);
+    let observations = observer.finish();
+    assert!(close(observations.mass_inside[0], 0.007));
+    assert_eq!(observations.coordination[0], 2.0);
+    // Without a flow there is nothing to come or go.
+    assert!(observe(&scene, &[spheres]).mass_inside.is_empty());
 }
 
 fn close(measured: f32, expected: f64) -> bool {

@@ -1,0 +1,305 @@
+use super::*;
+use proptest::prelude::*;
+
+fn in_file<T>(content: &str, read: impl FnOnce(&Path) -> T) -> T {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("labels.csv");
+    std::fs::write(&path, content).unwrap();
+    read(&path)
+}
+
+fn written(table: &LabelTable, write: fn(&LabelTable, &Path) -> Result<(), StoreError>) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("labels.csv");
+    write(table, &path).unwrap();
+    std::fs::read_to_string(&path).unwrap()
+}
+
+fn example() -> LabelTable {
+    let row = |seed, label, settle_time| LabelRow {
+        id: format!("0123456789abcde{seed}"),
+        values: vec![0.1 + 0.2, 40.0],
+        seed,
+        verdict: Verdict {
+            label,
+            measures: Measures::Tank(TankMeasures {
+                settle_time,
+                evidence: Evidence {
+                    fluid_margin: Some(-0.9),
+                    ..Evidence::default()
+                },
+                order: OrderParameters {
+                    spout_count: Some(1e-300),
+                    ..OrderParameters::default()
+                },
+            }),
+        },
+    };
+    LabelTable {
+        family: Family::Tank,
+        axes: vec!["radius".to_owned(), "omega".to_owned()],
+        rows: vec![
+            row(1, Label::Pinned, Some(0.25)),
+            row(2, Label::SmallSpout, None),
+            row(3, Label::Pinned, Some(0.75)),
+        ],
+    }
+}
+
+#[test]
+fn a_table_looks_as_documented() {
+    let text = written(&example(), write_labels);
+    let mut lines = text.lines();
+    assert_eq!(
+        lines.next().unwrap(),
+        "id,radius,omega,seed,label,code,settle_time,settle_change,fluid_share,fluid_margin,\
+         pinned_share,pinned_margin,spout_share,spout_margin,spout_peak,hole_radius,\
+         paraboloid_rotation,paraboloid_residual,rotation,mobility,packing_height,spout_count"
+    );
+    assert_eq!(
+        lines.next().unwrap(),
+        "0123456789abcde1,0.30000000000000004,40.0,1,pinned,3,0.25,\
+         ,,-0.9,,,,,,,,,,,,1e-300"
+    );
+    assert!(lines.next().unwrap().contains(",2,small-spout,4,,,"));
+}
+
+#[test]
+fn points_put_the_seeds_together() {
+    assert_eq!(
+        written(&example(), write_points),
+        "radius,omega,label,code,agreement,seeds\n\
+         0.30000000000000004,40.0,pinned,3,0.6666666666666666,3\n"
+    );
+}
+
+#[test]
+fn a_malformed_table_is_refused_with_line_and_reason() {
+    let good = written(&example(), write_labels);
+    for (from, to, message) in [
+        (
+            ",2,small-spout,4,",
+            ",2,small-spout,4",
+            "labels.csv:3: 21 values, but the header line names 22 columns",
+        ),
+        (
+            ",40.0,1,",
+            ",forty,1,",
+            "labels.csv:2: column `omega`: `forty` is not a number",
+        ),
+        (
+            ",40.0,3,",
+            ",40.0,-3,",
+            "labels.csv:4: column `seed`: `-3` is not a whole number",
+        ),
+        (
+            "small-spout",
+            "spout",
+            "labels.csv:3: `spout` is not a label of a tank",
+        ),
+        (
+            "small-spout,4",
+            "arching,6",
+            "labels.csv:3: `arching` is not a label of a tank",
+        ),
+        (
+            "small-spout,4",
+            "small-spout,5",
+            "labels.csv:3: label `small-spout` does not have code 5",
+        ),
+        (
+            "0.25",
+            "soon",
+            "labels.csv:2: column `settle_time`: `soon` is not a number",
+        ),
+        (
+            "-0.9",
+            "x",
+            "labels.csv:2: column `fluid_margin`: `x` is not a number",
+        ),
+        (
+            "settle_change",
+            "change",
+            "labels.csv:1: the header line is not that of a table of labels",
+        ),
+        (
+            "id,",
+            "",
+            "labels.csv:1: the header line is not that of a table of labels",
+        ),
+    ] {
+        let bad = good.replacen(from, to, 1);
+        assert_ne!(bad, good);
+        let found = in_file(&bad, read_labels).unwrap_err().to_string();
+        assert!(found.contains(message), "{found}\nis not\n{message}");
+    }
+    assert!(in_file("", read_labels).is_err());
+}
+
+#[test]
+fn a_row_of_too_few_values_is_not_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("labels.csv");
+    let mut table = example();
+    table.rows[1].values.pop();
+    let message = write_labels(&table, &path).unwrap_err().to_string();
+    assert!(message.contains("labels.csv"), "{message}");
+    assert!(!path.exists());
+}
+
+fn silo() -> LabelTable {
+    let row = |seed, label, rate| LabelRow {
+        id: format!("0123456789abcde{seed}"),
+        values: vec![0.24],
+        seed,
+        verdict: Verdict {
+            label,
+            measures: Measures::Silo(SiloMeasures {
+                evidence: SiloEvidence {
+                    arching_pause: Some(2.5),
+                    ..SiloEvidence::default()
+                },
+                order: SiloOrder {
+                    discharge_rate: rate,
+                    ..SiloOrder::default()
+                },
+            }),
+        },
+    };
+    LabelTable {
+        family: Family::Silo,
+        axes: vec!["opening".to_owned()],
+        rows: vec![
+            row(1, Label::Arching, None),
+            row(2, Label::Emptied, Some(29.7)),
+        ],
+    }
+}
+
+#[test]
+fn a_table_of_a_silo_has_columns_of_its_own() {
+    let text = written(&silo(), write_labels);
+    let mut lines = text.lines();
+    assert_eq!(
+        lines.next().unwrap(),
+        "id,opening,seed,label,code,emptied_margin,arching_pause,arching_margin,flowing_count,\
+         flowing_margin,rest_time,heap_height,packing_fraction,coordination,discharge_rate,\
+         mass_rate,discharged_share,emptying_time"
+    );
+    assert_eq!(
+        lines.next().unwrap(),
+        "0123456789abcde1,0.24,1,arching,6,,2.5,,,,,,,,,,,"
+    );
+    assert!(lines.next().unwrap().contains(",2,emptied,8,,2.5,"));
+    let wrong = text.replace("arching,6", "settled,1");
+    let found = in_file(&wrong, read_labels).unwrap_err().to_string();
+    assert!(
+        found.contains("labels.csv:2: `settled` is not a label of a silo"),
+        "{found}"
+    );
+}
+
+#[test]
+fn a_row_of_another_family_is_not_written() {
+    let mut mixed = silo();
+    mixed.rows[1].verdict = example().rows[0].verdict.clone();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("labels.csv");
+    let message = write_labels(&mixed, &path).unwrap_err().to_string();
+    assert!(
+        message.contains("a row of a tank in the table of a silo"),
+        "{message}"
+    );
+}
+
+/// Measures of a family with these values, as many as it has fields.
+fn measures(family: Family, m: &[Option<f64>]) -> Measures {
+    match family {
+        Family::Tank => Measures::Tank(TankMeasures {
+            settle_time: m[0],
+            evidence: Evidence {
+                settle_change: m[1],
+                fluid_share: m[2],
+                fluid_margin: m[3],
+                pinned_share: m[4],
+                pinned_margin: m[5],
+                spout_share: m[6],
+                spout_margin: m[7],
+                spout_peak: m[8],
+            },
+            order: OrderParameters {
+                hole_radius: m[9],
+                paraboloid_rotation: m[10],
+                paraboloid_residual: m[11],
+                rotation: m[12],
+                mobility: m[13],
+                packing_height: m[14],
+                spout_count: m[15],
+            },
+        }),
+        Family::Silo => Measures::Silo(SiloMeasures {
+            evidence: SiloEvidence {
+                emptied_margin: m[0],
+                arching_pause: m[1],
+                arching_margin: m[2],
+                flowing_count: m[3],
+                flowing_margin: m[4],
+            },
+            order: SiloOrder {
+                rest_time: m[5],
+                heap_height: m[6],
+                packing_fraction: m[7],
+                coordination: m[8],
+                discharge_rate: m[9],
+                mass_rate: m[10],
+                discharged_share: m[11],
+                emptying_time: m[12],
+            },
+        }),
+    }
+}
+
+fn any_row(family: Family, axes: usize) -> impl Strategy<Value = LabelRow> {
+    let finite = || prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL | prop::num::f64::ZERO;
+    (
+        "[0-9a-f]{16}",
+        prop::collection::vec(finite(), axes),
+        any::<u64>(),
+        prop::sample::select(family.labels()),
+        prop::collection::vec(prop::option::of(finite()), 16),
+    )
+        .prop_map(move |(id, values, seed, label, m)| LabelRow {
+            id,
+            values,
+            seed,
+            verdict: Verdict {
+                label,
+                measures: measures(family, &m),
+            },
+        })
+}
+
+fn any_table() -> impl Strategy<Value = LabelTable> {
+    let axes = prop::collection::vec("[a-z_]{1,8}|a, \"quoted\" one|seed", 0..5);
+    let family = prop::sample::select(&[Family::Tank, Family::Silo][..]);
+    (axes, family).prop_flat_map(|(axes, family)| {
+        let rows = prop::collection::vec(any_row(family, axes.len()), 0..6);
+        rows.prop_map(move |rows| LabelTable {
+            family,
+            axes: axes.clone(),
+            rows,
+        })
+    })
+}
+
+proptest! {
+    // Every case makes two files durable, which takes a disk a while.
+    #![proptest_config(ProptestConfig::with_cases(64))]
+    #[test]
+    fn reads_back_the_same_bits(table in any_table()) {
+        let text = written(&table, write_labels);
+        let back = in_file(&text, read_labels).unwrap();
+        prop_assert_eq!(&back, &table);
+        prop_assert_eq!(written(&back, write_labels), text);
+    }
+}
