@@ -99,8 +99,10 @@ impl Cells {
     #[inline]
     pub(super) fn near(&self, i: usize, mut visit: impl FnMut(u32, Vector, f64)) {
         self.rows_about(i, |row| {
-            for at in row {
-                visit(self.index[at], self.position[at], self.radius[at]);
+            let index = &self.index[row.clone()];
+            let spheres = self.position[row.clone()].iter().zip(&self.radius[row]);
+            for (&j, (&centre, &radius)) in index.iter().zip(spheres) {
+                visit(j, centre, radius);
             }
         });
     }
