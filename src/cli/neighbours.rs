@@ -217,9 +217,12 @@ impl Row {
     }
 
     fn name(&self) -> String {
-        let name = self.search.replace('-', " ");
+        let name = match self.search {
+            "verlet-list" => "Verlet list".to_owned(),
+            search => search.replace('-', " "),
+        };
         match self.length {
-            Some(length) => format!("{name}, {length:.4} m"),
+            Some(length) => format!("{name}, {} m", (1e4 * length).round() / 1e4),
             None => name,
         }
     }
