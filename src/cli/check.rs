@@ -253,7 +253,15 @@ fn print_forecast(jobs: &[Job], workers: usize, console: &Console) -> Result<For
     ))?;
     let time = format::duration(forecast.seconds);
     let workers = format::count(workers.min(jobs.len()), "worker");
-    console.result(line("  time", format_args!("about {time} with {workers}")))?;
+    // A silo ends its run when it is empty.
+    let about = match jobs.iter().any(|job| job.scene.has_flow()) {
+        true => "at most about",
+        false => "about",
+    };
+    console.result(line(
+        "  time",
+        format_args!("{about} {time} with {workers}"),
+    ))?;
     console.result(line(
         "  memory",
         format_args!("about {}", format::bytes(forecast.memory)),

@@ -23,7 +23,7 @@ Example: all pairs against cells of 0.25 m in the silo
 pub(crate) struct Arguments {
     /// The scene file (TOML).
     scene: PathBuf,
-    /// Numbers of spheres [default: an eighth, a quarter, half and all of the scene's].
+    /// Numbers of spheres [default: one to eight eighths of the scene's].
     #[arg(long, value_name = "N", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..))]
     count: Vec<u32>,
     /// Side of the cells that are compared with the other searches (m) [default: that of the scene,
@@ -65,7 +65,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         .map(|count| *count as usize)
         .collect();
     if counts.is_empty() {
-        counts.extend([8, 4, 2, 1].map(|part| (scene.spheres.count / part).max(1)));
+        counts.extend((1..=8).map(|part| (part * scene.spheres.count / 8).max(1)));
     }
     counts.sort_unstable();
     counts.dedup();

@@ -9,9 +9,9 @@ use super::{folders, format, interrupt, kind};
 use again::Original;
 use phase::dem::Counts;
 use phase::document::Problem;
-use phase::record::{Milestone, Outcome, RunRecord};
+use phase::record::{Milestone, MilestoneKind, Outcome, RunRecord};
 use phase::run::RunError;
-use phase::scene::Scene;
+use phase::scene::{Scene, Start};
 use phase::store;
 use phase::sweep::work;
 use serde::Serialize;
@@ -152,7 +152,7 @@ fn run(scene: &Scene, console: &Console) -> Result<Option<(RunRecord, f64)>, Fai
     let mut told = 0;
     let result = phase::run::run(scene, &mut |now| {
         let inside = now.counts.map_or(scene.spheres.count, |counts| {
-            counts.released - counts.discharged
+            counts.released - counts.gone()
         });
         let done = (now.share() * steps as f64) as u64;
         let phase = now.counts.as_ref().map(phase_of).unwrap_or_default();
@@ -211,6 +211,8 @@ struct Answer<'a> {
     frames: usize,
     /// What happened once, and when (s), where spheres come or go.
     milestones: Vec<Milestone>,
+    /// What was to happen and did not.
+    unmet: Vec<String>,
     /// Time (s) and every scalar observable of the last frame, in the units of the record.
     last_frame: BTreeMap<&'static str, f64>,
     /// Whether a job that was run again gave the bits of the sweep's record; none without one.
@@ -256,10 +258,41 @@ impl<'a> Answer<'a> {
             sphere_steps: work::sphere_steps_of(record),
             frames: observations.frames(),
             milestones: record.milestones.clone(),
+            unmet: unmet(record),
             last_frame,
             same_bits,
         }
     }
+}
+
+/// What a run was to do and did not, where spheres come and go.
+fn unmet(record: &RunRecord) -> Vec<String> {
+    let scene = &record.scene;
+    let happened = |kind| record.milestones.iter().any(|it| it.kind == kind);
+    let last = |series: &[f32]| series.last().map_or(0.0, |count| *count);
+    let (observations, all) = (&record.observations, record.radius.len());
+    let mut unmet = Vec::new();
+    if matches!(scene.start, Start::Feed { .. }) && !happened(MilestoneKind::Filled) {
+        unmet.push(format!(
+            "NOT FILLED: {} of {all} spheres came in; the others found their place taken, or the time \
+             was up",
+            last(&observations.released)
+        ));
+    }
+    if scene.rest.is_some() && !happened(MilestoneKind::AtRest) && !happened(MilestoneKind::Emptied)
+    {
+        unmet.push("NEVER AT REST".to_owned());
+    }
+    if scene.door.is_some() && !happened(MilestoneKind::DoorOpened) {
+        unmet.push("THE DOOR NEVER OPENED".to_owned());
+    }
+    let spilled = last(&observations.spilled);
+    if spilled > 0.0 {
+        unmet.push(format!(
+            "SPILLED: {spilled} spheres left before the door opened, over the rim or beside the silo"
+        ));
+    }
+    unmet
 }
 
 /// How the run ended, and the state of its last frame.
@@ -283,6 +316,9 @@ fn summary(record: &RunRecord, seconds: f64) -> String {
             milestone.kind.name(),
             format::time(milestone.time)
         );
+    }
+    for unmet in unmet(record) {
+        text += &format!("\n  {unmet}");
     }
     if let Some(time) = observations.time.last() {
         text += &format!("\nlast frame, at {}", format::time(*time));

@@ -24,7 +24,9 @@ pub enum StudyError {
     #[error("the scene is unstable: {0}")]
     Unstable(#[from] Instability),
     /// The spheres do not come in before the scene's end.
-    #[error("{count} spheres are not in after time.duration = {duration} s; extend it")]
+    #[error(
+        "{count} spheres are not in after time.duration = {duration} s: extend it, or make room for them"
+    )]
     NotFilled {
         /// Number of spheres.
         count: usize,

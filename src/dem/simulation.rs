@@ -83,11 +83,11 @@ impl Simulation {
                 None
             }
         };
-        let process = Process::of_scene(scene, feed);
+        let present = particles.len() - particles.fixed;
+        let process = Process::of_scene(scene, feed, present);
         if process.is_some() {
-            let moving = particles.len() - particles.fixed;
             particles.number = (0..particles.fixed as u32)
-                .chain(0..moving as u32)
+                .chain(0..present as u32)
                 .collect();
         }
         let tank = scene.tank.as_ref();
@@ -196,6 +196,7 @@ impl Simulation {
     /// Everything an observer may see now.
     pub fn frame(&mut self) -> FrameView<'_> {
         let contacts = self.engine.contacts();
+        let counts = self.counts();
         let particles = self.engine.particles();
         let moving = particles.fixed..;
         let vectors = [&particles.position, &particles.velocity, &particles.spin];
@@ -221,11 +222,12 @@ impl Simulation {
             mass: &particles.mass[moving.clone()],
             inertia: particles.inertia.get(moving.clone()).unwrap_or_default(),
             elastic_energy: contacts.elastic_energy,
-            flow: self.process.as_ref().map(|process| Flow {
+            flow: counts.map(|counts| Flow {
                 number: &particles.number[moving],
-                spheres: self.radius.len(),
-                released: process.released(),
-                discharged: process.discharged(),
+                spheres: counts.all,
+                released: counts.released,
+                discharged: counts.discharged,
+                spilled: counts.spilled,
                 contacts: contacts.of_moving_spheres,
             }),
         }

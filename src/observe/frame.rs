@@ -34,8 +34,10 @@ pub struct Flow<'a> {
     pub spheres: usize,
     /// Spheres that came in so far.
     pub released: usize,
-    /// Spheres that left so far.
+    /// Spheres that left so far, as they should: not while a door was closed.
     pub discharged: usize,
+    /// Spheres that left while the door was still closed.
+    pub spilled: usize,
     /// Contacts of the spheres of the frame, one between two of them counted for each.
     pub contacts: usize,
 }

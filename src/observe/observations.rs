@@ -91,7 +91,7 @@ scalars! {
     kinetic "J" "Translational kinetic energy of all spheres";
     rotational "J" "Rotational kinetic energy of all spheres";
     gravitational "J" "Gravitational energy m g z of all spheres";
-    elastic "J" "Elastic energy of all contacts";
+    elastic "J" "Elastic energy of all contacts, that of tangential springs left out";
     height_mean "m" "Mean height z of the centres";
     height_max "m" "Height z of the highest centre";
     hole_radius "m" "Distance from the axis of the centre next to it";
@@ -102,7 +102,8 @@ scalars! {
 }
 {
     released "1" "Number of spheres that came in";
-    discharged "1" "Number of spheres that left";
+    discharged "1" "Number of spheres that left, but for those that spilled";
+    spilled "1" "Number of spheres that left while the door was still closed: over the rim";
     discharge_rate "1/s" "Number of spheres that left per second, over the last second or since the start";
     coordination "1" "Mean number of contacts of a sphere, not a number without spheres";
     mass_inside "kg" "Mass of all spheres that are in";

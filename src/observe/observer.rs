@@ -128,6 +128,7 @@ impl Observer {
         let observations = &mut self.observations;
         observations.released.push(flow.released as f32);
         observations.discharged.push(flow.discharged as f32);
+        observations.spilled.push(flow.spilled as f32);
         let now = observations.discharged.len() - 1;
         let before = now.saturating_sub(self.second);
         let left = flow.discharged as f32 - observations.discharged[before];

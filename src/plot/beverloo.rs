@@ -145,7 +145,9 @@ fn fitted(source: &Source<'_>, line: &Series) -> Result<FittedLine, PlotError> {
 
 /// The bed of a line: its packing fraction at rest, mean over all runs, over the mean area of a grain.
 fn bed(source: &Source<'_>, line: &Series) -> Option<Bed> {
-    let scene = &source.sweep.scene;
+    // Other axes may change the grains or gravity from line to line.
+    let (_, point) = line.points.first()?;
+    let scene = source.sweep.scene_at(&point.values).ok()?;
     let fractions: Vec<f64> = runs(source, line)
         .filter_map(|(_, order)| order.packing_fraction)
         .collect();
@@ -159,7 +161,8 @@ fn bed(source: &Source<'_>, line: &Series) -> Option<Bed> {
 
 fn curve(fitted: &FittedLine, line: &Series, axis: &GridAxis, end: f64) -> Line {
     let constants = [fitted.fit.c.value, fitted.fit.k.value];
-    let from = constants[1].max(0.0);
+    // From the width at which the rate is zero, as the axis shows it.
+    let from = axis.factor * fitted.bed.diameter * constants[1].max(0.0);
     let at = |sample: usize| {
         let shown = from + (end - from) * sample as f64 / SAMPLES as f64;
         (

@@ -28,7 +28,7 @@ pub(super) struct Map {
 
 /// All maps.
 #[rustfmt::skip]
-pub(super) static MAPS: [Map; 29] = [
+pub(super) static MAPS: [Map; 30] = [
     map("settle-time", "settle time", "s", |verdict| verdict.tank()?.settle_time),
     map("hole-radius", "hole radius / $R$", "", |verdict| verdict.tank()?.order.hole_radius),
     signed(map("paraboloid-rotation", "paraboloid rotation", "rad/s", |verdict| verdict.tank()?.order.paraboloid_rotation)),
@@ -54,6 +54,7 @@ pub(super) static MAPS: [Map; 29] = [
     silo(map("discharged-share", "share of the grains that left", "", |verdict| verdict.silo()?.order.discharged_share)),
     silo(map("emptying-time", "time to empty", "s", |verdict| verdict.silo()?.order.emptying_time)),
     silo(evidence(signed(map("emptied-margin", "margin of the emptied sieve", "", |verdict| verdict.silo()?.evidence.emptied_margin)))),
+    silo(evidence(map("over-opening", "grains over the opening at the end", "", |verdict| verdict.silo()?.evidence.over_opening))),
     silo(evidence(map("arching-pause", "time without an outflow", "s", |verdict| verdict.silo()?.evidence.arching_pause))),
     silo(evidence(signed(map("arching-margin", "margin of the arching sieve", "", |verdict| verdict.silo()?.evidence.arching_margin)))),
     silo(evidence(map("flowing-count", "grains in the last window", "", |verdict| verdict.silo()?.evidence.flowing_count))),

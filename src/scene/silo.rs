@@ -157,7 +157,7 @@ impl Hopper {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rest {
-    /// Kinetic energy of all grains together (J) below which they may be at rest.
+    /// Translational kinetic energy of all grains together (J) below which they may be at rest.
     pub kinetic_energy: f64,
     /// Time for which it must stay below that (s). A grain at the top of its bounce is slow for an
     /// instant, but not for long: g times this should be far above the speed of one grain with that

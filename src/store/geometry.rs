@@ -8,6 +8,10 @@ use std::path::Path;
 /// Most fixed spheres that a file may announce.
 const MOST_SPHERES: u64 = 10_000_000;
 
+/// Largest length that a file may hold (m), and its least radius, as in scene files.
+const LARGEST: f64 = 1e9;
+const LEAST_RADIUS: f64 = 1e-9;
+
 /// Reads the fixed spheres of a silo, whose lengths are in `unit`. Blank lines and lines that
 /// start with `#` are skipped.
 ///
@@ -76,13 +80,24 @@ fn sphere(line: &str, unit: LengthUnit) -> Result<FixedSphere, String> {
             fields.len()
         ));
     };
-    let metres = |field| text::number(field).map(|value| value / unit.per_metre());
+    let metres = |field| {
+        let value = text::number(field)? / unit.per_metre();
+        if value.abs() > LARGEST {
+            return Err(format!(
+                "`{field}` is {value:e} m; {LARGEST:e} m is the most"
+            ));
+        }
+        Ok(value)
+    };
     let position = [metres(x)?, 0.0, metres(height)?];
     match metres(radius)? {
-        value if value > 0.0 => Ok(FixedSphere {
+        value if value >= LEAST_RADIUS => Ok(FixedSphere {
             position,
             radius: value,
         }),
+        value if value > 0.0 => Err(format!(
+            "a radius of {value:e} m is too small; {LEAST_RADIUS:e} m is the least"
+        )),
         _ => Err(format!("a radius must be above zero, but is `{radius}`")),
     }
 }

@@ -79,7 +79,7 @@ impl Sweep {
     }
 
     /// The scene of a point of the grid, checked.
-    pub(super) fn scene_at(&self, values: &[f64]) -> Result<Scene, PointError> {
+    pub(crate) fn scene_at(&self, values: &[f64]) -> Result<Scene, PointError> {
         let fail = |problems| PointError {
             point: self.describe(values),
             problems,

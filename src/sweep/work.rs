@@ -39,15 +39,18 @@ pub fn sphere_steps_of(record: &RunRecord) -> u64 {
     let Observations {
         released,
         discharged,
+        spilled,
         ..
     } = &record.observations;
     if released.is_empty() {
         return sphere_steps_run(&record.scene, &record.outcome);
     }
     let (steps, _) = run::frames(&record.scene);
-    let inside = released.iter().zip(discharged);
     // The first frame is the start.
-    inside.skip(1).map(|(r, d)| (r - d) as u64 * steps).sum()
+    (1..released.len())
+        .map(|frame| released[frame] - discharged[frame] - spilled[frame])
+        .map(|inside| inside as u64 * steps)
+        .sum()
 }
 
 /// Number of workers to use by default: all cores this process may use.

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Threshold of the arching sieve: the outflow has stopped if no grain left in the last window, or
-/// if the run ended because all grains were at rest.
+/// if the run ended because all grains were at rest. It is an arch only if grains are over the opening.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ArchingSieve {
@@ -95,5 +95,29 @@ mod tests {
             error.to_string().contains("`sieves.arching.window`"),
             "{error}"
         );
+    }
+
+    /// Symptom: a silo with a flat bottom that had drained but for its corners was arching. Cause:
+    /// nothing asked whether any grain was over the opening.
+    #[test]
+    fn grains_beside_the_opening_are_no_arch() {
+        let mut record = draining(180, 3.0);
+        assert_eq!(judge(&record).label, Label::Arching);
+        // 20 grains left, all of them far to the side.
+        let mut last = record.snapshots[0].clone();
+        last.time = DURATION;
+        last.position.fill(f64::NAN);
+        for grain in 0..20 {
+            last.position[[grain, 0]] = 20.0 + 2.0 * grain as f64;
+            last.position[[grain, 2]] = -38.0;
+        }
+        record.snapshots.push(last);
+        let verdict = judge(&record);
+        assert_eq!(verdict.label, Label::Emptied);
+        assert_eq!(verdict.silo().unwrap().evidence.over_opening, Some(0.0));
+        // One that sits over it holds nothing up by itself, but something holds it.
+        let last = record.snapshots.last_mut().unwrap();
+        last.position[[0, 0]] = 1.0;
+        assert_eq!(judge(&record).label, Label::Arching);
     }
 }

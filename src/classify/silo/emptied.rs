@@ -6,7 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Threshold of the emptied sieve: a silo is empty if this share of its grains has left, since some
-/// may lie for good in corners and on obstacles.
+/// may lie for good in corners and on obstacles. It is also empty if the outflow has stopped (see
+/// the arching sieve) and no grain is over the opening.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EmptiedSieve {

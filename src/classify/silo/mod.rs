@@ -45,6 +45,9 @@ pub struct SiloEvidence {
     pub arching_pause: Option<f64>,
     /// That time over the window, less 1.
     pub arching_margin: Option<f64>,
+    /// Number of grains over the opening at the end; empty in a scene whose geometry has no door to
+    /// tell where that is. Without any nothing blocks it, and what is left lies beside it.
+    pub over_opening: Option<f64>,
     /// Number of grains that left in the last window.
     pub flowing_count: Option<f64>,
     /// That number over the threshold, less 1.
@@ -62,11 +65,14 @@ pub(super) fn judge(
         emptied_margin: sieves.emptied.margin(&run),
         arching_pause: sieves.arching.pause(&run),
         arching_margin: sieves.arching.margin(&run),
+        over_opening: run.over_opening(),
         flowing_count: sieves.flowing.count(&run),
         flowing_margin: sieves.flowing.margin(&run),
     };
     let yes = |margin: Option<f64>| margin.is_some_and(|margin| margin >= 0.0);
-    let label = if yes(evidence.emptied_margin) {
+    // What could leave has left.
+    let drained = yes(evidence.arching_margin) && evidence.over_opening == Some(0.0);
+    let label = if yes(evidence.emptied_margin) || drained {
         Label::Emptied
     } else if yes(evidence.arching_margin) {
         Label::Arching

@@ -98,6 +98,26 @@ impl<'a> Outflow<'a> {
             .map_or_else(|| self.discharged(), |&it| f64::from(it))
     }
 
+    /// Number of grains over the opening at the end: above the door's discs, no farther aside than
+    /// these reach.
+    pub(super) fn over_opening(&self) -> Option<f64> {
+        self.opened?;
+        let fixed = self.record.scene.geometry.as_ref()?.spheres();
+        let ends = |sign: f64| {
+            let door = fixed.door.iter();
+            door.map(|disc| disc.position[0] + sign * disc.radius)
+                .reduce(if sign < 0.0 { f64::min } else { f64::max })
+        };
+        let (left, right) = (ends(-1.0)?, ends(1.0)?);
+        let heights = fixed.door.iter().map(|disc| disc.position[2]);
+        let bottom = heights.reduce(f64::min)?;
+        let last = self.record.snapshots.last()?;
+        let grains = last.position.rows().into_iter();
+        // One that has left is nowhere (NaN).
+        let over = grains.filter(|at| (left..=right).contains(&at[0]) && at[2] > bottom);
+        Some(over.count() as f64)
+    }
+
     /// Times that differ by less are equal: half a time step.
     pub(super) fn tolerance(&self) -> f64 {
         0.5 * self.record.scene.time.dt

@@ -46,3 +46,77 @@ impl TangentialLaw for CundallStrack {
         touch.traction(force)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dem::vector::Vector;
+
+    const DT: f64 = 1e-3;
+
+    /// A contact along x, whose surface slides with `speed` (m/s) along z.
+    fn touch(speed: f64, normal: Vector) -> Touch {
+        let along = Vector::new(-normal.z, 0.0, normal.x);
+        Touch {
+            normal,
+            velocity: along * speed,
+            spin: [Vector::ZERO; 2],
+            lever: [0.04, 0.04],
+            inertia: [1e-6; 2],
+            lesser_mass: 1e-3,
+            overlap: 1e-4,
+            effective_radius: 0.02,
+            normal_force: 2.0,
+        }
+    }
+
+    fn slide(law: CundallStrack, spring: &mut Spring, speed: f64, steps: u32) -> f64 {
+        let mut force = 0.0;
+        for _ in 0..steps {
+            force = law
+                .traction(&touch(speed, Vector::new(1.0, 0.0, 0.0)), spring)
+                .force
+                .z;
+        }
+        force
+    }
+
+    #[test]
+    fn it_sticks_slides_and_turns_back_like_a_spring_with_a_slider() {
+        // k_t = 50 N/m, cap mu F_n = 0.6 N, reached after 12 mm.
+        let law = CundallStrack::new(0.3, 50.0, 0.0, DT);
+        let mut spring = Spring::default();
+        let close =
+            |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found}");
+        close(slide(law, &mut spring, 0.1, 100), -0.5);
+        close(slide(law, &mut spring, 0.1, 100), -0.6);
+        // It unloads at once, by k_t du, however far it slid.
+        close(slide(law, &mut spring, -0.1, 100), -0.6 + 0.5);
+        close(slide(law, &mut spring, -0.1, 300), 0.6);
+    }
+
+    #[test]
+    fn spring_and_dashpot_are_capped_together() {
+        // b_t u = 0.5 N: of the 0.6 N that friction can carry, 0.1 N are left to the spring.
+        let law = CundallStrack::new(0.3, 50.0, 5.0, DT);
+        let mut spring = Spring::default();
+        let force = slide(law, &mut spring, 0.1, 1000);
+        assert!((force + 0.6).abs() < 1e-12, "{force}");
+        assert!((spring.force.z + 0.1).abs() < 1e-12, "{:?}", spring.force);
+        // Where the sliding stops the spring is all there is.
+        let force = slide(law, &mut spring, 0.0, 1);
+        assert!((force + 0.1).abs() < 1e-12, "{force}");
+    }
+
+    #[test]
+    fn the_spring_turns_with_the_pair() {
+        let law = CundallStrack::new(0.3, 50.0, 0.0, DT);
+        let mut spring = Spring::default();
+        slide(law, &mut spring, 0.1, 100);
+        let (sine, cosine) = libm::sincos(0.7);
+        let normal = Vector::new(cosine, 0.0, sine);
+        let force = law.traction(&touch(0.0, normal), &mut spring).force;
+        assert!((force.norm() - 0.5).abs() < 1e-12);
+        assert!(force.dot(normal).abs() < 1e-12);
+    }
+}

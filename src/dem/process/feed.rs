@@ -35,7 +35,8 @@ impl Feed {
 
     /// The next step after `step` at which a sphere may come in.
     pub(super) fn due_after(&self, step: u64) -> Option<u64> {
-        (!self.waiting.is_empty()).then_some((step / self.interval + 1) * self.interval)
+        // Without spheres there may be no interval.
+        (!self.waiting.is_empty()).then(|| (step / self.interval + 1) * self.interval)
     }
 
     /// Lets the next sphere in, if it is time and its place is free.

@@ -32,7 +32,10 @@ pub(super) struct Process {
     outlet: Option<f64>,
     leak: Option<LeakWatch>,
     milestones: Vec<Milestone>,
+    /// Spheres that were in from the start.
+    present: usize,
     discharged: usize,
+    spilled: usize,
     ended: bool,
 }
 
@@ -43,8 +46,10 @@ pub struct Counts {
     pub all: usize,
     /// Spheres that came in.
     pub released: usize,
-    /// Spheres that left.
+    /// Spheres that left, as they should: not while a door was closed.
     pub discharged: usize,
+    /// Spheres that left while the door was still closed: over the rim, or never in the silo.
+    pub spilled: usize,
     /// Whether a door is still to open.
     pub is_closed: bool,
     /// Whether spheres can leave.
@@ -52,10 +57,15 @@ pub struct Counts {
 }
 
 impl Counts {
+    /// Spheres that left, one way or the other.
+    pub fn gone(&self) -> usize {
+        self.discharged + self.spilled
+    }
+
     /// The share of all ways in and, where spheres can leave, out that spheres went.
     pub fn share(&self) -> f64 {
         let (done, ways) = match self.can_leave {
-            true => (self.released + self.discharged, 2 * self.all),
+            true => (self.released + self.gone(), 2 * self.all),
             false => (self.released, self.all),
         };
         done as f64 / ways.max(1) as f64
@@ -71,7 +81,8 @@ struct Door {
 
 impl Process {
     /// What a scene's spheres go through; none if they all stay from the start to the end.
-    pub(super) fn of_scene(scene: &Scene, feed: Option<Feed>) -> Option<Self> {
+    /// `present` spheres are in from the start, and move.
+    pub(super) fn of_scene(scene: &Scene, feed: Option<Feed>, present: usize) -> Option<Self> {
         let dt = scene.time.dt;
         let active = feed.is_some()
             || scene.door.is_some()
@@ -93,7 +104,9 @@ impl Process {
                 outlet: scene.outlet.as_ref().map(|outlet| outlet.height),
                 leak: LeakWatch::of_scene(scene, &fixed),
                 milestones: Vec::new(),
+                present,
                 discharged: 0,
+                spilled: 0,
                 ended: false,
             }
         })
@@ -115,21 +128,12 @@ impl Process {
     pub(super) fn counts(&self, all: usize) -> Counts {
         Counts {
             all,
-            released: self.feed.released(),
+            released: self.present + self.feed.released(),
             discharged: self.discharged,
+            spilled: self.spilled,
             is_closed: self.door.is_some(),
             can_leave: self.outlet.is_some(),
         }
-    }
-
-    /// Spheres that came in so far.
-    pub(super) fn released(&self) -> usize {
-        self.feed.released()
-    }
-
-    /// Spheres that left so far.
-    pub(super) fn discharged(&self) -> usize {
-        self.discharged
     }
 
     /// What happened so far.
@@ -190,7 +194,10 @@ impl Process {
         let keep: Vec<bool> = (0..particles.len()).map(is_in).collect();
         let gone = keep.iter().filter(|keep| !**keep).count();
         if gone > 0 {
-            self.discharged += gone;
+            match self.door {
+                Some(_) => self.spilled += gone,
+                None => self.discharged += gone,
+            }
             engine.retain(&keep);
         }
     }
@@ -229,7 +236,10 @@ impl Process {
         }
         let inside = particles.len() - particles.fixed;
         if inside == 0 {
-            self.note(step, MilestoneKind::Emptied);
+            // A silo whose grains all fell beside it was never full.
+            if self.door.is_none() {
+                self.note(step, MilestoneKind::Emptied);
+            }
             self.ended = true;
         } else if let (Some(since), None) = (at_rest, &self.door) {
             self.note(since, MilestoneKind::AtRest);

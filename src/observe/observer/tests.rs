@@ -81,6 +81,7 @@ fn the_mass_that_is_in_is_that_of_the_spheres_of_the_frame() {
         spheres: 5,
         released: 4,
         discharged: 1,
+        spilled: 0,
         contacts: 6,
     };
     let mut scene = scene();

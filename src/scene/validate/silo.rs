@@ -4,12 +4,17 @@ use super::{rounded, time};
 use crate::document::{Problem, number};
 use crate::scene::{Friction, Geometry, Hopper, Scene, Shape, Start};
 
+/// Least time for which spheres must be slow to be at rest (s): two looks at them.
+const LEAST_HOLD: f64 = 0.02;
+
 impl Scene {
     pub(super) fn check_silo(&self, problems: &mut Vec<Problem>) {
         self.check_discs(problems);
         self.check_geometry(problems);
         self.check_door(problems);
         self.check_feed(problems);
+        self.check_rest(problems);
+        self.check_outlet(problems);
         self.check_comings_and_goings(problems);
     }
 
@@ -117,10 +122,55 @@ impl Scene {
             let help = "list the spheres of a door in [geometry], or remove [door]";
             problems.push(Problem::new("door", message).help(help));
         }
+        if let Some(opens) = door.opens
+            && opens >= self.time.duration
+        {
+            problems.push(too_late("door.opens", opens, "the door would open", self));
+        }
         if door.opens.is_none() && self.rest.is_none() {
             let message = "[door] opens when all is at rest, but nothing says when that is";
             let help = "add [rest] with `kinetic_energy`, or a time `opens` to [door]";
             problems.push(Problem::new("door", message).help(help));
+        }
+    }
+
+    fn check_rest(&self, problems: &mut Vec<Problem>) {
+        let Some(rest) = &self.rest else { return };
+        if rest.hold >= self.time.duration {
+            problems.push(too_late("rest.hold", rest.hold, "rest would be over", self));
+        }
+        if rest.hold < LEAST_HOLD {
+            let message = format!(
+                "`rest.hold` = {} s is no longer than the time between two looks at the spheres",
+                number(rest.hold)
+            );
+            let help = format!("use {} or more", number(LEAST_HOLD));
+            problems.push(Problem::new("rest.hold", message).help(help));
+        }
+    }
+
+    fn check_outlet(&self, problems: &mut Vec<Problem>) {
+        let Some(outlet) = &self.outlet else { return };
+        let mut refuse = |what: &str| {
+            let message = format!(
+                "the outlet, at {} m, is not below {what}",
+                number(outlet.height)
+            );
+            problems.push(Problem::new("outlet.height", message).help("use a lower one"));
+        };
+        let start = match &self.start {
+            Start::Feed { position, .. } => Some(position[2]),
+            Start::List { spheres } => spheres.iter().map(|it| it.position[2]).reduce(f64::min),
+            Start::Random { z_min, .. } => Some(*z_min),
+            Start::File { .. } => None,
+        };
+        if start.is_some_and(|start| start <= outlet.height) {
+            refuse("where spheres start");
+        } else if self
+            .lowest_support()
+            .is_some_and(|support| support <= outlet.height)
+        {
+            refuse("all that holds spheres: they would leave before they are out");
         }
     }
 
@@ -141,6 +191,15 @@ impl Scene {
                 *interval,
                 "time.dt",
                 dt,
+            ));
+        }
+        let last = (self.spheres.count - 1) as f64 * interval;
+        if last >= self.time.duration {
+            problems.push(too_late(
+                "start.interval",
+                last,
+                "the last sphere would come in",
+                self,
             ));
         }
         let largest = self.radius_range().1;
@@ -185,6 +244,16 @@ impl Scene {
             }
         }
     }
+}
+
+/// A problem: something would happen when the run is over.
+fn too_late(key: &str, time: f64, what: &str, scene: &Scene) -> Problem {
+    let message = format!(
+        "{what} at {} s, but the run ends at `time.duration` = {} s",
+        rounded(time),
+        number(scene.time.duration)
+    );
+    Problem::new(key, message).help("make it earlier, or the duration longer")
 }
 
 fn check_hopper(hopper: &Hopper, problems: &mut Vec<Problem>) {

@@ -182,13 +182,13 @@ fn a_table_of_a_silo_has_columns_of_its_own() {
     let mut lines = text.lines();
     assert_eq!(
         lines.next().unwrap(),
-        "id,opening,seed,label,code,emptied_margin,arching_pause,arching_margin,flowing_count,\
+        "id,opening,seed,label,code,emptied_margin,arching_pause,arching_margin,over_opening,flowing_count,\
          flowing_margin,rest_time,heap_height,packing_fraction,coordination,discharge_rate,\
          mass_rate,discharged_share,emptying_time"
     );
     assert_eq!(
         lines.next().unwrap(),
-        "0123456789abcde1,0.24,1,arching,6,,2.5,,,,,,,,,,,"
+        "0123456789abcde1,0.24,1,arching,6,,2.5,,,,,,,,,,,,"
     );
     assert!(lines.next().unwrap().contains(",2,emptied,8,,2.5,"));
     let wrong = text.replace("arching,6", "settled,1");
@@ -243,6 +243,7 @@ fn measures(family: Family, m: &[Option<f64>]) -> Measures {
                 arching_pause: m[1],
                 arching_margin: m[2],
                 flowing_count: m[3],
+                over_opening: m[13],
                 flowing_margin: m[4],
             },
             order: SiloOrder {
