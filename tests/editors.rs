@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use support::{TinySweep, Workplace, scene_file};
 
 /// The commands that answer in JSON are tested below; these are all.
-const COMMANDS: [&str; 14] = [
+const COMMANDS: [&str; 15] = [
     "sweep",
     "classify",
     "plot",
@@ -19,6 +19,7 @@ const COMMANDS: [&str; 14] = [
     "view",
     "check",
     "neighbours",
+    "verify",
     "status",
     "new",
     "schema",

@@ -2,10 +2,13 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on should panic")]
 
+mod support;
+
 use phase::scene::Integrator;
 use phase::verify::{self, Case, Tolerance};
 use std::collections::BTreeSet;
 use std::fmt::Write;
+use support::Workplace;
 
 fn report(case: &Case, integrator: Integrator) -> Option<String> {
     let mut lines = format!("{} ({integrator:?})", case.name);
@@ -98,4 +101,45 @@ fn an_unknown_parameter_is_refused() {
                setup = { family = \"cradle\", colour = 1 }";
     let error = verify::parse(row).unwrap_err().to_string();
     assert!(error.contains("colour"), "{error}");
+}
+
+#[test]
+fn the_program_prints_what_it_verified() {
+    let place = Workplace::new();
+    let answer = place
+        .phase(&["verify", "--case", "parabola", "--out", "verified"])
+        .code(0)
+        .says("ok      flight: parabola of a thrown grain (velocity-verlet), 2000 steps")
+        .says("1 run: 1 passed, 0 failed");
+    assert!(answer.stdout.contains("expected   -1.062000000e1"));
+    let table = place.read("verified/verification.csv");
+    assert!(
+        table.starts_with("family,case,integrator,quantity,expected,measured,error,tolerance,")
+    );
+    assert_eq!(table.lines().count(), 5);
+    let figure = place.read("verified/verification.svg");
+    assert!(figure.contains("flight: parabola of a thrown grain"));
+    assert!(place.path("verified/verification.png").exists());
+
+    let json = place
+        .phase(&["verify", "--family", "step-limit", "--json"])
+        .code(0);
+    let json: serde_json::Value = serde_json::from_str(&json.stdout).unwrap();
+    assert_eq!(json["failed"], 0);
+    assert_eq!(json["checks"][0]["family"], "step-limit");
+    assert_eq!(json["checks"][0]["passed"], true);
+}
+
+#[test]
+fn what_is_not_verified_is_refused() {
+    let place = Workplace::new();
+    place
+        .phase(&["verify", "--family", "impacts"])
+        .code(2)
+        .complains("there is no family `impacts`; the families are impact, dashpot");
+    place.phase(&["verify", "--case", "no such case"]).code(2);
+    place
+        .phase(&["verify", "--list", "--case", "parabola"])
+        .code(0)
+        .says("x + v t + a t^2 / 2");
 }

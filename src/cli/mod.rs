@@ -21,6 +21,7 @@ mod run;
 mod schema;
 mod status;
 mod sweep;
+mod verify;
 mod view;
 
 use clap::{Args, Parser, Subcommand};
@@ -76,6 +77,7 @@ enum Command {
     Check(check::Arguments),
     Neighbours(neighbours::Arguments),
     Status(status::Arguments),
+    Verify(verify::Arguments),
     New(new::Arguments),
     Schema(schema::Arguments),
     Reference(reference::Arguments),
@@ -96,6 +98,7 @@ impl Command {
             Self::Check(arguments) => arguments.json,
             Self::Neighbours(arguments) => arguments.json,
             Self::Status(arguments) => arguments.json,
+            Self::Verify(arguments) => arguments.json,
             _ => false,
         }
     }
@@ -115,6 +118,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Check(arguments) => check::main(&arguments, &console),
         Command::Neighbours(arguments) => neighbours::main(&arguments, &console),
         Command::Status(arguments) => status::main(&arguments, &console),
+        Command::Verify(arguments) => verify::main(&arguments, &console),
         Command::New(arguments) => new::main(&arguments, &console),
         Command::Schema(arguments) => schema::main(&arguments, &console),
         Command::Reference(arguments) => reference::main(&arguments, &console),

@@ -2,6 +2,7 @@
 
 use super::style::{self, Drawn, Fill, SMALL, Sheet, letters, px};
 use super::text;
+use plotters::element::Circle;
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{BLACK, Color, RGBColor, WHITE};
 
@@ -23,6 +24,8 @@ pub(super) enum Key {
     Curve,
     /// A line of a chart.
     Line(RGBColor),
+    /// A dot.
+    Dot(RGBColor),
 }
 
 /// An entry of a legend.
@@ -93,6 +96,10 @@ fn draw_key(sheet: &Sheet<'_>, key: Key, (left, middle): (i32, i32), cell: i32) 
             style::disagreement(sheet, corners, agreement, cell)?;
         }
         Key::Curve => return style::curve(sheet, &[(left, middle), (right, middle)]),
+        Key::Dot(color) => {
+            let middle = (left.midpoint(right), middle);
+            return sheet.draw(&Circle::new(middle, px(3), color.filled()));
+        }
         Key::Line(color) => return style::line(sheet, &[(left, middle), (right, middle)], color),
     }
     style::outline(sheet, corners, BLACK.mix(0.6).stroke_width(4))

@@ -34,6 +34,7 @@ mod style;
 mod svg;
 mod text;
 mod tracks;
+pub mod verification;
 
 pub use beverloo::{FittedLine, fitted_lines};
 pub use svg::Svg;

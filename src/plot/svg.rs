@@ -74,6 +74,23 @@ impl Svg {
         Self::with_metadata(metadata, size, body)
     }
 
+    /// The same for a figure of what the program itself does.
+    pub(super) fn of_program(
+        figure: &str,
+        title: String,
+        program: &Program,
+        size: (u32, u32),
+        body: &str,
+    ) -> Self {
+        let metadata = vec![
+            ("Title", title),
+            ("Software", format!("phase {}", program.version)),
+            ("Commit", program.commit.clone()),
+            ("Figure", figure.to_owned()),
+        ];
+        Self::with_metadata(metadata, size, body)
+    }
+
     /// The figure with keys and values of its metadata, the title first.
     fn with_metadata(metadata: Vec<(&'static str, String)>, size: (u32, u32), body: &str) -> Self {
         let lines: Vec<String> = metadata

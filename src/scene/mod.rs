@@ -476,6 +476,19 @@ pub enum Integrator {
     VelocityVerlet,
 }
 
+impl Integrator {
+    /// All schemes.
+    pub const ALL: [Self; 2] = [Self::SymplecticEuler, Self::VelocityVerlet];
+
+    /// Name, as in a scene file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SymplecticEuler => "symplectic-euler",
+            Self::VelocityVerlet => "velocity-verlet",
+        }
+    }
+}
+
 /// Limits beyond which a run is ended and reported as unstable.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
