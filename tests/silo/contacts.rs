@@ -127,8 +127,8 @@ fn momentum_is_kept_and_angular_momentum_but_for_the_drag_between_centres() {
 #[test]
 fn friction_never_drives() {
     for friction in [
-        r#"friction = { law = "coulomb", coefficient = 0.9, regularisation = 1e-3 }"#,
-        r#"friction = { law = "cundall-strack", coefficient = 0.9, stiffness = 70.0 }"#,
+        r#"friction = { law = "coulomb", coefficient = 0.03, regularisation = 1e-3 }"#,
+        r#"friction = { law = "cundall-strack", coefficient = 0.03, stiffness = 70.0 }"#,
     ] {
         let mut scene = free(
             "{ position = [0.0, 0.0, 0.0], velocity = [2.0, 0.0, 0.0] }, { position = [0.0801, 0.0, 0.0], spin = [0.0, 20.0, 0.0] }",
@@ -137,27 +137,25 @@ fn friction_never_drives() {
         );
         scene.time.dt = 5e-6;
         let mut simulation = Simulation::new(&scene).unwrap();
-        let energy = |simulation: &mut Simulation| {
-            let elastic = simulation.elastic_energy();
+        // Speed of one surface along the other; the line of centres turns by less than a hundredth.
+        let sliding = |simulation: &Simulation| {
             let particles = simulation.particles();
-            let moving = |i: usize| {
-                0.5 * particles.mass[i] * particles.velocity[i].norm_squared()
-                    + 0.5 * particles.inertia[i] * particles.spin[i].norm_squared()
-            };
-            elastic + moving(0) + moving(1)
+            let [one, other] = [0, 1].map(|i| (particles.velocity[i].z, particles.spin[i].y));
+            (one.0 - other.0 - 0.04 * (one.1 + other.1)).abs()
         };
-        // The spring along the contact stores energy for a while, and has none when it is over.
-        let stores = friction.contains("stiffness");
-        let start = energy(&mut simulation);
-        let (mut now, mut least) = (start, start);
+        // A spring along the contact may swing; a slider only slows down.
+        let swings = friction.contains("stiffness");
+        let start = sliding(&simulation);
+        let mut least = start;
         for _ in 0..20_000 {
             simulation.advance(1).unwrap();
-            now = energy(&mut simulation);
-            let rises = now > least + 1e-3 * start;
-            assert!(stores || !rises, "step {}: {now} J", simulation.step());
+            let now = sliding(&simulation);
+            let rises = now > least + 5e-3 * start;
+            assert!(swings || !rises, "step {}: {now} m/s", simulation.step());
             least = least.min(now);
         }
-        assert!(now < 0.95 * start, "{now} of {start} J are left");
+        let end = sliding(&simulation);
+        assert!(end < 0.9 * start, "{end} of {start} m/s are left");
     }
 }
 
