@@ -160,6 +160,47 @@ fn friction_never_drives() {
 }
 
 #[test]
+fn a_heavier_grain_with_a_stiffer_spring_moves_in_the_same_way() {
+    // By a power of two, with which every product is exact: the same bits.
+    let one = (
+        "[{ radius = 0.04, share = 1 }, { radius = 0.03, share = 1 }]",
+        "0.04",
+    );
+    let still = ("spread = 0.1", "spread = 0.0");
+    // Off the middle, where grains would stand upon each other.
+    let aside = ("position = [0.0, 0.0, 1.4]", "position = [0.013, 0.0, 1.4]");
+    let light = hopper(&[one, still, aside]);
+    let heavy = hopper(&[
+        one,
+        still,
+        aside,
+        ("density = 1.0", "density = 64.0"),
+        (
+            "stiffness = 100.0, damping = 0.05",
+            "stiffness = 6400.0, damping = 3.2",
+        ),
+        (
+            "stiffness = 70.0, damping = 0.02",
+            "stiffness = 4480.0, damping = 1.28",
+        ),
+        ("kinetic_energy = 1e-4", "kinetic_energy = 64e-4"),
+    ]);
+    let [mut light, mut heavy] = [light, heavy].map(|scene| Simulation::new(&scene).unwrap());
+    // Filled at 3 s, at rest, open, and half empty.
+    for _ in 0..16 {
+        light.advance(1000).unwrap();
+        heavy.advance(1000).unwrap();
+        let bits = |simulation: &Simulation| {
+            let position = simulation.particles().position.clone();
+            let numbers = position.into_iter().flat_map(|it| [it.x, it.z]);
+            numbers.map(f64::to_bits).collect::<Vec<_>>()
+        };
+        assert!(bits(&light) == bits(&heavy), "at {} s", light.time());
+    }
+    assert!(light.counts().unwrap().discharged > 0);
+}
+
+#[test]
 fn a_heap_with_friction_stays_where_it_is() {
     // Without regularisation there is no creep: after the grains are at rest, none moves any more.
     let scene = hopper(&[("door = {}", "door = { opens = 29.0 }")]);
