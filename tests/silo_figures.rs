@@ -261,3 +261,47 @@ fn figures_of_the_other_family_are_refused() {
         }
     }
 }
+
+/// Symptom: with gravity as the second axis C was too small by the root of its ratio. Cause: gravity
+/// and grains were those of the base scene for every line.
+#[test]
+fn the_law_is_fitted_with_the_gravity_of_each_line() {
+    const GRAVITIES: [f64; 2] = [9.81, 2.4525];
+    let (mut sweep, mut table) = made_up();
+    sweep.axes[1] = Axis {
+        key: "gravity.acceleration".to_owned(),
+        name: "gravity".to_owned(),
+        values: GRAVITIES.to_vec(),
+    };
+    table.axes[1] = "gravity".to_owned();
+    for row in &mut table.rows {
+        let gravity = if row.values[1] > 0.0 {
+            GRAVITIES[1]
+        } else {
+            GRAVITIES[0]
+        };
+        row.values[1] = gravity;
+        row.verdict = verdict(row.values[0], 0.0, row.seed);
+        if let Measures::Silo(measures) = &mut row.verdict.measures {
+            let rate = measures.order.discharge_rate.as_mut().unwrap();
+            *rate *= (gravity / GRAVITIES[0]).sqrt();
+        }
+    }
+    let lines = fitted_lines(&source(&sweep, &table, &Program::current())).unwrap();
+    assert_eq!(lines.len(), 2);
+    for line in lines {
+        let [c, k] = constants(0.0);
+        assert!(
+            (line.fit.c.value - c).abs() < 0.05,
+            "{}: {:?}",
+            line.name,
+            line.fit
+        );
+        assert!(
+            (line.fit.k.value - k).abs() < 0.1,
+            "{}: {:?}",
+            line.name,
+            line.fit
+        );
+    }
+}
