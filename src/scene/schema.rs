@@ -4,10 +4,13 @@
 
 use crate::document::schema::{Kind, Range, needed, optional};
 
+/// Least and largest length (m), in scene files and in the files that they name.
+pub(crate) const LENGTHS: [f64; 2] = [1e-9, 1e9];
+
 // Wider than any experiment, narrow enough that masses, energies and numbers of steps made of them
 // neither vanish nor overflow.
-const LENGTH: Kind = Kind::Number(Range::between(1e-9, 1e9));
-const PLACE: Kind = Kind::Number(Range::between(-1e9, 1e9));
+const LENGTH: Kind = Kind::Number(Range::between(LENGTHS[0], LENGTHS[1]));
+const PLACE: Kind = Kind::Number(Range::between(-LENGTHS[1], LENGTHS[1]));
 const DENSITY: Kind = Kind::Number(Range::between(1e-9, 1e15));
 const SECONDS: Kind = Kind::Number(Range::between(1e-15, 1e15));
 const NUMBER: Kind = Kind::Number(Range::ANY);

@@ -2,15 +2,12 @@
 //! and radius of each.
 
 use super::{StoreError, text};
+use crate::scene::schema::LENGTHS;
 use crate::scene::{FixedSphere, FixedSpheres, LengthUnit};
 use std::path::Path;
 
 /// Most fixed spheres that a file may announce.
 const MOST_SPHERES: u64 = 10_000_000;
-
-/// Largest length that a file may hold (m), and its least radius, as in scene files.
-const LARGEST: f64 = 1e9;
-const LEAST_RADIUS: f64 = 1e-9;
 
 /// Reads the fixed spheres of a silo, whose lengths are in `unit`. Blank lines and lines that
 /// start with `#` are skipped.
@@ -73,6 +70,7 @@ fn counts(header: &str) -> Result<[u64; 2], String> {
 }
 
 fn sphere(line: &str, unit: LengthUnit) -> Result<FixedSphere, String> {
+    let [least, largest] = LENGTHS;
     let fields: Vec<&str> = line.split_whitespace().collect();
     let [x, height, radius] = fields[..] else {
         return Err(format!(
@@ -82,21 +80,21 @@ fn sphere(line: &str, unit: LengthUnit) -> Result<FixedSphere, String> {
     };
     let metres = |field| {
         let value = text::number(field)? / unit.per_metre();
-        if value.abs() > LARGEST {
+        if value.abs() > largest {
             return Err(format!(
-                "`{field}` is {value:e} m; {LARGEST:e} m is the most"
+                "`{field}` is {value:e} m; {largest:e} m is the most"
             ));
         }
         Ok(value)
     };
     let position = [metres(x)?, 0.0, metres(height)?];
     match metres(radius)? {
-        value if value >= LEAST_RADIUS => Ok(FixedSphere {
+        value if value >= least => Ok(FixedSphere {
             position,
             radius: value,
         }),
         value if value > 0.0 => Err(format!(
-            "a radius of {value:e} m is too small; {LEAST_RADIUS:e} m is the least"
+            "a radius of {value:e} m is too small; {least:e} m is the least"
         )),
         _ => Err(format!("a radius must be above zero, but is `{radius}`")),
     }

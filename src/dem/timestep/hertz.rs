@@ -149,13 +149,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
             explanation: "2/w of the two smallest spheres at their deepest overlap in the fastest \
                           impact, w^2 = (3/2) K sqrt(xi) / m_eff",
         },
-        Limit {
-            name: "twelve contacts",
-            seconds: 2.0 / (6.0_f64.sqrt() * frequency),
-            decisive: false,
-            explanation: "2/w of a sphere with twelve such contacts, w^2 = 12 k / m, all of them \
-                          taken to act along one line",
-        },
+        super::twelve_contacts(frequency),
         Limit {
             name: "Rayleigh time",
             seconds: rayleigh_time(

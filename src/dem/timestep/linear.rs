@@ -76,13 +76,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
             decisive: true,
             explanation: "2/w of the two smallest spheres, w^2 = k / m_eff",
         },
-        Limit {
-            name: "twelve contacts",
-            seconds: 2.0 / (6.0_f64.sqrt() * frequency),
-            decisive: false,
-            explanation: "2/w of a sphere with twelve such contacts, w^2 = 12 k / m, all of them \
-                          taken to act along one line",
-        },
+        super::twelve_contacts(frequency),
         Limit {
             name: "displacement",
             seconds: scene.guards.displacement * scene.smallest_radius() / speed,

@@ -105,6 +105,18 @@ fn damped_oscillator(frequency: f64, rate: f64) -> f64 {
     4.0 / (rate + (rate * rate + 4.0 * frequency * frequency).sqrt())
 }
 
+/// The limit of a sphere with twelve contacts, each of which has that angular frequency w (1/s) in a
+/// pair alone.
+fn twelve_contacts(frequency: f64) -> Limit {
+    Limit {
+        name: "twelve contacts",
+        seconds: 2.0 / (6.0_f64.sqrt() * frequency),
+        decisive: false,
+        explanation: "2/w of a sphere with twelve such contacts, w^2 = 12 k / m, all of them taken \
+                      to act along one line",
+    }
+}
+
 /// All limits that apply to a scene, the decisive ones first, each group smallest first.
 pub fn limits(scene: &Scene) -> Vec<Limit> {
     let mut limits = hertz::limits(scene);
