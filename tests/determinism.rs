@@ -119,8 +119,8 @@ fn sphere(position: [f64; 3], velocity: [f64; 3]) -> StartSphere {
     }
 }
 
-/// What ends a run with either integrator.
-fn broken_guards(scene: &Scene) -> [Instability; 2] {
+/// What ends a run, with every integrator.
+fn broken_guards(scene: &Scene) -> [Instability; INTEGRATORS.len()] {
     INTEGRATORS.map(|integrator| {
         let mut scene = scene.clone();
         scene.time.integrator = integrator;

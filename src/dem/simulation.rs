@@ -178,6 +178,11 @@ impl Simulation {
         self.engine.step()
     }
 
+    /// How often a sphere was moved, sub-steps counted: what the run costs, in sphere-steps.
+    pub fn moves(&self) -> u64 {
+        self.engine.moves()
+    }
+
     /// Time (s).
     pub fn time(&self) -> f64 {
         self.engine.step() as f64 * self.dt
@@ -295,7 +300,7 @@ fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
                     regularisation,
                 }) => boxed(normal, Coulomb::new(coefficient, regularisation), parts),
                 Some(Friction::Mindlin { coefficient }) => {
-                    let law = Mindlin::new(coefficient, young_modulus, poisson_ratio, dt);
+                    let law = Mindlin::new(coefficient, young_modulus, poisson_ratio);
                     boxed(normal, law, parts)
                 }
             })
@@ -321,7 +326,7 @@ fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
                     stiffness,
                     damping,
                 }) => {
-                    let law = CundallStrack::new(coefficient, stiffness, damping, dt);
+                    let law = CundallStrack::new(coefficient, stiffness, damping);
                     Ok(boxed(normal, law, parts))
                 }
                 Some(Friction::Spin { .. } | Friction::Mindlin { .. }) => {

@@ -474,17 +474,30 @@ pub enum Integrator {
     /// Velocity Verlet, forces at the half-step velocity: second order without
     /// velocity-dependent forces, first order with them.
     VelocityVerlet,
+    /// Velocity Verlet with forces from places and velocities of one moment, the middle of the step:
+    /// second order, and no sticking between spheres of very different sizes (Vyas et al., 2025).
+    SynchronisedVerlet,
+    /// The same with sub-steps for spheres that touch, as many as their impacts need: the time step
+    /// has to resolve all but the contacts.
+    AdaptiveVerlet,
 }
 
 impl Integrator {
     /// All schemes.
-    pub const ALL: [Self; 2] = [Self::SymplecticEuler, Self::VelocityVerlet];
+    pub const ALL: [Self; 4] = [
+        Self::SymplecticEuler,
+        Self::VelocityVerlet,
+        Self::SynchronisedVerlet,
+        Self::AdaptiveVerlet,
+    ];
 
     /// Name, as in a scene file.
     pub fn name(self) -> &'static str {
         match self {
             Self::SymplecticEuler => "symplectic-euler",
             Self::VelocityVerlet => "velocity-verlet",
+            Self::SynchronisedVerlet => "synchronised-verlet",
+            Self::AdaptiveVerlet => "adaptive-verlet",
         }
     }
 }

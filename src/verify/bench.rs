@@ -172,10 +172,21 @@ impl Bench {
         self.advance(simulation, (duration / dt).round() as u64)
     }
 
-    /// Whether the latest forces belong to the positions before the latest step: symplectic Euler
-    /// moves the spheres after evaluating them.
-    pub(super) fn forces_lag(&self) -> bool {
-        self.integrator == Integrator::SymplecticEuler
+    /// The scheme of all simulations.
+    pub(super) fn integrator(&self) -> Integrator {
+        self.integrator
+    }
+
+    /// How many steps ago spheres stood where the latest forces belong to: symplectic Euler moves them
+    /// after it evaluates the forces, and others do so in the middle of a step.
+    pub(super) fn age_of_forces(&self) -> f64 {
+        match self.integrator {
+            Integrator::SymplecticEuler => 1.0,
+            Integrator::VelocityVerlet => 0.0,
+            // The last of many sub-steps, in an impact.
+            Integrator::AdaptiveVerlet => 0.0,
+            Integrator::SynchronisedVerlet => 0.5,
+        }
     }
 
     /// Steps of all simulations so far.

@@ -135,18 +135,11 @@ impl Impact {
         loop {
             let overlap = self.overlap(simulation.particles());
             bench.advance(&mut simulation, 1)?;
-            let now = if bench.forces_lag() {
-                Moment {
-                    time: simulation.time() - dt,
-                    overlap,
-                    force: self.force(simulation.particles()),
-                }
-            } else {
-                Moment {
-                    time: simulation.time(),
-                    overlap: self.overlap(simulation.particles()),
-                    force: self.force(simulation.particles()),
-                }
+            let (age, after) = (bench.age_of_forces(), self.overlap(simulation.particles()));
+            let now = Moment {
+                time: simulation.time() - age * dt,
+                overlap: after + (overlap - after) * age,
+                force: self.force(simulation.particles()),
             };
             maximum_overlap = maximum_overlap.max(now.overlap);
             maximum_force = maximum_force.max(now.force);

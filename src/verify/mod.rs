@@ -15,6 +15,7 @@
 
 mod air_force;
 mod bench;
+mod convergence;
 mod cradle;
 mod critical_rotation;
 mod dashpot;
@@ -41,7 +42,7 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 /// The tables of all families.
-const TABLES: [&str; 14] = [
+const TABLES: [&str; 15] = [
     include_str!("impact.toml"),
     include_str!("dashpot.toml"),
     include_str!("cradle.toml"),
@@ -56,6 +57,7 @@ const TABLES: [&str; 14] = [
     include_str!("gas.toml"),
     include_str!("critical_rotation.toml"),
     include_str!("step_limit.toml"),
+    include_str!("convergence.toml"),
 ];
 
 /// A set-up whose outcome is known.
@@ -141,6 +143,8 @@ pub enum Setup {
     CriticalRotation(critical_rotation::CriticalRotation),
     /// Limits of the time step, in closed form.
     StepLimit(step_limit::StepLimit),
+    /// A scene with ever smaller time steps.
+    Convergence(convergence::Convergence),
 }
 
 impl Setup {
@@ -160,6 +164,7 @@ impl Setup {
             Self::Gas(it) => it,
             Self::CriticalRotation(it) => it,
             Self::StepLimit(it) => it,
+            Self::Convergence(it) => it,
         }
     }
 

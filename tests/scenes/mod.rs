@@ -6,8 +6,7 @@ use phase::dem::vector::Vector;
 use phase::scene::{Friction, Integrator, Scene, Start, StartSphere};
 use proptest::prelude::*;
 
-pub(crate) const INTEGRATORS: [Integrator; 2] =
-    [Integrator::SymplecticEuler, Integrator::VelocityVerlet];
+pub(crate) const INTEGRATORS: [Integrator; 4] = Integrator::ALL;
 
 /// No friction, and every law of it.
 pub(crate) fn frictions() -> [Option<Friction>; 4] {

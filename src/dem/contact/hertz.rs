@@ -38,4 +38,24 @@ impl NormalLaw for Hertz {
     fn elastic_energy(&self, overlap: f64, effective_radius: f64) -> f64 {
         0.4 * self.modulus * (effective_radius * overlap).sqrt() * overlap * overlap
     }
+
+    fn stiffness(&self, overlap: f64, effective_radius: f64) -> f64 {
+        1.5 * self.modulus * (effective_radius * overlap).sqrt()
+    }
+
+    fn damping(&self, overlap: f64, effective_radius: f64) -> f64 {
+        self.modulus * (effective_radius * overlap).sqrt() * self.dissipation
+    }
+
+    fn deepest_overlap(
+        &self,
+        overlap: f64,
+        speed: f64,
+        effective_radius: f64,
+        effective_mass: f64,
+    ) -> f64 {
+        let stiffness = self.modulus * effective_radius.sqrt();
+        let kinetic = 1.25 * effective_mass * speed * speed / stiffness;
+        libm::pow(overlap * overlap * overlap.sqrt() + kinetic, 0.4)
+    }
 }

@@ -48,4 +48,16 @@ impl NormalLaw for Linear {
     fn elastic_energy(&self, overlap: f64, _: f64) -> f64 {
         0.5 * self.stiffness * overlap * overlap
     }
+
+    fn stiffness(&self, _: f64, _: f64) -> f64 {
+        self.stiffness
+    }
+
+    fn damping(&self, _: f64, _: f64) -> f64 {
+        self.damping
+    }
+
+    fn deepest_overlap(&self, overlap: f64, speed: f64, _: f64, effective_mass: f64) -> f64 {
+        (overlap * overlap + effective_mass * speed * speed / self.stiffness).sqrt()
+    }
 }

@@ -30,6 +30,22 @@ pub trait NormalLaw: Copy + Send + 'static {
 
     /// Elastic energy (J) stored at that overlap.
     fn elastic_energy(&self, overlap: f64, effective_radius: f64) -> f64;
+
+    /// dF / d overlap (N/m) there.
+    fn stiffness(&self, overlap: f64, effective_radius: f64) -> f64;
+
+    /// dF / d overlap rate (N s/m) there.
+    fn damping(&self, overlap: f64, effective_radius: f64) -> f64;
+
+    /// Deepest overlap (m) of an impact without losses that has reached an overlap and still has a
+    /// speed (m/s), of an effective mass (kg).
+    fn deepest_overlap(
+        &self,
+        overlap: f64,
+        speed: f64,
+        effective_radius: f64,
+        effective_mass: f64,
+    ) -> f64;
 }
 
 /// No contacts: spheres pass through each other and through walls.
@@ -46,6 +62,18 @@ impl NormalLaw for NoContact {
 
     #[inline(always)]
     fn elastic_energy(&self, _: f64, _: f64) -> f64 {
+        0.0
+    }
+
+    fn stiffness(&self, _: f64, _: f64) -> f64 {
+        0.0
+    }
+
+    fn damping(&self, _: f64, _: f64) -> f64 {
+        0.0
+    }
+
+    fn deepest_overlap(&self, _: f64, _: f64, _: f64, _: f64) -> f64 {
         0.0
     }
 }

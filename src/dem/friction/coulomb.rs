@@ -34,4 +34,8 @@ impl TangentialLaw for Coulomb {
         };
         touch.traction(sliding * (-self.coefficient * touch.normal_force / speed))
     }
+
+    fn damping(&self, normal_force: f64) -> f64 {
+        self.coefficient * normal_force / self.regularisation
+    }
 }

@@ -3,25 +3,22 @@
 use super::{Spring, TangentialLaw, Touch, Traction};
 
 /// A spring of constant stiffness k_t and a dashpot b_t along the contact, together capped at mu F_n
-/// (Cundall and Strack, Geotechnique 29, 47 (1979)): df = -k_t du and f - b_t u while it sticks. A
-/// contact that slides keeps the spring at the length with which it would go on sticking from there
-/// (Luding, Granular Matter 10, 235 (2008), section 2.3).
+/// (Cundall and Strack, Geotechnique 29, 47 (1979)): df = -k_t du and f - b_t u while it sticks.
 #[derive(Clone, Copy, Debug)]
 pub struct CundallStrack {
     coefficient: f64,
-    /// k_t dt (N s/m).
-    loading: f64,
+    /// k_t (N/m).
+    stiffness: f64,
     /// b_t (N s/m).
     damping: f64,
 }
 
 impl CundallStrack {
-    /// The law with coefficient mu, tangential stiffness k_t (N/m) and drag constant b_t (N s/m), for
-    /// time steps of `dt` (s).
-    pub fn new(coefficient: f64, stiffness: f64, damping: f64, dt: f64) -> Self {
+    /// The law with coefficient mu, tangential stiffness k_t (N/m) and drag constant b_t (N s/m).
+    pub fn new(coefficient: f64, stiffness: f64, damping: f64) -> Self {
         Self {
             coefficient,
-            loading: stiffness * dt,
+            stiffness,
             damping,
         }
     }
@@ -32,24 +29,23 @@ impl TangentialLaw for CundallStrack {
 
     #[inline(always)]
     fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction {
-        let sliding = touch.sliding_velocity();
-        let drag = sliding * self.damping;
-        let elastic = spring.turned(touch.normal) - sliding * self.loading;
-        let mut force = elastic - drag;
-        spring.force = elastic;
         let limit = self.coefficient * touch.normal_force;
-        let norm = force.norm();
-        if norm > limit {
-            force = force * (limit / norm);
-            spring.force = force + drag;
-        }
-        touch.traction(force)
+        spring.load(touch, self.stiffness, self.damping, limit)
+    }
+
+    fn stiffness(&self, _: f64, _: f64) -> f64 {
+        self.stiffness
+    }
+
+    fn damping(&self, _: f64) -> f64 {
+        self.damping
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dem::friction::Increment;
     use crate::dem::vector::Vector;
 
     const DT: f64 = 1e-3;
@@ -67,6 +63,7 @@ mod tests {
             overlap: 1e-4,
             effective_radius: 0.02,
             normal_force: 2.0,
+            increment: Increment::whole(DT),
         }
     }
 
@@ -84,7 +81,7 @@ mod tests {
     #[test]
     fn it_sticks_slides_and_turns_back_like_a_spring_with_a_slider() {
         // k_t = 50 N/m, cap mu F_n = 0.6 N, reached after 12 mm.
-        let law = CundallStrack::new(0.3, 50.0, 0.0, DT);
+        let law = CundallStrack::new(0.3, 50.0, 0.0);
         let mut spring = Spring::default();
         let close =
             |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found}");
@@ -98,7 +95,7 @@ mod tests {
     #[test]
     fn spring_and_dashpot_are_capped_together() {
         // b_t u = 0.5 N: of the 0.6 N that friction can carry, 0.1 N are left to the spring.
-        let law = CundallStrack::new(0.3, 50.0, 5.0, DT);
+        let law = CundallStrack::new(0.3, 50.0, 5.0);
         let mut spring = Spring::default();
         let force = slide(law, &mut spring, 0.1, 1000);
         assert!((force + 0.6).abs() < 1e-12, "{force}");
@@ -110,7 +107,7 @@ mod tests {
 
     #[test]
     fn the_spring_turns_with_the_pair() {
-        let law = CundallStrack::new(0.3, 50.0, 0.0, DT);
+        let law = CundallStrack::new(0.3, 50.0, 0.0);
         let mut spring = Spring::default();
         slide(law, &mut spring, 0.1, 100);
         let (sine, cosine) = libm::sincos(0.7);

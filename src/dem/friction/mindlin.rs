@@ -16,18 +16,15 @@ pub struct Mindlin {
     coefficient: f64,
     /// 8 G* (Pa).
     modulus: f64,
-    dt: f64,
 }
 
 impl Mindlin {
-    /// The law with coefficient mu, Young's modulus (Pa) and Poisson's ratio of both partners, for
-    /// time steps of `dt` (s).
-    pub fn new(coefficient: f64, young_modulus: f64, poisson_ratio: f64, dt: f64) -> Self {
+    /// The law with coefficient mu, Young's modulus (Pa) and Poisson's ratio of both partners.
+    pub fn new(coefficient: f64, young_modulus: f64, poisson_ratio: f64) -> Self {
         let shear_modulus = young_modulus / (2.0 * (1.0 + poisson_ratio));
         Self {
             coefficient,
             modulus: 8.0 * shear_modulus / (2.0 * (2.0 - poisson_ratio)),
-            dt,
         }
     }
 }
@@ -37,15 +34,13 @@ impl TangentialLaw for Mindlin {
 
     #[inline(always)]
     fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction {
-        let stiffness = self.modulus * (touch.effective_radius * touch.overlap).sqrt();
-        let mut force = spring.turned(touch.normal);
-        force -= touch.sliding_velocity() * (stiffness * self.dt);
+        let stiffness = self.stiffness(touch.overlap, touch.effective_radius);
         let limit = self.coefficient * touch.normal_force;
-        let norm = force.norm();
-        if norm > limit {
-            force = force * (limit / norm);
-        }
-        spring.force = force;
-        touch.traction(force)
+        spring.load(touch, stiffness, 0.0, limit)
+    }
+
+    #[inline(always)]
+    fn stiffness(&self, overlap: f64, effective_radius: f64) -> f64 {
+        self.modulus * (effective_radius * overlap).sqrt()
     }
 }

@@ -37,6 +37,36 @@ pub struct Touch {
     /// Normal force (N), zero where partners attract each other or part faster than their elasticity
     /// recovers: no tangential force acts then.
     pub normal_force: f64,
+    /// The time that the contact's memory moves on by.
+    pub increment: Increment,
+}
+
+/// The time that a contact's memory moves on by when its traction is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Increment {
+    /// How long it is (s).
+    pub duration: f64,
+    /// The share of it that is over at the moment of the traction: all of it, or half where places and
+    /// velocities are those of its middle.
+    pub share: f64,
+}
+
+impl Increment {
+    /// All of a time (s), for traction at its end.
+    pub fn whole(duration: f64) -> Self {
+        Self {
+            duration,
+            share: 1.0,
+        }
+    }
+
+    /// A time (s), for traction in its middle.
+    pub fn around(duration: f64) -> Self {
+        Self {
+            duration,
+            share: 0.5,
+        }
+    }
 }
 
 impl Touch {
@@ -77,6 +107,16 @@ pub trait TangentialLaw: Copy + Send + 'static {
 
     /// Traction at a contact over the coming step; none where the normal force is zero.
     fn traction(&self, touch: &Touch, history: &mut Self::History) -> Traction;
+
+    /// Tangential stiffness (N/m) at an overlap and effective radius (m).
+    fn stiffness(&self, _overlap: f64, _effective_radius: f64) -> f64 {
+        0.0
+    }
+
+    /// Force per sliding velocity (N s/m) at slow sliding under a normal force (N).
+    fn damping(&self, _normal_force: f64) -> f64 {
+        0.0
+    }
 }
 
 /// No friction: spheres do not rotate.

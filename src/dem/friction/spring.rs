@@ -1,5 +1,6 @@
 //! The loaded spring of a contact that sticks.
 
+use super::{Touch, Traction};
 use crate::dem::vector::Vector;
 
 /// The loaded spring of a contact that sticks.
@@ -10,10 +11,36 @@ pub struct Spring {
 }
 
 impl Spring {
+    /// The traction of the spring, of a stiffness (N/m), and of a dashpot beside it (N s/m), together
+    /// capped at `limit` (N). It is loaded by the sliding of the increment, df = -k du; one that slides
+    /// keeps the length with which it would go on sticking from there (Luding, Granular Matter 10, 235
+    /// (2008), section 2.3).
+    #[inline(always)]
+    pub(super) fn load(
+        &mut self,
+        touch: &Touch,
+        stiffness: f64,
+        damping: f64,
+        limit: f64,
+    ) -> Traction {
+        let sliding = touch.sliding_velocity();
+        let drag = sliding * damping;
+        let before = self.turned(touch.normal);
+        let loading = sliding * (stiffness * touch.increment.duration);
+        let mut force = before - loading * touch.increment.share - drag;
+        self.force = before - loading;
+        let norm = force.norm();
+        if norm > limit {
+            force = force * (limit / norm);
+            self.force = force + drag;
+        }
+        touch.traction(force)
+    }
+
     /// The force (N) in the plane across `normal`: the plane turns with the pair, and the force with
     /// it, its length kept.
     #[inline(always)]
-    pub(super) fn turned(&self, normal: Vector) -> Vector {
+    fn turned(&self, normal: Vector) -> Vector {
         let turned = self.force.perpendicular_to(normal);
         let (before, after) = (self.force.norm_squared(), turned.norm_squared());
         if after > 0.0 {

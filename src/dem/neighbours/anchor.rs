@@ -65,6 +65,12 @@ pub struct Allowance {
 }
 
 impl Allowance {
+    /// Whether all spheres are still near enough to their references.
+    pub fn hold(&self, positions: &[Vector], references: &[Vector]) -> bool {
+        let mut spheres = positions.iter().zip(references);
+        spheres.all(|(&position, &reference)| self.holds(position, reference))
+    }
+
     /// Whether a sphere at `position` is still near enough to its `reference`. Not so if a
     /// coordinate is not a number.
     #[inline(always)]

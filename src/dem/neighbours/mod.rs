@@ -46,6 +46,8 @@ pub struct VerletList {
     skin: f64,
     narrowest: f64,
     widest: f64,
+    /// The least skin that is asked for (m).
+    least: f64,
     /// Entries of sphere i are `start[i]..start[i + 1]`.
     start: Vec<u32>,
     neighbour: Vec<u32>,
@@ -70,6 +72,7 @@ impl VerletList {
             skin,
             narrowest: 0.5 * skin,
             widest: 4.0 * skin,
+            least: 0.0,
             start: vec![0],
             neighbour: Vec::new(),
             owner: Vec::new(),
@@ -123,19 +126,23 @@ impl VerletList {
         let allowance = self
             .anchor
             .allowance(time, self.skin - margin, self.half_diagonal);
-        let reference = self.anchor.position();
         self.builds > 0
             && !self.outdated
-            && particles
-                .position
-                .iter()
-                .zip(reference)
-                .all(|(&position, &reference)| allowance.holds(position, reference))
+            && allowance.hold(&particles.position, self.anchor.position())
     }
 
     /// How far the offset of a pair may change from the build to the end of the list (m).
     pub fn skin(&self) -> f64 {
         self.skin
+    }
+
+    /// Asks for a skin (m) of at least that from now on.
+    pub fn require(&mut self, skin: f64) {
+        self.least = skin;
+        if self.skin < skin {
+            self.skin = skin;
+            self.outdated = true;
+        }
     }
 
     /// How often the list was built.
@@ -172,9 +179,9 @@ impl VerletList {
             return;
         }
         if steps < LIFE.start {
-            self.skin = (1.25 * self.skin).min(self.widest);
+            self.skin = (1.25 * self.skin).min(self.widest.max(self.least));
         } else if steps >= LIFE.end {
-            self.skin = (0.8 * self.skin).max(self.narrowest);
+            self.skin = (0.8 * self.skin).max(self.narrowest.max(self.least));
         }
     }
 

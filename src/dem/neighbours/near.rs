@@ -41,6 +41,8 @@ pub struct Near {
     shield: bool,
     /// How far the offset of a pair may change (m).
     margin: f64,
+    /// The least that it may be (m).
+    least: f64,
     anchor: Anchor,
     half_diagonal: f64,
     pairs: Vec<NearPair>,
@@ -58,6 +60,7 @@ impl Near {
             contacts,
             shield,
             margin,
+            least: 0.0,
             anchor: Anchor::default(),
             half_diagonal: 0.0,
             pairs: Vec::new(),
@@ -76,6 +79,32 @@ impl Near {
     #[inline]
     pub fn pairs(&self) -> &[NearPair] {
         &self.pairs
+    }
+
+    /// Takes the pairs out, to be returned.
+    pub fn take_pairs(&mut self) -> Vec<NearPair> {
+        std::mem::take(&mut self.pairs)
+    }
+
+    /// Takes the pairs back.
+    pub fn return_pairs(&mut self, pairs: Vec<NearPair>) {
+        self.pairs = pairs;
+    }
+
+    /// Asks for a margin (m) of at least that. Whether the list has it already.
+    pub fn require(&mut self, margin: f64) -> bool {
+        self.least = margin;
+        let wide = self.margin >= margin;
+        self.margin = self.margin.max(margin);
+        wide
+    }
+
+    /// Whether the list holds a `time` (s) after its refresh, and will while no sphere moves by more
+    /// than `way` (m).
+    pub fn holds(&self, particles: &Particles, time: f64, way: f64) -> bool {
+        let margin = self.margin - 2.0 * way;
+        let allowance = self.anchor.allowance(time, margin, self.half_diagonal);
+        allowance.hold(&particles.position, self.anchor.position())
     }
 
     /// The spheres at the latest refresh.
@@ -116,7 +145,8 @@ impl Near {
         } else if steps >= life.end {
             self.margin *= 0.8;
         }
-        self.margin = self.margin.clamp(0.02 * skin, 0.5 * skin);
+        let least = self.least.max(0.02 * skin);
+        self.margin = self.margin.clamp(least, least.max(0.5 * skin));
     }
 
     /// Makes the list anew from a valid Verlet list; `bodies` are the particles in rows. `forget` is

@@ -8,7 +8,7 @@
 use super::System;
 use crate::dem::block::{BLOCK, Body, Column, Columns, Load, Row};
 use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{TangentialLaw, Touch};
+use crate::dem::friction::{Increment, TangentialLaw, Touch};
 use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
@@ -17,6 +17,17 @@ use fearless_simd::{Simd, SimdBase, f64x4};
 
 /// Stands for an overlap within the limit; no touching pair has a negative one.
 const NOT_DEEP: f64 = -1.0;
+
+/// Contacts, possible ones included.
+#[derive(Default)]
+pub(super) struct Among {
+    /// Pairs, in the order of the list.
+    pub(super) pairs: Vec<NearPair>,
+    /// Spheres near the floor.
+    pub(super) floor: Vec<u32>,
+    /// Spheres near the cylinder.
+    pub(super) cylinder: Vec<u32>,
+}
 
 /// Everything about the pairs of a block.
 pub(super) struct PairBlock<H> {
@@ -108,6 +119,7 @@ impl<H: Copy + Default> PairBlock<H> {
         &mut self,
         normal_law: &N,
         tangential_law: &T,
+        increment: Increment,
         overlap_limit: f64,
     ) {
         for k in 0..BLOCK {
@@ -155,6 +167,7 @@ impl<H: Copy + Default> PairBlock<H> {
                     overlap,
                     effective_radius,
                     normal_force: pressing::<N>(normal_force),
+                    increment,
                 };
                 let mut history = self.history[k];
                 let traction = tangential_law.traction(&touch, &mut history);
@@ -175,6 +188,7 @@ impl<H: Copy + Default> PairBlock<H> {
         wall: W,
         normal_law: &N,
         tangential_law: &T,
+        increment: Increment,
         overlap_limit: f64,
     ) {
         for k in 0..BLOCK {
@@ -209,6 +223,7 @@ impl<H: Copy + Default> PairBlock<H> {
                     overlap,
                     effective_radius: radius,
                     normal_force: pressing::<N>(normal_force),
+                    increment,
                 };
                 let mut history = self.history[k];
                 let traction = tangential_law.traction(&touch, &mut history);
@@ -348,10 +363,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     #[inline(always)]
-    pub(super) fn pair_forces<S: Simd>(&mut self, simd: S) {
+    pub(super) fn pair_forces<S: Simd>(&mut self, simd: S, pairs: &[NearPair]) {
         let overlap_limit = self.parts.limits.overlap;
         let block = &mut self.block;
-        for pairs in self.near.pairs().chunks(BLOCK) {
+        for pairs in pairs.chunks(BLOCK) {
             for (k, pair) in pairs.iter().enumerate() {
                 block.index[0][k] = pair.i;
                 block.index[1][k] = pair.j;
@@ -363,7 +378,12 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     *history = self.pair_history[pair.entry as usize];
                 }
             }
-            block.interact(&self.normal, &self.tangential, overlap_limit);
+            block.interact(
+                &self.normal,
+                &self.tangential,
+                self.increment,
+                overlap_limit,
+            );
             if Self::REMEMBERS {
                 for (history, pair) in block.history.iter().zip(pairs) {
                     self.pair_history[pair.entry as usize] = *history;
@@ -397,7 +417,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     *history = histories[i as usize];
                 }
             }
-            block.interact_with_wall(wall, &self.normal, &self.tangential, overlap_limit);
+            block.interact_with_wall(
+                wall,
+                &self.normal,
+                &self.tangential,
+                self.increment,
+                overlap_limit,
+            );
             if Self::REMEMBERS {
                 for (history, &i) in block.history.iter().zip(spheres) {
                     histories[i as usize] = *history;

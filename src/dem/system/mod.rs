@@ -1,13 +1,17 @@
 //! A simulation compiled for its contact laws.
 
+mod adaptive;
 mod contacts;
 mod integrate;
+mod islands;
 
-use self::contacts::PairBlock;
+use self::adaptive::Adaptive;
+use self::contacts::{Among, PairBlock};
+use self::integrate::Before;
 use super::block::{Body, Load};
 use super::contact::NormalLaw;
 use super::effects::Effect;
-use super::friction::TangentialLaw;
+use super::friction::{Increment, TangentialLaw};
 use super::guard::Limits;
 use super::neighbours::{Near, Reach, VerletList};
 use super::particles::{Particles, Sphere, retain};
@@ -22,6 +26,8 @@ pub(in crate::dem) trait Engine: Send {
     fn advance(&mut self, steps: u64) -> Result<(), Instability>;
     fn particles(&self) -> &Particles;
     fn step(&self) -> u64;
+    /// How often a sphere was moved, parts of steps counted.
+    fn moves(&self) -> u64;
     fn list(&self) -> Option<&VerletList>;
     /// What the contacts hold at the present positions.
     fn contacts(&mut self) -> Contacts;
@@ -67,10 +73,14 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     near: Near,
     /// Whether the near pairs must be looked for anew.
     stale: bool,
-    /// Steps since the list was built.
-    age: u64,
-    /// Steps since the near pairs were looked for.
-    near_age: u64,
+    /// Since the list was built.
+    age: Age,
+    /// Since the near pairs were looked for.
+    near_age: Age,
+    /// The time that histories move on by at every evaluation.
+    increment: Increment,
+    before: Before,
+    adaptive: Adaptive<T::History>,
     bodies: Vec<Body>,
     loads: Vec<Load>,
     block: Box<PairBlock<T::History>>,
@@ -84,9 +94,19 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     floor_history: Vec<T::History>,
     cylinder_history: Vec<T::History>,
     step: u64,
+    moves: u64,
     level: Level,
     /// The first sphere found beyond the overlap limit in this step, with its overlap.
     too_deep: Option<(usize, f64)>,
+}
+
+/// How long ago something was.
+#[derive(Clone, Copy, Debug, Default)]
+struct Age {
+    /// Steps begun since.
+    steps: u64,
+    /// Time that the spheres moved since (s).
+    time: f64,
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
@@ -106,8 +126,18 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             list: interact.then(|| VerletList::new(reach, parts.skin, parts.neighbours)),
             stale: true,
             near: Near::new(N::ACTS, parts.shielded, 0.3 * parts.skin),
-            age: 0,
-            near_age: 0,
+            age: Age::default(),
+            near_age: Age::default(),
+            increment: match parts.integrator {
+                Integrator::SymplecticEuler | Integrator::VelocityVerlet => {
+                    Increment::whole(parts.dt)
+                }
+                Integrator::SynchronisedVerlet | Integrator::AdaptiveVerlet => {
+                    Increment::around(parts.dt)
+                }
+            },
+            before: Before::default(),
+            adaptive: Adaptive::default(),
             bodies: if interact {
                 bodies_of(&parts.particles)
             } else {
@@ -125,6 +155,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             tangential,
             parts,
             step: 0,
+            moves: 0,
             level: Level::new(),
             too_deep: None,
         }
@@ -141,8 +172,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             if self.stale {
                 self.refresh()?;
             }
-            let level = self.level;
-            fearless_simd::dispatch!(level, simd => self.contact_forces(simd));
+            let among = self.take_all();
+            self.forces_among(&among, true);
+            self.return_all(among);
         } else {
             if self.stale {
                 self.rebuild()?;
@@ -150,9 +182,30 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.parts.particles.force.fill(Vector::ZERO);
             self.parts.particles.torque.fill(Vector::ZERO);
         }
+        self.apply_effects();
+        self.check_overlaps()
+    }
+
+    /// Forces and torques of all but contacts.
+    fn evaluate_effects(&mut self) {
+        if self.list.is_some() {
+            self.gather();
+            self.forces_among(&Among::default(), true);
+        } else {
+            self.parts.particles.force.fill(Vector::ZERO);
+            self.parts.particles.torque.fill(Vector::ZERO);
+        }
+        self.apply_effects();
+    }
+
+    fn apply_effects(&mut self) {
         for effect in &mut self.parts.effects {
             effect.apply(self.level, &mut self.parts.particles, &self.shielding);
         }
+    }
+
+    /// Reports a contact that the latest forces found too deep.
+    fn check_overlaps(&mut self) -> Result<(), Instability> {
         match self.too_deep.take() {
             Some((sphere, overlap)) => {
                 Err(self
@@ -164,24 +217,45 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
-    /// Forces and torques of pairs and walls, and the counts of shielding spheres.
+    /// Takes out what may touch, all of it.
+    fn take_all(&mut self) -> Among {
+        Among {
+            pairs: self.near.take_pairs(),
+            floor: std::mem::take(&mut self.near_floor),
+            cylinder: std::mem::take(&mut self.near_cylinder),
+        }
+    }
+
+    fn return_all(&mut self, among: Among) {
+        self.near.return_pairs(among.pairs);
+        self.near_floor = among.floor;
+        self.near_cylinder = among.cylinder;
+    }
+
+    /// Adds the forces and torques of contacts to the loads. If these are all contacts, also finds the
+    /// forces and torques of the spheres from the loads, and counts shielding spheres.
+    fn forces_among(&mut self, among: &Among, all: bool) {
+        let level = self.level;
+        fearless_simd::dispatch!(level, simd => self.contact_forces(simd, among, all));
+    }
+
     #[inline(always)]
-    fn contact_forces<S: Simd>(&mut self, simd: S) {
-        self.pair_forces(simd);
+    fn contact_forces<S: Simd>(&mut self, simd: S, among: &Among, all: bool) {
+        self.pair_forces(simd, &among.pairs);
         if let (true, Some(floor)) = (N::ACTS, self.parts.floor) {
-            let near = std::mem::take(&mut self.near_floor);
             let mut history = std::mem::take(&mut self.floor_history);
-            self.wall_forces(simd, floor, &near, &mut history);
-            (self.near_floor, self.floor_history) = (near, history);
+            self.wall_forces(simd, floor, &among.floor, &mut history);
+            self.floor_history = history;
         }
         if let (true, Some(cylinder)) = (N::ACTS, self.parts.cylinder) {
-            let near = std::mem::take(&mut self.near_cylinder);
             let mut history = std::mem::take(&mut self.cylinder_history);
-            self.wall_forces(simd, cylinder, &near, &mut history);
-            (self.near_cylinder, self.cylinder_history) = (near, history);
+            self.wall_forces(simd, cylinder, &among.cylinder, &mut history);
+            self.cylinder_history = history;
         }
-        self.scatter();
-        if self.parts.shielded {
+        if all {
+            self.scatter();
+        }
+        if all && self.parts.shielded {
             self.near
                 .count_shielding(simd, &self.bodies, &mut self.shielding);
         }
@@ -192,10 +266,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let Some(list) = &self.list else {
             return self.rebuild();
         };
-        self.near.adapt(self.near_age, list.skin());
-        self.near_age = 0;
-        let time = self.age as f64 * self.parts.dt;
-        if !list.holds(&self.parts.particles, time, self.near.margin()) {
+        self.near.adapt(self.near_age.steps, list.skin());
+        self.near_age = Age::default();
+        if !list.holds(&self.parts.particles, self.age.time, self.near.margin()) {
             self.rebuild()?;
         }
         self.stale = false;
@@ -245,7 +318,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let Some(list) = &mut self.list else {
             return Ok(());
         };
-        list.adapt(age);
+        list.adapt(age.steps);
         if !Self::REMEMBERS {
             list.build(particles);
             self.pair_history
@@ -282,6 +355,10 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
 
     fn step(&self) -> u64 {
         self.step
+    }
+
+    fn moves(&self) -> u64 {
+        self.moves
     }
 
     fn list(&self) -> Option<&VerletList> {

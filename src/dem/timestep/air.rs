@@ -1,6 +1,6 @@
 //! Limits of what the air does to spheres and of damped spins.
 
-use super::{Limit, fastest_impact};
+use super::{Limit, Scheme, fastest_impact};
 use crate::scene::{Scene, Start};
 
 /// A sphere that slips through the air at speed u returns to its terminal speed at the rate
@@ -25,10 +25,10 @@ pub(super) fn drag_limit(scene: &Scene) -> Option<Limit> {
     let mass = scene.smallest_mass();
     Some(Limit {
         name: "drag",
-        seconds: 2.0 * mass / coefficient,
+        seconds: Scheme::of(scene).oscillator(0.0, coefficient / mass),
         decisive: true,
-        explanation: "2 m / (c1 + 2 c2 u) of the smallest sphere, times the factors of swirl and \
-                      updraught at the lowest height",
+        explanation: "2 m / (q (c1 + 2 c2 u)) of the smallest sphere, times the factors of swirl and \
+                      updraught at the lowest height; q = 2 for synchronised-verlet, else 1",
     })
 }
 
@@ -38,8 +38,8 @@ pub(super) fn spin_damping_limit(scene: &Scene) -> Option<Limit> {
     let inertia = scene.spheres.shape.inertia_factor() * scene.smallest_mass() * radius * radius;
     Some(Limit {
         name: "spin damping",
-        seconds: 2.0 * inertia / damping.coefficient,
+        seconds: Scheme::of(scene).oscillator(0.0, damping.coefficient / inertia),
         decisive: true,
-        explanation: "2 I / c of the smallest sphere",
+        explanation: "2 I / (q c) of the smallest sphere; q = 2 for synchronised-verlet, else 1",
     })
 }

@@ -1,6 +1,6 @@
 //! Limits of the Hertz contact.
 
-use super::Limit;
+use super::{Limit, Scheme};
 use crate::dem::contact::restitution::{dissipation_time_from_restitution, time_scale};
 use crate::scene::{Contact, Friction, Scene, Shape};
 use std::f64::consts::PI;
@@ -163,13 +163,14 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
                           fifth of it is customary",
         },
         Limit {
-            name: "displacement",
+            name: super::DISPLACEMENT,
             seconds: scene.guards.displacement * radius / impact.speed,
             decisive: false,
             explanation: "the fastest sphere stays below the displacement guard",
         },
     ];
     limits.extend(damping_limit(
+        Scheme::of(scene),
         frequency,
         dissipation_factor * dissipation_time(scene),
     ));
@@ -178,14 +179,14 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
 }
 
 /// The contact law's damping rate at overlap xi is g = K c A sqrt(xi) / m_eff = (2/3) c A w^2.
-fn damping_limit(frequency: f64, dissipation: f64) -> Option<Limit> {
+fn damping_limit(scheme: Scheme, frequency: f64, dissipation: f64) -> Option<Limit> {
     let rate = 2.0 / 3.0 * dissipation * frequency * frequency;
     (rate > 0.0).then(|| Limit {
         name: "damped contact",
-        seconds: super::damped_oscillator(frequency, rate),
+        seconds: scheme.oscillator(frequency, rate),
         decisive: true,
-        explanation: "(w dt)^2 + 2 g dt < 4 with the w of the contact limit and the damping rate \
-                      g = (2/3) c A w^2",
+        explanation: "(w dt)^2 + 2 q g dt < 4 with the w of the contact limit and the damping rate \
+                      g = (2/3) c A w^2; q = 2 for synchronised-verlet, else 1",
     })
 }
 
@@ -201,20 +202,27 @@ fn friction_limit(scene: &Scene, impact: &Impact, poisson_ratio: f64) -> Option<
             regularisation,
         } => Some(Limit {
             name: "regularised friction",
-            seconds: 2.0 * regularisation * impact.effective_mass
-                / (3.5 * coefficient * impact.largest_force()),
+            seconds: Scheme::of(scene).oscillator(
+                0.0,
+                3.5 * coefficient * impact.largest_force()
+                    / (regularisation * impact.effective_mass),
+            ),
             decisive: false,
-            explanation: "2 u_0 m_eff / (3.5 mu F) at the largest force; above it sliding that \
-                          should stop changes sign from step to step",
+            explanation: "2 u_0 m_eff / (3.5 q mu F) at the largest force; above it sliding that \
+                          should stop changes sign from step to step; q = 2 for synchronised-verlet, \
+                          else 1",
         }),
         Friction::Mindlin { .. } => {
             let stiffness_ratio = 2.0 * (1.0 - poisson_ratio) / (2.0 - poisson_ratio);
             Some(Limit {
                 name: "sticking contact",
-                seconds: 2.0 / ((3.5 * stiffness_ratio).sqrt() * impact.angular_frequency()),
+                seconds: Scheme::of(scene).loaded_spring(
+                    (3.5 * stiffness_ratio).sqrt() * impact.angular_frequency(),
+                    0.0,
+                ),
                 decisive: true,
-                explanation: "2/w of the tangential spring, w_t^2 = 3.5 k_t / m_eff with \
-                              k_t / k_n = 2 (1 - nu) / (2 - nu)",
+                explanation: "2/w of the tangential spring, w^2 = 3.5 q k_t / m_eff with \
+                              k_t / k_n = 2 (1 - nu) / (2 - nu); q = 2 for synchronised-verlet, else 1",
             })
         }
     }

@@ -1,6 +1,6 @@
 //! Limits of the linear contact.
 
-use super::{Limit, fastest_impact};
+use super::{Limit, Scheme, fastest_impact};
 use crate::scene::{Contact, Friction, Scene};
 use std::f64::consts::PI;
 
@@ -67,6 +67,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
     let Some(impact) = stiffest_impact(scene) else {
         return Vec::new();
     };
+    let scheme = Scheme::of(scene);
     let frequency = impact.angular_frequency();
     let speed = fastest_impact(scene);
     let mut limits = vec![
@@ -78,7 +79,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
         },
         super::twelve_contacts(frequency),
         Limit {
-            name: "displacement",
+            name: super::DISPLACEMENT,
             seconds: scene.guards.displacement * scene.smallest_radius() / speed,
             decisive: false,
             explanation: "the fastest sphere stays below the displacement guard",
@@ -87,10 +88,10 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
     if impact.damping > 0.0 {
         limits.push(Limit {
             name: "damped contact",
-            seconds: super::damped_oscillator(frequency, impact.damping_rate()),
+            seconds: scheme.oscillator(frequency, impact.damping_rate()),
             decisive: true,
-            explanation: "(w dt)^2 + 2 g dt < 4 with the w of the contact limit and the damping rate \
-                          g = b / m_eff",
+            explanation: "(w dt)^2 + 2 q g dt < 4 with the w of the contact limit and the damping rate \
+                          g = b / m_eff; q = 2 for synchronised-verlet, else 1",
         });
     }
     if let Some(Friction::CundallStrack {
@@ -101,9 +102,10 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
         let moved = (1.0 + 1.0 / scene.spheres.shape.inertia_factor()) / impact.effective_mass;
         limits.push(Limit {
             name: "sticking contact",
-            seconds: super::damped_oscillator((stiffness * moved).sqrt(), damping * moved),
+            seconds: scheme.loaded_spring((stiffness * moved).sqrt(), damping * moved),
             decisive: true,
-            explanation: "(w dt)^2 + 2 g dt < 4 with w^2 = k_t q and g = b_t q, q = (1 + m r^2 / I) / m_eff",
+            explanation: "q (w dt)^2 + 2 q g dt < 4 with w^2 = k_t / m_t and g = b_t / m_t, \
+                          m_t = m_eff / (1 + m r^2 / I); q = 2 for synchronised-verlet, else 1",
         });
     }
     if let Some(Friction::Coulomb {
@@ -114,11 +116,15 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
         let force = impact.stiffness * speed / frequency;
         limits.push(Limit {
             name: "regularised friction",
-            seconds: 2.0 * regularisation * impact.effective_mass
-                / ((1.0 + 1.0 / scene.spheres.shape.inertia_factor()) * coefficient * force),
+            seconds: scheme.oscillator(
+                0.0,
+                (1.0 + 1.0 / scene.spheres.shape.inertia_factor()) * coefficient * force
+                    / (regularisation * impact.effective_mass),
+            ),
             decisive: false,
-            explanation: "2 u_0 m_eff / ((1 + m r^2 / I) mu F) at the largest force; above it sliding \
-                          that should stop changes sign from step to step",
+            explanation: "2 u_0 m_eff / ((1 + m r^2 / I) q mu F) at the largest force; above it sliding \
+                          that should stop changes sign from step to step; q = 2 for \
+                          synchronised-verlet, else 1",
         });
     }
     limits

@@ -1,8 +1,12 @@
 //! Limits of the time step: what a scene's stiffest contact, its drag and its friction allow.
 //!
-//! Both integrators evaluate forces once per step, at velocities half a step behind the positions.
-//! A linear oscillator x'' = -w^2 x - g x' then stays bounded while
-//! (w dt)^2 + 2 g dt < 4, which is dt < 2/w without damping and dt < 2/g without a spring. Every
+//! Symplectic Euler and velocity Verlet evaluate forces once per step, at velocities half a step behind
+//! the positions. A linear oscillator x'' = -w^2 x - g x' then stays bounded while
+//! (w dt)^2 + 2 g dt < 4, which is dt < 2/w without damping and dt < 2/g without a spring.
+//! Synchronised Verlet foretells the velocities from the latest forces, for which its bound is
+//! (w dt)^2 + 4 g dt < 4, and 2 (w dt)^2 + 4 g dt < 4 for a spring that is loaded by increments.
+//! Adaptive Verlet cuts its steps itself where spheres touch; what is left is that no sphere moves by
+//! more than the displacement guard allows, and the drag, with g dt < 2 as for the first two. Every
 //! limit here is that criterion for one effect, at the fastest impact the scene lets expect; the
 //! smallest spheres decide, since all of these times grow with the radius.
 
@@ -13,7 +17,7 @@ mod linear;
 pub use hertz::{Impact, dissipation_time, rayleigh_time};
 pub use linear::LinearImpact;
 
-use crate::scene::{Scene, Start, StartSphere};
+use crate::scene::{Integrator, Scene, Start, StartSphere};
 
 /// A limit of the time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,10 +103,49 @@ pub fn shortest_contact(scene: &Scene) -> Option<f64> {
     hertz.or_else(|| linear::stiffest_impact(scene).map(|impact| impact.contact_time()))
 }
 
-/// Largest step (s) at which an oscillator of that angular frequency w (1/s) and damping rate g (1/s)
-/// stays bounded: the positive root of (w dt)^2 + 2 g dt = 4, in the form that does not cancel.
-fn damped_oscillator(frequency: f64, rate: f64) -> f64 {
-    4.0 / (rate + (rate * rate + 4.0 * frequency * frequency).sqrt())
+/// The limit that adaptive Verlet, whose sub-steps resolve contacts, shares with the others: there it
+/// decides.
+const DISPLACEMENT: &str = "displacement";
+
+/// What an integrator makes of an oscillator: it stays bounded as one would for which symplectic Euler
+/// stays bounded, with other constants.
+#[derive(Clone, Copy)]
+struct Scheme {
+    /// Factor on damping rates.
+    damping: f64,
+    /// Factor on w^2 of springs that are loaded by increments.
+    increments: f64,
+}
+
+impl Scheme {
+    fn of(scene: &Scene) -> Self {
+        match scene.time.integrator {
+            // Of adaptive Verlet only the drag: sub-steps take care of contacts.
+            Integrator::SymplecticEuler
+            | Integrator::VelocityVerlet
+            | Integrator::AdaptiveVerlet => Self {
+                damping: 1.0,
+                increments: 1.0,
+            },
+            Integrator::SynchronisedVerlet => Self {
+                damping: 2.0,
+                increments: 2.0,
+            },
+        }
+    }
+
+    /// Largest step (s) at which an oscillator of that angular frequency w (1/s) and damping rate g (1/s)
+    /// stays bounded.
+    fn oscillator(self, frequency: f64, rate: f64) -> f64 {
+        // The positive root of (w dt)^2 + 2 g dt = 4, in the form that does not cancel.
+        let rate = self.damping * rate;
+        4.0 / (rate + (rate * rate + 4.0 * frequency * frequency).sqrt())
+    }
+
+    /// The same for a spring that is loaded by increments.
+    fn loaded_spring(self, frequency: f64, rate: f64) -> f64 {
+        self.oscillator(self.increments.sqrt() * frequency, rate)
+    }
 }
 
 /// The limit of a sphere with twelve contacts, each of which has that angular frequency w (1/s) in a
@@ -121,6 +164,10 @@ fn twelve_contacts(frequency: f64) -> Limit {
 pub fn limits(scene: &Scene) -> Vec<Limit> {
     let mut limits = hertz::limits(scene);
     limits.extend(linear::limits(scene));
+    if scene.time.integrator == Integrator::AdaptiveVerlet {
+        limits.retain(|limit| limit.name == DISPLACEMENT);
+        limits.iter_mut().for_each(|limit| limit.decisive = true);
+    }
     limits.extend(air::drag_limit(scene));
     limits.extend(air::spin_damping_limit(scene));
     let finite = |limit: &Limit| limit.seconds.is_finite();
@@ -282,26 +329,58 @@ mod tests {
         close(fastest_impact(&mixed), (2.0 * 9.8 * 0.2_f64).sqrt(), 1e-12);
     }
 
-    /// Whether x'' = -w^2 x - g x' stays bounded under the scheme both integrators share.
-    fn bounded(frequency: f64, rate: f64, dt: f64) -> bool {
-        let (mut position, mut velocity) = (1.0, 0.0);
+    /// Whether x'' = -w^2 x - g x' stays bounded under a scheme; a loaded spring sums up its force.
+    fn bounded(scheme: Integrator, loaded: bool, frequency: f64, rate: f64, dt: f64) -> bool {
+        let (mut position, mut velocity, mut latest) = (1.0, 0.0, 0.0);
+        let mut spring = -frequency * frequency * position;
         for _ in 0..20_000 {
-            velocity -= dt * (frequency * frequency * position + rate * velocity);
-            position += dt * velocity;
+            let square = frequency * frequency;
+            match scheme {
+                // At the half steps of velocity Verlet the same.
+                Integrator::SymplecticEuler
+                | Integrator::VelocityVerlet
+                | Integrator::AdaptiveVerlet => {
+                    let force = if loaded { spring } else { -square * position };
+                    velocity += dt * (force - rate * velocity);
+                    position += dt * velocity;
+                    spring -= square * velocity * dt;
+                }
+                Integrator::SynchronisedVerlet => {
+                    position += 0.5 * dt * velocity;
+                    let foretold = velocity + 0.5 * dt * latest;
+                    let felt = spring - square * foretold * 0.5 * dt;
+                    spring -= square * foretold * dt;
+                    let force = if loaded { felt } else { -square * position };
+                    latest = force - rate * foretold;
+                    velocity += dt * latest;
+                    position += 0.5 * dt * velocity;
+                }
+            }
         }
-        f64::abs(position) < 1e3
+        f64::abs(velocity) < 1e3 * frequency.max(1.0)
     }
 
     #[test]
     fn the_damped_limit_is_where_an_oscillator_diverges() {
-        for (frequency, dissipation) in [(1.0, 0.1), (3.0, 1.0), (10.0, 3.0)] {
-            let rate = 2.0 / 3.0 * dissipation * frequency * frequency;
-            let limit = damped_oscillator(frequency, rate);
-            assert!(bounded(frequency, rate, 0.99 * limit));
-            assert!(!bounded(frequency, rate, 1.01 * limit));
+        let without_sub_steps = |it: &Integrator| *it != Integrator::AdaptiveVerlet;
+        for integrator in Integrator::ALL.into_iter().filter(without_sub_steps) {
+            let mut scene = pair("");
+            scene.time.integrator = integrator;
+            let scheme = Scheme::of(&scene);
+            for (frequency, dissipation) in [(5.0, 0.0), (1.0, 0.1), (3.0, 1.0), (10.0, 3.0)] {
+                let rate = 2.0 / 3.0 * dissipation * frequency * frequency;
+                let limits = [
+                    (false, scheme.oscillator(frequency, rate)),
+                    (true, scheme.loaded_spring(frequency, rate)),
+                ];
+                for (loaded, limit) in limits {
+                    let name = format!("{} {loaded} {frequency}", integrator.name());
+                    let bounded = |dt| bounded(integrator, loaded, frequency, rate, dt);
+                    assert!(bounded(0.99 * limit), "{name}");
+                    assert!(!bounded(1.01 * limit), "{name}");
+                }
+            }
         }
-        assert!(bounded(5.0, 0.0, 0.99 * 2.0 / 5.0) && !bounded(5.0, 0.0, 1.01 * 2.0 / 5.0));
-        assert_eq!(damped_oscillator(5.0, 0.0), 2.0 / 5.0);
     }
 
     #[test]

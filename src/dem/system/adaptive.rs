@@ -1,0 +1,434 @@
+//! Velocity Verlet with sub-steps where spheres touch.
+
+use super::System;
+use super::islands::{Island, Islands};
+use crate::dem::block::Load;
+use crate::dem::contact::NormalLaw;
+use crate::dem::friction::{Increment, TangentialLaw};
+use crate::dem::neighbours::NearPair;
+use crate::dem::particles::Particles;
+use crate::dem::vector::Vector;
+use crate::dem::walls::Wall;
+use crate::record::Instability;
+
+/// What a sub-step may take of an island's fastest oscillation, h (w + g) with angular frequency w and
+/// damping rate g: an impact then lasts 27 sub-steps or more.
+const RESOLUTION: f64 = 0.15;
+
+/// The same for friction that grows with the sliding speed, which need not be resolved, only stable.
+const FRICTION_RESOLUTION: f64 = 0.5;
+
+/// What a step of the scheme works with; nothing of it is needed from step to step.
+#[derive(Default)]
+pub(super) struct Adaptive<H> {
+    start: Start<H>,
+    /// Forces and torques of all but contacts in the middle of the step.
+    force: Vec<Vector>,
+    torque: Vec<Vector>,
+    /// What the forces at the start of the step may add to the speed of each sphere, were they twice as
+    /// large (m/s), and how far it may get (m).
+    gain: Vec<f64>,
+    reach: Vec<f64>,
+    /// Contacts that a step found at its end without having looked for them.
+    missed_pairs: Vec<[u32; 2]>,
+    missed_spheres: Vec<u32>,
+    islands: Islands,
+    /// Squared frequency (1/s2) and damping rate (1/s) of each sphere at its contacts.
+    stiffness: Vec<f64>,
+    damping: Vec<f64>,
+}
+
+/// The spheres at the start of a step.
+#[derive(Default)]
+struct Start<H> {
+    position: Vec<Vector>,
+    velocity: Vec<Vector>,
+    spin: Vec<Vector>,
+    /// Latest forces and torques.
+    force: Vec<Vector>,
+    torque: Vec<Vector>,
+    pair_history: Vec<H>,
+    wall_history: [Vec<H>; 2],
+}
+
+impl<H: Copy> Start<H> {
+    fn keep(&mut self, particles: &Particles) {
+        self.position.clone_from(&particles.position);
+        self.velocity.clone_from(&particles.velocity);
+        self.spin.clone_from(&particles.spin);
+        self.force.clone_from(&particles.force);
+        self.torque.clone_from(&particles.torque);
+    }
+
+    fn put_back(&self, particles: &mut Particles) {
+        particles.position.copy_from_slice(&self.position);
+        particles.velocity.copy_from_slice(&self.velocity);
+        particles.spin.copy_from_slice(&self.spin);
+    }
+}
+
+impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
+    /// One step of synchronised Verlet, cut into as many sub-steps as the contacts need, for each group
+    /// of touching spheres by itself: the others move in one go. What acts besides contacts is taken
+    /// from the middle of the whole step.
+    ///
+    /// A sphere belongs to a group if it touches another one or might within the step; should
+    /// spheres meet all the same because a third one knocked them, the step is done again with them in
+    /// one group. So no contact begins unseen.
+    pub(super) fn adaptive_verlet(&mut self) -> Result<(), Instability> {
+        let mut work = std::mem::take(&mut self.adaptive);
+        let result = self.adaptive_step(&mut work);
+        self.adaptive = work;
+        result
+    }
+
+    fn adaptive_step(&mut self, work: &mut Adaptive<T::History>) -> Result<(), Instability> {
+        self.begin_step();
+        self.check_speeds(true)?;
+        let dt = self.parts.dt;
+        work.start.keep(&self.parts.particles);
+        self.slow_forces(work)?;
+        self.keep_histories(&mut work.start);
+        work.missed_pairs.clear();
+        work.missed_spheres.clear();
+        loop {
+            self.group(work);
+            self.gather();
+            self.move_free_spheres(work);
+            for island in work.islands.all() {
+                let sub_steps = work.sub_steps(island, dt);
+                self.move_island(island, sub_steps, work)?;
+            }
+            if !self.has_missed(work) {
+                break;
+            }
+            work.start.put_back(&mut self.parts.particles);
+            self.put_back_histories(&work.start);
+        }
+        self.age.time += dt;
+        self.near_age.time += dt;
+        self.check_speeds(true)
+    }
+
+    /// Forces and torques of all but contacts, in the middle of the step as they foretell it, and how
+    /// far the spheres may get in the step. Leaves the spheres where they were.
+    fn slow_forces(&mut self, work: &mut Adaptive<T::History>) -> Result<(), Instability> {
+        let dt = self.parts.dt;
+        if self.stale {
+            match self.list {
+                Some(_) => {
+                    self.gather();
+                    self.refresh()?;
+                }
+                None => self.rebuild()?,
+            }
+        }
+        self.evaluate_effects();
+        let reach = work.find_reach(&self.parts.particles, dt);
+        self.hold_for(reach)?;
+        let Particles {
+            position, velocity, ..
+        } = &mut self.parts.particles;
+        for (position, &velocity) in position.iter_mut().zip(velocity.iter()) {
+            *position += velocity * (0.5 * dt);
+        }
+        self.kick(0.5 * dt);
+        self.evaluate_effects();
+        work.force.clone_from(&self.parts.particles.force);
+        work.torque.clone_from(&self.parts.particles.torque);
+        work.start.put_back(&mut self.parts.particles);
+        Ok(())
+    }
+
+    /// Sees to it that the near pairs hold while no sphere goes farther than `reach` (m).
+    fn hold_for(&mut self, reach: f64) -> Result<(), Instability> {
+        let Some(list) = &mut self.list else {
+            return Ok(());
+        };
+        // Twice what is needed, to be of use for more than one step.
+        let margin = 4.0 * reach;
+        list.require(2.0 * margin);
+        let wide = self.near.require(margin);
+        let particles = &self.parts.particles;
+        if wide && self.near.holds(particles, self.near_age.time, reach) {
+            return Ok(());
+        }
+        self.gather();
+        self.refresh()
+    }
+
+    fn keep_histories(&self, start: &mut Start<T::History>) {
+        if Self::REMEMBERS {
+            start.pair_history.clone_from(&self.pair_history);
+            start.wall_history[0].clone_from(&self.floor_history);
+            start.wall_history[1].clone_from(&self.cylinder_history);
+        }
+    }
+
+    fn put_back_histories(&mut self, start: &Start<T::History>) {
+        if Self::REMEMBERS {
+            self.pair_history.copy_from_slice(&start.pair_history);
+            self.floor_history.copy_from_slice(&start.wall_history[0]);
+            self.cylinder_history
+                .copy_from_slice(&start.wall_history[1]);
+        }
+    }
+
+    /// Finds the islands, and how stiff the contacts of their spheres may become.
+    fn group(&self, work: &mut Adaptive<T::History>) {
+        let particles = &self.parts.particles;
+        let (count, fixed) = (particles.len(), particles.fixed);
+        work.islands.reset(count);
+        work.stiffness.clear();
+        work.stiffness.resize(count, 0.0);
+        work.damping.clear();
+        work.damping.resize(count, 0.0);
+        if !N::ACTS {
+            return;
+        }
+        for &NearPair { i, j, .. } in self.near.pairs() {
+            self.look_at_pair(i as usize, j as usize, work);
+        }
+        self.look_at_wall(self.parts.floor, &self.near_floor, work);
+        self.look_at_wall(self.parts.cylinder, &self.near_cylinder, work);
+        for &[i, j] in &work.missed_pairs {
+            work.islands.join(i, j, fixed);
+        }
+        for &i in &work.missed_spheres {
+            work.islands.touch(i);
+        }
+        let walls = [&self.near_floor[..], &self.near_cylinder[..]];
+        work.islands.collect(self.near.pairs(), walls, fixed);
+    }
+
+    fn look_at_pair(&self, i: usize, j: usize, work: &mut Adaptive<T::History>) {
+        let Particles {
+            position,
+            velocity,
+            radius,
+            inverse_mass,
+            fixed,
+            ..
+        } = &self.parts.particles;
+        let sum = radius[i] + radius[j];
+        let way = work.reach[i] + work.reach[j];
+        let squared = (position[i] - position[j]).norm_squared();
+        if squared >= (sum + way) * (sum + way) {
+            return;
+        }
+        work.islands.join(i as u32, j as u32, *fixed);
+        let rates = self.rates(
+            (sum - squared.sqrt()).max(0.0),
+            (velocity[i] - velocity[j]).norm() + work.gain[i] + work.gain[j],
+            radius[i] * radius[j] / sum,
+            inverse_mass[i] + inverse_mass[j],
+            self.turning(i) + self.turning(j),
+        );
+        work.add(i, rates);
+        work.add(j, rates);
+    }
+
+    fn look_at_wall<W: Wall>(
+        &self,
+        wall: Option<W>,
+        near: &[u32],
+        work: &mut Adaptive<T::History>,
+    ) {
+        let Some(wall) = wall else { return };
+        let particles = &self.parts.particles;
+        for &sphere in near {
+            let i = sphere as usize;
+            let (centre, radius) = (particles.position[i], particles.radius[i]);
+            if i < particles.fixed || !wall.is_near(centre, radius, work.reach[i]) {
+                continue;
+            }
+            work.islands.touch(sphere);
+            let contact = wall.contact(centre, radius);
+            let rates = self.rates(
+                if contact.touches {
+                    contact.overlap
+                } else {
+                    0.0
+                },
+                particles.velocity[i].norm() + work.gain[i],
+                radius,
+                particles.inverse_mass[i],
+                self.turning(i),
+            );
+            work.add(i, rates);
+        }
+    }
+
+    /// How easily a force at its surface turns a sphere: r^2 / I (1/kg).
+    fn turning(&self, i: usize) -> f64 {
+        let particles = &self.parts.particles;
+        let radius = particles.radius[i];
+        let inverse = particles.inverse_inertia.get(i).copied().unwrap_or(0.0);
+        radius * radius * inverse
+    }
+
+    /// Squared frequency (1/s2) and damping rate (1/s) of an impact of that overlap (m) and speed (m/s)
+    /// at its deepest. `yielding` is 1 / m_eff and `turning` what rotation adds to it (1/kg).
+    fn rates(
+        &self,
+        overlap: f64,
+        speed: f64,
+        effective_radius: f64,
+        yielding: f64,
+        turning: f64,
+    ) -> [f64; 2] {
+        let (normal, tangential) = (&self.normal, &self.tangential);
+        let overlap = normal.deepest_overlap(overlap, speed, effective_radius, 1.0 / yielding);
+        let force = normal.force(overlap, 0.0, effective_radius);
+        let along = yielding + turning;
+        let squared = (normal.stiffness(overlap, effective_radius) * yielding)
+            .max(tangential.stiffness(overlap, effective_radius) * along);
+        let friction = tangential.damping(force) * along;
+        let damping = normal.damping(overlap, effective_radius) * yielding;
+        [
+            squared,
+            damping.max(friction * (RESOLUTION / FRICTION_RESOLUTION)),
+        ]
+    }
+
+    fn move_free_spheres(&mut self, work: &Adaptive<T::History>) {
+        let dt = self.parts.dt;
+        let particles = &mut self.parts.particles;
+        particles.force.copy_from_slice(&work.force);
+        particles.torque.copy_from_slice(&work.torque);
+        for i in particles.fixed..particles.len() {
+            if work.islands.is_free(i) {
+                self.moves += 1;
+                particles.position[i] += particles.velocity[i] * (0.5 * dt);
+                kick(particles, i, dt);
+                particles.position[i] += particles.velocity[i] * (0.5 * dt);
+            }
+        }
+    }
+
+    /// Moves the spheres of an island by a step, in so many parts.
+    fn move_island(
+        &mut self,
+        island: &Island,
+        sub_steps: u64,
+        work: &Adaptive<T::History>,
+    ) -> Result<(), Instability> {
+        let time = self.parts.dt / sub_steps as f64;
+        let half = 0.5 * time;
+        self.increment = Increment::around(time);
+        self.moves += sub_steps * island.spheres.len() as u64;
+        for &i in &island.spheres {
+            let (i, particles) = (i as usize, &mut self.parts.particles);
+            particles.force[i] = work.start.force[i];
+            if particles.rotate() {
+                particles.torque[i] = work.start.torque[i];
+            }
+        }
+        for _ in 0..sub_steps {
+            for &i in &island.spheres {
+                self.foretell(i as usize, half);
+            }
+            self.forces_among(&island.among, false);
+            self.check_overlaps()?;
+            for &i in &island.spheres {
+                self.complete(i as usize, time, work);
+            }
+        }
+        Ok(())
+    }
+
+    /// Moves a sphere to the middle of a sub-step, and puts it there with the velocity and spin that the
+    /// latest forces foretell.
+    fn foretell(&mut self, i: usize, half: f64) {
+        let particles = &mut self.parts.particles;
+        particles.position[i] += particles.velocity[i] * half;
+        let Vector { x, y, z } = particles.position[i];
+        let body = &mut self.bodies[i];
+        body.place[..3].copy_from_slice(&[x, y, z]);
+        let Vector { x, y, z } =
+            particles.velocity[i] + particles.force[i] * (particles.inverse_mass[i] * half);
+        body.motion[..3].copy_from_slice(&[x, y, z]);
+        if particles.rotate() {
+            let Vector { x, y, z } =
+                particles.spin[i] + particles.torque[i] * (particles.inverse_inertia[i] * half);
+            body.turning[..3].copy_from_slice(&[x, y, z]);
+        }
+        self.loads[i] = Load::default();
+    }
+
+    /// Moves a sphere from the middle to the end of a sub-step.
+    fn complete(&mut self, i: usize, time: f64, work: &Adaptive<T::History>) {
+        let particles = &mut self.parts.particles;
+        let [x, y, z, _] = self.loads[i].force;
+        particles.force[i] = Vector::new(x, y, z) + work.force[i];
+        if particles.rotate() {
+            let [x, y, z, _] = self.loads[i].torque;
+            particles.torque[i] = Vector::new(x, y, z) + work.torque[i];
+        }
+        kick(particles, i, time);
+        particles.position[i] += particles.velocity[i] * (0.5 * time);
+    }
+
+    /// Whether spheres touch now that were in different islands; notes which.
+    fn has_missed(&self, work: &mut Adaptive<T::History>) -> bool {
+        let before = work.missed_pairs.len() + work.missed_spheres.len();
+        let particles = &self.parts.particles;
+        for &NearPair { i, j, .. } in self.near.pairs() {
+            let (a, b) = (i as usize, j as usize);
+            let sum = particles.radius[a] + particles.radius[b];
+            let squared = (particles.position[a] - particles.position[b]).norm_squared();
+            if squared < sum * sum && !work.islands.holds_pair(i, j, particles.fixed) {
+                work.missed_pairs.push([i, j]);
+            }
+        }
+        work.miss_at_wall(self.parts.floor, &self.near_floor, particles);
+        work.miss_at_wall(self.parts.cylinder, &self.near_cylinder, particles);
+        work.missed_pairs.len() + work.missed_spheres.len() > before
+    }
+}
+
+/// v += a dt and the same for the spin, of one sphere.
+fn kick(particles: &mut Particles, i: usize, dt: f64) {
+    particles.velocity[i] += particles.force[i] * (particles.inverse_mass[i] * dt);
+    if particles.rotate() {
+        particles.spin[i] += particles.torque[i] * (particles.inverse_inertia[i] * dt);
+    }
+}
+
+impl<H> Adaptive<H> {
+    /// Finds how far each sphere may get in a step. The largest of these ways (m).
+    fn find_reach(&mut self, particles: &Particles, dt: f64) -> f64 {
+        let forces = particles.force.iter().zip(&particles.inverse_mass);
+        self.gain.clear();
+        self.gain
+            .extend(forces.map(|(force, inverse)| 2.0 * force.norm() * (inverse * dt)));
+        let speeds = particles.velocity.iter().zip(&self.gain);
+        self.reach.clear();
+        self.reach
+            .extend(speeds.map(|(velocity, gain)| (velocity.norm() + gain) * dt));
+        self.reach.iter().copied().fold(0.0, f64::max)
+    }
+
+    fn add(&mut self, i: usize, [squared, damping]: [f64; 2]) {
+        self.stiffness[i] += squared;
+        self.damping[i] += damping;
+    }
+
+    /// How many sub-steps of a step the contacts of an island need.
+    fn sub_steps(&self, island: &Island, dt: f64) -> u64 {
+        let rate = |&i: &u32| self.stiffness[i as usize].sqrt() + self.damping[i as usize];
+        let fastest = island.spheres.iter().map(rate).fold(0.0, f64::max);
+        ((dt * fastest / RESOLUTION).ceil() as u64).max(1)
+    }
+
+    fn miss_at_wall<W: Wall>(&mut self, wall: Option<W>, near: &[u32], particles: &Particles) {
+        let Some(wall) = wall else { return };
+        for &sphere in near {
+            let i = sphere as usize;
+            let contact = wall.contact(particles.position[i], particles.radius[i]);
+            if i >= particles.fixed && contact.touches && self.islands.is_free(i) {
+                self.missed_spheres.push(sphere);
+            }
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! Which spheres may touch one another within a step.
+
+use super::contacts::Among;
+use crate::dem::neighbours::NearPair;
+
+/// Spheres that may touch one another within a step, directly or through others, and all that they
+/// may touch.
+#[derive(Default)]
+pub(super) struct Island {
+    /// Their indices, in rising order.
+    pub(super) spheres: Vec<u32>,
+    /// Their contacts, possible ones included.
+    pub(super) among: Among,
+}
+
+impl Island {
+    fn clear(&mut self) {
+        self.spheres.clear();
+        self.among.pairs.clear();
+        self.among.floor.clear();
+        self.among.cylinder.clear();
+    }
+}
+
+/// The parts into which contacts divide the spheres.
+#[derive(Default)]
+pub(super) struct Islands {
+    /// Another sphere of the same island, on the way to the first of it.
+    parent: Vec<u32>,
+    /// Whether a sphere touches anything, or may.
+    active: Vec<bool>,
+    /// The island of each sphere that is the first of one.
+    island_of: Vec<u32>,
+    islands: Vec<Island>,
+    used: usize,
+}
+
+impl Islands {
+    /// Makes every sphere a part of its own, which touches nothing.
+    pub(super) fn reset(&mut self, spheres: usize) {
+        self.parent.clear();
+        self.parent.extend(0..spheres as u32);
+        self.active.clear();
+        self.active.resize(spheres, false);
+    }
+
+    /// Notes that a sphere may touch something that does not move.
+    pub(super) fn touch(&mut self, sphere: u32) {
+        self.active[sphere as usize] = true;
+    }
+
+    /// Notes that two spheres may touch, of which the first `fixed` do not move: they join no parts.
+    pub(super) fn join(&mut self, i: u32, j: u32, fixed: usize) {
+        self.touch(j);
+        if (i as usize) < fixed {
+            return;
+        }
+        self.touch(i);
+        let (i, j) = (self.first(i), self.first(j));
+        self.parent[i.max(j) as usize] = i.min(j);
+    }
+
+    /// The first sphere of the part.
+    fn first(&mut self, sphere: u32) -> u32 {
+        let mut i = sphere;
+        while self.parent[i as usize] != i {
+            let next = self.parent[self.parent[i as usize] as usize];
+            self.parent[i as usize] = next;
+            i = next;
+        }
+        i
+    }
+
+    /// Whether a sphere touches nothing, and will not.
+    pub(super) fn is_free(&self, sphere: usize) -> bool {
+        !self.active[sphere]
+    }
+
+    /// Whether the contact of two spheres is one of an island; of a pair the second always moves.
+    pub(super) fn holds_pair(&mut self, i: u32, j: u32, fixed: usize) -> bool {
+        if (i as usize) < fixed {
+            return self.active[j as usize];
+        }
+        self.active[i as usize] && self.active[j as usize] && self.first(i) == self.first(j)
+    }
+
+    /// Puts what may touch into islands, in the order of the indices.
+    pub(super) fn collect(&mut self, pairs: &[NearPair], walls: [&[u32]; 2], fixed: usize) {
+        self.islands[..self.used].iter_mut().for_each(Island::clear);
+        self.used = 0;
+        self.island_of.resize(self.parent.len(), 0);
+        for sphere in 0..self.parent.len() as u32 {
+            if self.is_free(sphere as usize) {
+                continue;
+            }
+            let first = self.first(sphere);
+            if first == sphere {
+                self.island_of[sphere as usize] = self.used as u32;
+                self.used += 1;
+                if self.islands.len() < self.used {
+                    self.islands.push(Island::default());
+                }
+            }
+            self.island(first).spheres.push(sphere);
+        }
+        for pair in pairs {
+            if self.holds_pair(pair.i, pair.j, fixed) {
+                let first = self.first(pair.j);
+                self.island(first).among.pairs.push(*pair);
+            }
+        }
+        for (wall, near) in walls.into_iter().enumerate() {
+            for &sphere in near {
+                if !self.is_free(sphere as usize) && sphere as usize >= fixed {
+                    let first = self.first(sphere);
+                    let among = &mut self.island(first).among;
+                    [&mut among.floor, &mut among.cylinder][wall].push(sphere);
+                }
+            }
+        }
+    }
+
+    fn island(&mut self, first: u32) -> &mut Island {
+        &mut self.islands[self.island_of[first as usize] as usize]
+    }
+
+    /// The islands, in the order of their first spheres.
+    pub(super) fn all(&self) -> &[Island] {
+        &self.islands[..self.used]
+    }
+}

@@ -1,0 +1,64 @@
+//! How fast the motion converges as the time step shrinks.
+
+use super::bench::Bench;
+use super::{Family, Measured, VerifyError, named};
+use crate::dem::Simulation;
+use crate::scene::{Guards, Scene, Time};
+use serde::Deserialize;
+
+/// A scene, run with its time step, a half and a quarter of it. Where the motion is smooth, the
+/// difference of two neighbouring runs shrinks by two to the order of the scheme.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Convergence {
+    /// The scene; its integrator is that of the bench.
+    scene: Box<Scene>,
+}
+
+impl Family for Convergence {
+    fn name(&self) -> &'static str {
+        "convergence"
+    }
+
+    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+        let dt = self.scene.time.dt;
+        let states = [dt, 0.5 * dt, 0.25 * dt].map(|dt| self.end(dt, bench));
+        let [coarse, middle, fine] = states;
+        let (coarse, middle, fine) = (coarse?, middle?, fine?);
+        let order = (distance(&coarse, &middle) / distance(&middle, &fine)).log2();
+        Ok(named([("order", order)]))
+    }
+}
+
+impl Convergence {
+    /// Places, and ways that velocities and surfaces would go in the duration (m), at the end.
+    fn end(&self, dt: f64, bench: &mut Bench) -> Result<Vec<f64>, VerifyError> {
+        let duration = self.scene.time.duration;
+        let scene = Scene {
+            time: Time {
+                dt,
+                integrator: bench.integrator(),
+                ..self.scene.time.clone()
+            },
+            guards: Guards {
+                displacement: f64::MAX,
+                ..Guards::default()
+            },
+            ..(*self.scene).clone()
+        };
+        let mut simulation = Simulation::new(&scene)?;
+        bench.advance_for(&mut simulation, duration, dt)?;
+        let particles = simulation.particles();
+        let spins = particles.spin.iter().zip(&particles.radius);
+        let places = particles.position.iter().copied();
+        let velocities = particles.velocity.iter().map(|&it| it * duration);
+        let surfaces = spins.map(|(&spin, radius)| spin * (radius * duration));
+        let vectors = places.chain(velocities).chain(surfaces);
+        Ok(vectors.flat_map(|it| [it.x, it.y, it.z]).collect())
+    }
+}
+
+fn distance(one: &[f64], other: &[f64]) -> f64 {
+    let squares = one.iter().zip(other).map(|(a, b)| (a - b) * (a - b));
+    squares.sum::<f64>().sqrt()
+}
