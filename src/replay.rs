@@ -100,6 +100,7 @@ pub fn replay(dump: &Array3<f64>, scene: &Scene) -> Result<RunRecord, ReplayErro
                 mass: &mass,
                 inertia: &[],
                 elastic_energy: f64::NAN,
+                ledger: None,
                 flow: None,
             },
         );

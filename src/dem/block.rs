@@ -69,6 +69,13 @@ impl Columns {
         }
     }
 
+    /// Puts one row into its place.
+    pub(in crate::dem) fn set(&mut self, k: usize, row: Row) {
+        for (column, value) in self.0.iter_mut().zip(row) {
+            column[k] = value;
+        }
+    }
+
     /// The four rows from `at` on.
     #[inline(always)]
     pub(in crate::dem) fn rows<S: Simd>(&self, simd: S, at: usize) -> [f64x4<S>; 4] {

@@ -11,7 +11,7 @@ use super::system::{Engine, Parts, System};
 use super::vector::Vector;
 use super::walls::{Cylinder, Floor};
 use super::{effects, timestep};
-use crate::observe::{Flow, FrameView};
+use crate::observe::{Flow, FrameView, Ledger};
 use crate::record::{Instability, Milestone};
 use crate::scene::{Contact, Friction, Neighbours, Scene, Start};
 
@@ -107,7 +107,10 @@ impl Simulation {
             skin: skin * radius.iter().copied().fold(0.0, f64::max),
             particles,
         };
-        let engine = engine(scene, parts)?;
+        let mut engine = engine(scene, parts)?;
+        if scene.output.ledger {
+            engine.keep_ledger();
+        }
         Ok(Self {
             engine,
             process,
@@ -201,7 +204,7 @@ impl Simulation {
     /// Everything an observer may see now.
     pub fn frame(&mut self) -> FrameView<'_> {
         let contacts = self.engine.contacts();
-        let counts = self.counts();
+        let (work, counts) = (self.engine.work(), self.counts());
         let particles = self.engine.particles();
         let moving = particles.fixed..;
         let vectors = [&particles.position, &particles.velocity, &particles.spin];
@@ -227,6 +230,13 @@ impl Simulation {
             mass: &particles.mass[moving.clone()],
             inertia: particles.inertia.get(moving.clone()).unwrap_or_default(),
             elastic_energy: contacts.elastic_energy,
+            ledger: work.map(|work| Ledger {
+                springs: contacts.spring_energy,
+                damping: -work.damping,
+                friction: -work.tangential - contacts.spring_energy,
+                air: work.air,
+                brought: work.brought,
+            }),
             flow: counts.map(|counts| Flow {
                 number: &particles.number[moving],
                 spheres: counts.all,

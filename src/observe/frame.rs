@@ -21,8 +21,25 @@ pub struct FrameView<'a> {
     pub inertia: &'a [f64],
     /// Elastic energy of all contacts (J).
     pub elastic_energy: f64,
+    /// Where the energy went; absent if the scene's output does not ask for it.
+    pub ledger: Option<Ledger>,
     /// How spheres come and go; absent where none does.
     pub flow: Option<Flow<'a>>,
+}
+
+/// Where the energy went since the start (J).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ledger {
+    /// What tangential springs hold.
+    pub springs: f64,
+    /// What the damping of contacts dissipated.
+    pub damping: f64,
+    /// What friction dissipated: the work done against tangential forces that springs do not hold.
+    pub friction: f64,
+    /// Work of the air, the damping of spins included.
+    pub air: f64,
+    /// Energy of the spheres that came in, less that of those that left.
+    pub brought: f64,
 }
 
 /// How spheres come and go.
@@ -94,6 +111,7 @@ mod tests {
             mass: &[1.0, 1.0],
             inertia: &[],
             elastic_energy: 0.0,
+            ledger: None,
             flow: None,
         };
         let snapshot = Snapshot::take(0.25, &view);

@@ -15,11 +15,12 @@ pub struct Series<'a> {
 }
 
 /// Declares the scalar observables once: as fields, as a list to write, as a list to read. The second
-/// group is that of scenes where spheres come and go.
+/// group is that of scenes where spheres come and go, the third that of the books of energy.
 macro_rules! scalars {
     (
         { $($name:ident $unit:literal $description:literal;)* }
         { $($flow:ident $flow_unit:literal $flow_description:literal;)* }
+        { $($ledger:ident $ledger_unit:literal $ledger_description:literal;)* }
     ) => {
         /// Observables of a run, one entry per frame; the first frame is the start.
         ///
@@ -34,6 +35,10 @@ macro_rules! scalars {
                 #[doc = concat!($flow_description, " (", $flow_unit, ").")]
                 pub $flow: Vec<f32>,
             )*
+            $(
+                #[doc = concat!($ledger_description, " (", $ledger_unit, ").")]
+                pub $ledger: Vec<f32>,
+            )*
             /// Height of the highest centre in each radial bin (m); not a number for an empty
             /// bin. Shape: frames x bins, inner bin first, bins of equal width up to R; the
             /// outermost also holds what is beyond R. No bins without a tank radius.
@@ -47,13 +52,16 @@ macro_rules! scalars {
 
         impl Observations {
             /// Names of all scalar observables.
-            pub(crate) const NAMES: &[&str] = &[$(stringify!($name),)* $(stringify!($flow),)*];
+            pub(crate) const NAMES: &[&str] = &[
+                $(stringify!($name),)* $(stringify!($flow),)* $(stringify!($ledger),)*
+            ];
 
-            /// Names of those that only scenes have where spheres come and go.
-            pub(crate) const OF_FLOW: &[&str] = &[$(stringify!($flow),)*];
+            /// Names of those that only some scenes have: where spheres come and go, or books of energy
+            /// are kept.
+            pub(crate) const OPTIONAL: &[&str] =
+                &[$(stringify!($flow),)* $(stringify!($ledger),)*];
 
-            /// The scalar observables, in a fixed order. Those of scenes where spheres come and go
-            /// are missing elsewhere.
+            /// The scalar observables that there are, in a fixed order.
             pub fn scalars(&self) -> Vec<Series<'_>> {
                 let series = [
                     $(Series {
@@ -68,9 +76,15 @@ macro_rules! scalars {
                         description: $flow_description,
                         values: &self.$flow,
                     },)*
+                    $(Series {
+                        name: stringify!($ledger),
+                        unit: $ledger_unit,
+                        description: $ledger_description,
+                        values: &self.$ledger,
+                    },)*
                 ];
                 let is_there =
-                    |it: &Series<'_>| !it.values.is_empty() || !Self::OF_FLOW.contains(&it.name);
+                    |it: &Series<'_>| !it.values.is_empty() || !Self::OPTIONAL.contains(&it.name);
                 series.into_iter().filter(is_there).collect()
             }
 
@@ -79,6 +93,7 @@ macro_rules! scalars {
                 match name {
                     $(stringify!($name) => Some(&mut self.$name),)*
                     $(stringify!($flow) => Some(&mut self.$flow),)*
+                    $(stringify!($ledger) => Some(&mut self.$ledger),)*
                     _ => None,
                 }
             }
@@ -107,6 +122,14 @@ scalars! {
     discharge_rate "1/s" "Number of spheres that left per second, over the last second or since the start";
     coordination "1" "Mean number of contacts of a sphere, not a number without spheres";
     mass_inside "kg" "Mass of all spheres that are in";
+}
+{
+    springs "J" "Energy of the tangential springs of all contacts";
+    dissipated_by_damping "J" "Energy that the damping of contacts dissipated since the start";
+    dissipated_by_friction "J" "Energy that friction dissipated since the start: work against tangential forces that springs do not hold";
+    work_of_air "J" "Work of the air on the spheres since the start, the damping of spins included";
+    energy_brought "J" "Energy of the spheres that came in since the start, less that of those that left";
+    residual "J" "All energy and what was dissipated, less what the air and new spheres brought, less the same at the start: what the integrator got wrong";
 }
 }
 

@@ -29,6 +29,8 @@ pub struct Observer {
     /// Distance of each centre from the axis at this frame (m).
     distance: Vec<f64>,
     previous: Option<Previous>,
+    /// What all energy, dissipated and brought, came to at the first frame (J).
+    balance: Option<f64>,
 }
 
 /// What the count of rising spheres needs of the frame before.
@@ -72,6 +74,7 @@ impl Observer {
             rising: Vec::new(),
             distance: Vec::new(),
             previous: None,
+            balance: None,
         }
     }
 
@@ -121,6 +124,27 @@ impl Observer {
         observations.rotational.push(rotational as f32);
         observations.gravitational.push(gravitational as f32);
         observations.elastic.push(frame.elastic_energy as f32);
+        let energy = kinetic + rotational + gravitational + frame.elastic_energy;
+        self.measure_ledger(frame, energy);
+    }
+
+    fn measure_ledger(&mut self, frame: &FrameView<'_>, energy: f64) {
+        let Some(ledger) = &frame.ledger else { return };
+        let balance = energy + ledger.springs + ledger.damping + ledger.friction
+            - ledger.air
+            - ledger.brought;
+        let start = *self.balance.get_or_insert(balance);
+        let observations = &mut self.observations;
+        observations.springs.push(ledger.springs as f32);
+        observations
+            .dissipated_by_damping
+            .push(ledger.damping as f32);
+        observations
+            .dissipated_by_friction
+            .push(ledger.friction as f32);
+        observations.work_of_air.push(ledger.air as f32);
+        observations.energy_brought.push(ledger.brought as f32);
+        observations.residual.push((balance - start) as f32);
     }
 
     fn measure_flow(&mut self, frame: &FrameView<'_>) {

@@ -538,6 +538,10 @@ pub struct Output {
     pub snapshot_interval: f64,
     /// Store position, velocity and spin of every sphere at every frame.
     pub trajectory: bool,
+    /// Keep the books of energy: what damping and friction dissipate, what the air does, and what the
+    /// integrator gets wrong.
+    #[serde(skip_serializing_if = "is_default")]
+    pub ledger: bool,
     /// Radial bins of the surface profile. Default: round(R / 2r).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub profile_bins: Option<usize>,
@@ -552,6 +556,7 @@ impl Default for Output {
         Self {
             snapshot_interval: 1.0,
             trajectory: false,
+            ledger: false,
             profile_bins: None,
             rise_speeds: vec![5.0, 10.0, 20.0],
             rise_radii: vec![0.5, 0.75, 1.0],

@@ -30,4 +30,14 @@ impl OneBody for Gravity {
             }
         }
     }
+
+    fn energy(&self, particles: &Particles) -> Option<f64> {
+        let [x, z] = self.acceleration;
+        let moving = particles.fixed..particles.len();
+        let energy = moving.map(|i| {
+            let (mass, place) = (particles.mass[i], particles.position[i]);
+            -mass * (x * place.x + z * place.z)
+        });
+        Some(energy.sum())
+    }
 }

@@ -15,12 +15,20 @@ pub(super) trait Effect: Send {
     /// Adds its forces and torques. `shielding` holds, where the scene has an updraught, the number
     /// of spheres that shield each one from below.
     fn apply(&mut self, level: Level, particles: &mut Particles, shielding: &[u32]);
+
+    /// The potential energy (J) of a force that has one; none of the others.
+    fn energy(&self, particles: &Particles) -> Option<f64>;
 }
 
 /// The loop of an effect, to be compiled once per instruction set.
 trait OneBody: Send {
     /// As [`Effect::apply`]; implementations must be inlined always.
     fn add(&mut self, particles: &mut Particles, shielding: &[u32]);
+
+    /// As [`Effect::energy`].
+    fn energy(&self, _particles: &Particles) -> Option<f64> {
+        None
+    }
 }
 
 impl<E: OneBody> Effect for E {
@@ -29,6 +37,10 @@ impl<E: OneBody> Effect for E {
             let _ = simd;
             self.add(particles, shielding);
         });
+    }
+
+    fn energy(&self, particles: &Particles) -> Option<f64> {
+        OneBody::energy(self, particles)
     }
 }
 

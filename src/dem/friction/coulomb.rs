@@ -35,7 +35,7 @@ impl TangentialLaw for Coulomb {
         touch.traction(sliding * (-self.coefficient * touch.normal_force / speed))
     }
 
-    fn damping(&self, normal_force: f64) -> f64 {
-        self.coefficient * normal_force / self.regularisation
+    fn damping(&self, normal_force: f64, speed: f64) -> f64 {
+        self.coefficient * normal_force / speed.max(self.regularisation)
     }
 }

@@ -37,8 +37,12 @@ impl TangentialLaw for CundallStrack {
         self.stiffness
     }
 
-    fn damping(&self, _: f64) -> f64 {
+    fn damping(&self, _: f64, _: f64) -> f64 {
         self.damping
+    }
+
+    fn energy(&self, spring: &Spring, overlap: f64, effective_radius: f64) -> f64 {
+        spring.energy(self.stiffness(overlap, effective_radius))
     }
 }
 

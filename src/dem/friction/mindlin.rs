@@ -43,4 +43,8 @@ impl TangentialLaw for Mindlin {
     fn stiffness(&self, overlap: f64, effective_radius: f64) -> f64 {
         self.modulus * (effective_radius * overlap).sqrt()
     }
+
+    fn energy(&self, spring: &Spring, overlap: f64, effective_radius: f64) -> f64 {
+        spring.energy(self.stiffness(overlap, effective_radius))
+    }
 }

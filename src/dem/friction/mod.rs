@@ -108,13 +108,18 @@ pub trait TangentialLaw: Copy + Send + 'static {
     /// Traction at a contact over the coming step; none where the normal force is zero.
     fn traction(&self, touch: &Touch, history: &mut Self::History) -> Traction;
 
+    /// Energy (J) of what a contact remembers, at an overlap and effective radius (m).
+    fn energy(&self, _history: &Self::History, _overlap: f64, _effective_radius: f64) -> f64 {
+        0.0
+    }
+
     /// Tangential stiffness (N/m) at an overlap and effective radius (m).
     fn stiffness(&self, _overlap: f64, _effective_radius: f64) -> f64 {
         0.0
     }
 
-    /// Force per sliding velocity (N s/m) at slow sliding under a normal force (N).
-    fn damping(&self, _normal_force: f64) -> f64 {
+    /// Force per sliding velocity (N s/m) under a normal force (N) and at a speed (m/s).
+    fn damping(&self, _normal_force: f64, _speed: f64) -> f64 {
         0.0
     }
 }

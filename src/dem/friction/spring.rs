@@ -37,6 +37,11 @@ impl Spring {
         touch.traction(force)
     }
 
+    /// Its energy f^2 / (2 k) (J) at a stiffness k (N/m).
+    pub(super) fn energy(&self, stiffness: f64) -> f64 {
+        0.5 * self.force.norm_squared() / stiffness
+    }
+
     /// The force (N) in the plane across `normal`: the plane turns with the pair, and the force with
     /// it, its length kept.
     #[inline(always)]

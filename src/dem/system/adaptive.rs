@@ -1,7 +1,8 @@
 //! Velocity Verlet with sub-steps where spheres touch.
 
-use super::System;
+use super::contacts::Among;
 use super::islands::{Island, Islands};
+use super::{Engine, System};
 use crate::dem::block::Load;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{Increment, TangentialLaw};
@@ -89,6 +90,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         work.start.keep(&self.parts.particles);
         self.slow_forces(work)?;
         self.keep_histories(&mut work.start);
+        let books = self.work();
         work.missed_pairs.clear();
         work.missed_spheres.clear();
         loop {
@@ -104,6 +106,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
             work.start.put_back(&mut self.parts.particles);
             self.put_back_histories(&work.start);
+            if let (Some(ledger), Some(work)) = (&mut self.ledger, books) {
+                ledger.work = work;
+            }
         }
         self.age.time += dt;
         self.near_age.time += dt;
@@ -123,6 +128,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 None => self.rebuild()?,
             }
         }
+        self.note_all_contacts(&Among::default());
         self.evaluate_effects();
         let reach = work.find_reach(&self.parts.particles, dt);
         self.hold_for(reach)?;
@@ -283,7 +289,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let along = yielding + turning;
         let squared = (normal.stiffness(overlap, effective_radius) * yielding)
             .max(tangential.stiffness(overlap, effective_radius) * along);
-        let friction = tangential.damping(force) * along;
+        let friction = tangential.damping(force, speed) * along;
         let damping = normal.damping(overlap, effective_radius) * yielding;
         [
             squared,
@@ -301,6 +307,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 self.moves += 1;
                 particles.position[i] += particles.velocity[i] * (0.5 * dt);
                 kick(particles, i, dt);
+                if let Some(ledger) = &mut self.ledger {
+                    ledger.clear_sphere(i as u32);
+                    ledger.note_kick(i, particles, dt);
+                }
                 particles.position[i] += particles.velocity[i] * (0.5 * dt);
             }
         }
@@ -328,6 +338,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             for &i in &island.spheres {
                 self.foretell(i as usize, half);
             }
+            if let Some(ledger) = &mut self.ledger {
+                let spheres = island.spheres.iter();
+                spheres.for_each(|&i| ledger.clear_sphere(i));
+            }
+            self.note_contacts(&island.among);
             self.forces_among(&island.among, false);
             self.check_overlaps()?;
             for &i in &island.spheres {
@@ -366,6 +381,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             particles.torque[i] = Vector::new(x, y, z) + work.torque[i];
         }
         kick(particles, i, time);
+        if let Some(ledger) = &mut self.ledger {
+            ledger.note_kick(i, particles, time);
+        }
         particles.position[i] += particles.velocity[i] * (0.5 * time);
     }
 

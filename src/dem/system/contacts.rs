@@ -29,6 +29,31 @@ pub(super) struct Among {
     pub(super) cylinder: Vec<u32>,
 }
 
+/// The laws of a step's contacts.
+#[derive(Clone, Copy)]
+pub(super) struct Laws<N, T> {
+    normal: N,
+    tangential: T,
+    increment: Increment,
+    overlap_limit: f64,
+}
+
+/// A contact and what its laws answered.
+pub(super) struct Meeting {
+    /// Unit normal, towards the sphere that the force acts on.
+    pub(super) normal: Vector,
+    /// Velocity of its centre relative to the other (m/s).
+    pub(super) velocity: Vector,
+    /// Overlap (m).
+    pub(super) overlap: f64,
+    /// Effective radius (m).
+    pub(super) effective_radius: f64,
+    /// Force (N).
+    pub(super) force: Vector,
+    /// Torques on both partners (N m), zero without rotation.
+    pub(super) torque: [Vector; 2],
+}
+
 /// Everything about the pairs of a block.
 pub(super) struct PairBlock<H> {
     index: [[u32; BLOCK]; 2],
@@ -113,15 +138,85 @@ impl<H: Copy + Default> PairBlock<H> {
         }
     }
 
+    /// Takes pairs, up to a block of them, with what they remember.
+    #[inline(always)]
+    pub(super) fn take_pairs(&mut self, pairs: &[NearPair], histories: &[H]) {
+        for (k, pair) in pairs.iter().enumerate() {
+            self.index[0][k] = pair.i;
+            self.index[1][k] = pair.j;
+        }
+        if Self::REMEMBERS {
+            for (history, pair) in self.history.iter_mut().zip(pairs) {
+                *history = histories[pair.entry as usize];
+            }
+        }
+    }
+
+    /// The same with spheres near a wall.
+    #[inline(always)]
+    pub(super) fn take_spheres(&mut self, spheres: &[u32], histories: &[H]) {
+        self.index[0][..spheres.len()].copy_from_slice(spheres);
+        if Self::REMEMBERS {
+            for (history, &i) in self.history.iter_mut().zip(spheres) {
+                *history = histories[i as usize];
+            }
+        }
+    }
+
+    /// Fetches the spheres of both sides, where speed does not matter.
+    pub(super) fn gather_slowly(&mut self, bodies: &[Body]) {
+        for side in 0..2 {
+            for (k, &i) in self.index[side].iter().enumerate() {
+                let body = &bodies[i as usize];
+                self.place[side].set(k, body.place);
+                self.motion[side].set(k, body.motion);
+                self.turning[side].set(k, body.turning);
+            }
+        }
+    }
+
+    /// What became of a pair of the block, if it touches.
+    pub(super) fn meeting(&self, k: usize) -> Option<Meeting> {
+        let [one, other] = &self.place;
+        let offset = Self::vector(one, k) - Self::vector(other, k);
+        let radius = [one.0[3][k], other.0[3][k]];
+        let (sum, distance) = (radius[0] + radius[1], offset.norm());
+        (distance < sum).then(|| Meeting {
+            normal: offset * (1.0 / distance),
+            velocity: Self::vector(&self.motion[0], k) - Self::vector(&self.motion[1], k),
+            overlap: sum - distance,
+            effective_radius: radius[0] * radius[1] / sum,
+            force: Self::vector(&self.force, k),
+            torque: [0, 1].map(|side| Self::vector(&self.torque[side], k)),
+        })
+    }
+
+    /// What became of a sphere of the block near a wall, if it touches.
+    pub(super) fn meeting_with_wall<W: Wall>(&self, wall: W, k: usize) -> Option<Meeting> {
+        let radius = self.place[0].0[3][k];
+        let contact = wall.contact(Self::vector(&self.place[0], k), radius);
+        contact.touches.then(|| Meeting {
+            normal: contact.normal,
+            velocity: Self::vector(&self.motion[0], k),
+            overlap: contact.overlap,
+            effective_radius: radius,
+            force: Self::vector(&self.force, k),
+            torque: [Self::vector(&self.torque[0], k), Vector::ZERO],
+        })
+    }
+
     /// Computes the laws for every pair.
     #[inline(always)]
-    fn interact<N: NormalLaw, T: TangentialLaw<History = H>>(
+    pub(super) fn interact<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
-        normal_law: &N,
-        tangential_law: &T,
-        increment: Increment,
-        overlap_limit: f64,
+        laws: &Laws<N, T>,
     ) {
+        let Laws {
+            normal: normal_law,
+            tangential: tangential_law,
+            increment,
+            overlap_limit,
+        } = *laws;
         for k in 0..BLOCK {
             let [place, motion, turning] = [&self.place, &self.motion, &self.turning];
             let offset = Self::vector(&place[0], k) - Self::vector(&place[1], k);
@@ -183,14 +278,17 @@ impl<H: Copy + Default> PairBlock<H> {
 
     /// Computes the laws for every sphere at a wall.
     #[inline(always)]
-    fn interact_with_wall<W: Wall, N: NormalLaw, T: TangentialLaw<History = H>>(
+    pub(super) fn interact_with_wall<W: Wall, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         wall: W,
-        normal_law: &N,
-        tangential_law: &T,
-        increment: Increment,
-        overlap_limit: f64,
+        laws: &Laws<N, T>,
     ) {
+        let Laws {
+            normal: normal_law,
+            tangential: tangential_law,
+            increment,
+            overlap_limit,
+        } = *laws;
         for k in 0..BLOCK {
             let [place, motion, turning] = [&self.place[0], &self.motion[0], &self.turning[0]];
             let radius = place.0[3][k];
@@ -362,28 +460,26 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
+    /// The laws of this step's contacts.
+    #[inline(always)]
+    pub(super) fn laws(&self) -> Laws<N, T> {
+        Laws {
+            normal: self.normal,
+            tangential: self.tangential,
+            increment: self.increment,
+            overlap_limit: self.parts.limits.overlap,
+        }
+    }
+
     #[inline(always)]
     pub(super) fn pair_forces<S: Simd>(&mut self, simd: S, pairs: &[NearPair]) {
-        let overlap_limit = self.parts.limits.overlap;
+        let laws = self.laws();
         let block = &mut self.block;
         for pairs in pairs.chunks(BLOCK) {
-            for (k, pair) in pairs.iter().enumerate() {
-                block.index[0][k] = pair.i;
-                block.index[1][k] = pair.j;
-            }
+            block.take_pairs(pairs, &self.pair_history);
             block.gather::<S, T>(simd, 0, &self.bodies);
             block.gather::<S, T>(simd, 1, &self.bodies);
-            if Self::REMEMBERS {
-                for (history, pair) in block.history.iter_mut().zip(pairs) {
-                    *history = self.pair_history[pair.entry as usize];
-                }
-            }
-            block.interact(
-                &self.normal,
-                &self.tangential,
-                self.increment,
-                overlap_limit,
-            );
+            block.interact(&laws);
             if Self::REMEMBERS {
                 for (history, pair) in block.history.iter().zip(pairs) {
                     self.pair_history[pair.entry as usize] = *history;
@@ -407,23 +503,12 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         near: &[u32],
         histories: &mut [T::History],
     ) {
-        let overlap_limit = self.parts.limits.overlap;
+        let laws = self.laws();
         let block = &mut self.block;
         for spheres in near.chunks(BLOCK) {
-            block.index[0][..spheres.len()].copy_from_slice(spheres);
+            block.take_spheres(spheres, histories);
             block.gather::<S, T>(simd, 0, &self.bodies);
-            if Self::REMEMBERS {
-                for (history, &i) in block.history.iter_mut().zip(spheres) {
-                    *history = histories[i as usize];
-                }
-            }
-            block.interact_with_wall(
-                wall,
-                &self.normal,
-                &self.tangential,
-                self.increment,
-                overlap_limit,
-            );
+            block.interact_with_wall(wall, &laws);
             if Self::REMEMBERS {
                 for (history, &i) in block.history.iter().zip(spheres) {
                     histories[i as usize] = *history;

@@ -156,6 +156,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.begin_step();
         self.evaluate()?;
         let too_fast = self.kick(self.parts.dt);
+        self.note_kick(self.parts.dt);
         self.check_speeds(too_fast)?;
         self.drift(self.parts.dt);
         Ok(())
@@ -170,10 +171,12 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         let half = 0.5 * self.parts.dt;
         let too_fast = self.kick(half);
+        self.note_kick(half);
         self.check_speeds(too_fast)?;
         self.drift(self.parts.dt);
         self.evaluate()?;
         let too_fast = self.kick(half);
+        self.note_kick(half);
         self.check_speeds(too_fast)
     }
 
@@ -197,6 +200,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.evaluate()?;
         self.before.put_back(&mut self.parts.particles);
         let too_fast = self.kick(dt);
+        self.note_kick(dt);
         self.check_speeds(too_fast)?;
         self.drift(half);
         Ok(())

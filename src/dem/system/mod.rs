@@ -4,10 +4,13 @@ mod adaptive;
 mod contacts;
 mod integrate;
 mod islands;
+mod ledger;
 
 use self::adaptive::Adaptive;
 use self::contacts::{Among, PairBlock};
 use self::integrate::Before;
+use self::ledger::Ledger;
+pub(in crate::dem) use self::ledger::Work;
 use super::block::{Body, Load};
 use super::contact::NormalLaw;
 use super::effects::Effect;
@@ -32,6 +35,10 @@ pub(in crate::dem) trait Engine: Send {
     /// What the contacts hold at the present positions.
     fn contacts(&mut self) -> Contacts;
     fn use_baseline_instructions(&mut self);
+    /// Begins to keep the books of energy; never changes the motion.
+    fn keep_ledger(&mut self);
+    /// Work since the start, if books are kept.
+    fn work(&self) -> Option<Work>;
     /// Adds a sphere; effects must not depend on how many there are.
     fn insert(&mut self, sphere: &Sphere);
     /// Removes the spheres that are not to be kept.
@@ -43,6 +50,8 @@ pub(in crate::dem) trait Engine: Send {
 pub(in crate::dem) struct Contacts {
     /// Elastic energy (J).
     pub(in crate::dem) elastic_energy: f64,
+    /// Energy of tangential springs (J), if books are kept.
+    pub(in crate::dem) spring_energy: f64,
     /// Contacts of all moving spheres, one between two of them counted for each.
     pub(in crate::dem) of_moving_spheres: usize,
 }
@@ -52,6 +61,7 @@ pub(in crate::dem) struct Parts {
     pub(in crate::dem) particles: Particles,
     pub(in crate::dem) floor: Option<Floor>,
     pub(in crate::dem) cylinder: Option<Cylinder>,
+    /// Those of a potential first.
     pub(in crate::dem) effects: Vec<Box<dyn Effect>>,
     /// Whether an effect needs the number of spheres below each sphere.
     pub(in crate::dem) shielded: bool,
@@ -81,6 +91,7 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     increment: Increment,
     before: Before,
     adaptive: Adaptive<T::History>,
+    ledger: Option<Ledger<T::History>>,
     bodies: Vec<Body>,
     loads: Vec<Load>,
     block: Box<PairBlock<T::History>>,
@@ -138,6 +149,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             },
             before: Before::default(),
             adaptive: Adaptive::default(),
+            ledger: None,
             bodies: if interact {
                 bodies_of(&parts.particles)
             } else {
@@ -173,12 +185,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 self.refresh()?;
             }
             let among = self.take_all();
+            self.note_all_contacts(&among);
             self.forces_among(&among, true);
             self.return_all(among);
         } else {
             if self.stale {
                 self.rebuild()?;
             }
+            self.note_all_contacts(&Among::default());
             self.parts.particles.force.fill(Vector::ZERO);
             self.parts.particles.torque.fill(Vector::ZERO);
         }
@@ -199,8 +213,18 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     fn apply_effects(&mut self) {
-        for effect in &mut self.parts.effects {
-            effect.apply(self.level, &mut self.parts.particles, &self.shielding);
+        let Parts {
+            particles, effects, ..
+        } = &mut self.parts;
+        let mut before = None;
+        for effect in effects {
+            if self.ledger.is_some() && before.is_none() && effect.energy(particles).is_none() {
+                before = Some([particles.force.clone(), particles.torque.clone()]);
+            }
+            effect.apply(self.level, particles, &self.shielding);
+        }
+        if let (Some(ledger), Some([force, torque])) = (&mut self.ledger, before) {
+            ledger.note_air([&force, &torque], particles);
         }
     }
 
@@ -365,7 +389,16 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.list.as_ref()
     }
 
+    fn keep_ledger(&mut self) {
+        self.ledger = Some(Ledger::new());
+    }
+
+    fn work(&self) -> Option<Work> {
+        self.ledger.as_ref().map(|ledger| ledger.work)
+    }
+
     fn insert(&mut self, sphere: &Sphere) {
+        let before = self.energy_in_books();
         let Parts {
             particles,
             limits,
@@ -375,6 +408,9 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
             ..
         } = &mut self.parts;
         particles.push(sphere);
+        if let Some(ledger) = &mut self.ledger {
+            ledger.add_sphere();
+        }
         limits.add_sphere(sphere.radius, *dt);
         if floor.is_some() {
             self.floor_history.push(T::History::default());
@@ -385,10 +421,15 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.list.iter_mut().for_each(VerletList::add_sphere);
         self.near.add_sphere(sphere.position);
         self.renumber();
+        self.note_exchange(before);
     }
 
     fn retain(&mut self, keep: &[bool]) {
+        let before = self.energy_in_books();
         self.parts.particles.retain(keep);
+        if let Some(ledger) = &mut self.ledger {
+            ledger.retain(keep);
+        }
         retain(&mut self.parts.limits.speed_squared, keep);
         retain(&mut self.floor_history, keep);
         retain(&mut self.cylinder_history, keep);
@@ -398,6 +439,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.near.remove_spheres(keep);
         self.block.forget();
         self.renumber();
+        self.note_exchange(before);
     }
 
     /// Reads positions alone, and builds the list at most earlier than a step would: bits of
@@ -419,7 +461,16 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
             fixed,
             ..
         } = &self.parts.particles;
-        let mut energy = 0.0;
+        let (mut energy, mut springs) = (0.0, 0.0);
+        let with_springs = Self::REMEMBERS && self.ledger.is_some();
+        let spring = |history: &[T::History], at: usize, overlap: f64, effective_radius: f64| {
+            match with_springs {
+                true => self
+                    .tangential
+                    .energy(&history[at], overlap, effective_radius),
+                false => 0.0,
+            }
+        };
         let count = &mut contacts.of_moving_spheres;
         let mut pairs = self.near.pairs().iter().peekable();
         for i in 0..radius.len() {
@@ -430,24 +481,36 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
                 let distance_squared = (centre - position[j]).norm_squared();
                 if distance_squared < (ri + rj) * (ri + rj) {
                     let overlap = ri + rj - distance_squared.sqrt();
-                    energy += self.normal.elastic_energy(overlap, ri * rj / (ri + rj));
+                    let effective_radius = ri * rj / (ri + rj);
+                    energy += self.normal.elastic_energy(overlap, effective_radius);
+                    let entry = pair.entry as usize;
+                    springs += spring(&self.pair_history, entry, overlap, effective_radius);
                     *count += usize::from(i >= *fixed) + usize::from(j >= *fixed);
                 }
             }
+            let Parts {
+                floor, cylinder, ..
+            } = &self.parts;
             let walls = [
-                self.parts.floor.map(|floor| floor.contact(centre, ri)),
-                self.parts
-                    .cylinder
-                    .map(|cylinder| cylinder.contact(centre, ri)),
+                (
+                    floor.map(|wall| wall.contact(centre, ri)),
+                    &self.floor_history,
+                ),
+                (
+                    cylinder.map(|wall| wall.contact(centre, ri)),
+                    &self.cylinder_history,
+                ),
             ];
-            for contact in walls.into_iter().flatten() {
-                if contact.touches {
+            for (contact, history) in walls {
+                if let Some(contact) = contact.filter(|contact| contact.touches) {
                     energy += self.normal.elastic_energy(contact.overlap, ri);
+                    springs += spring(history, i, contact.overlap, ri);
                     *count += 1;
                 }
             }
         }
         contacts.elastic_energy = energy;
+        contacts.spring_energy = springs;
         contacts
     }
 }

@@ -54,6 +54,7 @@ impl Spheres {
             mass: &self.mass,
             inertia: &self.inertia,
             elastic_energy: 0.125,
+            ledger: None,
             flow: None,
         }
     }

@@ -121,7 +121,7 @@ impl<'a> Reader<'a> {
         };
         for name in Observations::NAMES {
             let path = format!("observations/{name}");
-            if Observations::OF_FLOW.contains(name) && self.file.dataset(&path).is_err() {
+            if Observations::OPTIONAL.contains(name) && self.file.dataset(&path).is_err() {
                 continue;
             }
             if let Some(values) = observations.scalar_mut(name) {

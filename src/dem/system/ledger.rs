@@ -1,0 +1,269 @@
+//! Where the energy goes: the work of damping, of tangential forces and of the air.
+//!
+//! A kick by a force F turns v into v' and adds F (v + v') / 2 dt to the kinetic energy, exactly. So
+//! work is summed up kick by kick, from the forces that the kicks use: what the books then miss is
+//! what the scheme makes of conservative forces, not an error of the bookkeeping.
+
+use super::contacts::{Among, Meeting, PairBlock};
+use super::{Engine, System};
+use crate::dem::block::BLOCK;
+use crate::dem::contact::NormalLaw;
+use crate::dem::friction::TangentialLaw;
+use crate::dem::particles::{Particles, retain};
+use crate::dem::vector::Vector;
+use crate::dem::walls::Wall;
+
+/// Work since the start (J).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::dem) struct Work {
+    /// Of the damping of contacts, negative where it dissipates.
+    pub(in crate::dem) damping: f64,
+    /// Of tangential forces.
+    pub(in crate::dem) tangential: f64,
+    /// Of what the air does, the damping of spins included.
+    pub(in crate::dem) air: f64,
+    /// Energy of spheres that came in, less that of those that left.
+    pub(in crate::dem) brought: f64,
+}
+
+/// The books of a system.
+pub(super) struct Ledger<H> {
+    pub(super) work: Work,
+    /// Parts of the latest force on each sphere (N) and of its torque (N m).
+    damping: Vec<Vector>,
+    tangential: Vec<Vector>,
+    tangential_torque: Vec<Vector>,
+    air: Vec<Vector>,
+    air_torque: Vec<Vector>,
+    block: Box<PairBlock<H>>,
+}
+
+impl<H: Copy + Default> Ledger<H> {
+    pub(super) fn new() -> Self {
+        Self {
+            work: Work::default(),
+            damping: Vec::new(),
+            tangential: Vec::new(),
+            tangential_torque: Vec::new(),
+            air: Vec::new(),
+            air_torque: Vec::new(),
+            block: Box::new(PairBlock::new()),
+        }
+    }
+
+    fn contacts(&mut self) -> [&mut Vec<Vector>; 3] {
+        [
+            &mut self.damping,
+            &mut self.tangential,
+            &mut self.tangential_torque,
+        ]
+    }
+
+    /// Makes room for that many spheres.
+    fn resize(&mut self, spheres: usize) {
+        let air = [&mut self.air, &mut self.air_torque];
+        let contacts = [
+            &mut self.damping,
+            &mut self.tangential,
+            &mut self.tangential_torque,
+        ];
+        for forces in contacts.into_iter().chain(air) {
+            forces.resize(spheres, Vector::ZERO);
+        }
+    }
+
+    /// Forgets the contacts of all spheres.
+    fn clear(&mut self) {
+        self.contacts()
+            .into_iter()
+            .for_each(|forces| forces.fill(Vector::ZERO));
+    }
+
+    /// Forgets the contacts of one sphere.
+    pub(super) fn clear_sphere(&mut self, i: u32) {
+        self.contacts()
+            .into_iter()
+            .for_each(|forces| forces[i as usize] = Vector::ZERO);
+    }
+
+    /// Adds a sphere at the end, which touches nothing.
+    pub(super) fn add_sphere(&mut self) {
+        self.resize(self.air.len() + 1);
+    }
+
+    pub(super) fn retain(&mut self, keep: &[bool]) {
+        self.resize(keep.len());
+        self.block.forget();
+        retain(&mut self.air, keep);
+        retain(&mut self.air_torque, keep);
+        self.contacts()
+            .into_iter()
+            .for_each(|forces| retain(forces, keep));
+    }
+
+    /// Adds the force of a contact on sphere `i`, without its elastic part, and its torque.
+    fn add(&mut self, i: u32, damping: Vector, tangential: Vector, torque: Vector) {
+        let i = i as usize;
+        self.damping[i] += damping;
+        self.tangential[i] += tangential;
+        self.tangential_torque[i] += torque;
+    }
+
+    /// Notes what effects of the air added to forces and torques.
+    pub(super) fn note_air(&mut self, before: [&[Vector]; 2], particles: &Particles) {
+        let after = [&particles.force, &particles.torque];
+        for ((air, before), after) in [&mut self.air, &mut self.air_torque]
+            .into_iter()
+            .zip(before)
+            .zip(after)
+        {
+            air.clear();
+            let added = after.iter().zip(before);
+            air.extend(added.map(|(&after, &before)| after - before));
+        }
+    }
+
+    /// Adds the work of a kick of `dt` (s) that sphere `i` has just got.
+    pub(super) fn note_kick(&mut self, i: usize, particles: &Particles, dt: f64) {
+        let half = 0.5 * dt;
+        let back = particles.force[i] * (particles.inverse_mass[i] * half);
+        let way = (particles.velocity[i] - back) * dt;
+        self.work.damping += self.damping[i].dot(way);
+        self.work.tangential += self.tangential[i].dot(way);
+        self.work.air += self.air[i].dot(way);
+        if particles.rotate() {
+            let back = particles.torque[i] * (particles.inverse_inertia[i] * half);
+            let turn = (particles.spin[i] - back) * dt;
+            self.work.tangential += self.tangential_torque[i].dot(turn);
+            self.work.air += self.air_torque[i].dot(turn);
+        }
+    }
+}
+
+impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
+    /// Energy of the spheres (J) and of tangential springs among it, if books are kept.
+    pub(super) fn energy_in_books(&mut self) -> Option<[f64; 2]> {
+        self.ledger.as_ref()?;
+        let contacts = self.contacts();
+        let particles = &self.parts.particles;
+        let translation = particles.velocity.iter().zip(&particles.mass);
+        let rotation = particles.spin.iter().zip(&particles.inertia);
+        let kinetic: f64 = translation
+            .chain(rotation)
+            .map(|(rate, inertia)| 0.5 * inertia * rate.norm_squared())
+            .sum();
+        let effects = self.parts.effects.iter();
+        let potential: f64 = effects.filter_map(|effect| effect.energy(particles)).sum();
+        let springs = contacts.spring_energy;
+        Some([
+            kinetic + potential + contacts.elastic_energy + springs,
+            springs,
+        ])
+    }
+
+    /// Notes that spheres came or left since there was that energy.
+    pub(super) fn note_exchange(&mut self, before: Option<[f64; 2]>) {
+        let Some(before) = before else { return };
+        let after = self.energy_in_books();
+        if let (Some(ledger), Some(after)) = (&mut self.ledger, after) {
+            ledger.work.brought += after[0] - before[0];
+            // Springs that are gone have rubbed nothing.
+            ledger.work.tangential -= after[1] - before[1];
+        }
+    }
+
+    /// Notes the work of a kick of `dt` (s) that all spheres have just got.
+    pub(super) fn note_kick(&mut self, dt: f64) {
+        let Some(ledger) = &mut self.ledger else {
+            return;
+        };
+        let particles = &self.parts.particles;
+        for i in particles.fixed..particles.len() {
+            ledger.note_kick(i, particles, dt);
+        }
+    }
+
+    /// Notes all contacts, before their forces are evaluated: histories are not moved on.
+    pub(super) fn note_all_contacts(&mut self, among: &Among) {
+        if let Some(ledger) = &mut self.ledger {
+            ledger.resize(self.parts.particles.len());
+            ledger.clear();
+        }
+        self.note_contacts(among);
+    }
+
+    /// Notes these contacts, as [`note_all_contacts`](Self::note_all_contacts).
+    pub(super) fn note_contacts(&mut self, among: &Among) {
+        if !N::ACTS {
+            return;
+        }
+        let Some(mut ledger) = self.ledger.take() else {
+            return;
+        };
+        self.note_pairs(among, &mut ledger);
+        if let Some(wall) = self.parts.floor {
+            self.note_wall(wall, &among.floor, &self.floor_history, &mut ledger);
+        }
+        if let Some(wall) = self.parts.cylinder {
+            self.note_wall(wall, &among.cylinder, &self.cylinder_history, &mut ledger);
+        }
+        self.ledger = Some(ledger);
+    }
+
+    fn note_pairs(&self, among: &Among, ledger: &mut Ledger<T::History>) {
+        for pairs in among.pairs.chunks(BLOCK) {
+            let block = &mut ledger.block;
+            block.take_pairs(pairs, &self.pair_history);
+            block.gather_slowly(&self.bodies);
+            block.interact(&self.laws());
+            for (k, pair) in pairs.iter().enumerate() {
+                let Some(meeting) = ledger.block.meeting(k) else {
+                    continue;
+                };
+                let [damping, tangential] = self.parts_of(&meeting);
+                let [one, other] = meeting.torque;
+                ledger.add(pair.i, damping, tangential, one);
+                ledger.add(pair.j, -damping, -tangential, other);
+            }
+        }
+    }
+
+    fn note_wall<W: Wall>(
+        &self,
+        wall: W,
+        near: &[u32],
+        histories: &[T::History],
+        ledger: &mut Ledger<T::History>,
+    ) {
+        for spheres in near.chunks(BLOCK) {
+            let block = &mut ledger.block;
+            block.take_spheres(spheres, histories);
+            block.gather_slowly(&self.bodies);
+            block.interact_with_wall(wall, &self.laws());
+            for (k, &sphere) in spheres.iter().enumerate() {
+                let Some(meeting) = ledger.block.meeting_with_wall(wall, k) else {
+                    continue;
+                };
+                let [damping, tangential] = self.parts_of(&meeting);
+                ledger.add(sphere, damping, tangential, meeting.torque[0]);
+            }
+        }
+    }
+
+    /// Of the force at a contact what the damping does, and the tangential law.
+    fn parts_of(&self, meeting: &Meeting) -> [Vector; 2] {
+        let Meeting {
+            normal,
+            velocity,
+            force,
+            ..
+        } = *meeting;
+        let along = force.dot(normal);
+        let elastic = self
+            .normal
+            .force(meeting.overlap, 0.0, meeting.effective_radius);
+        let sideways = velocity.perpendicular_to(normal) * -self.normal.sideways_drag();
+        let damping = normal * (along - elastic) + sideways;
+        [damping, force - normal * along - sideways]
+    }
+}
