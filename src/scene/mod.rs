@@ -456,7 +456,7 @@ pub struct SpinDamping {
 #[serde(deny_unknown_fields)]
 pub struct Time {
     /// Time step dt (s); or "auto", which chooses the largest that is at most `safety_factor` times
-    /// every limit of the scene and of which `frame_interval` is a whole multiple.
+    /// every limit of the scene and that divides `frame_interval` and the interval of a feed.
     pub dt: f64,
     /// With `dt = "auto"` only: the largest step over the least limit, advised limits included
     /// (default 0.2). A scene that runs has a number for its step, and none here.
