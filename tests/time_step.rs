@@ -217,11 +217,11 @@ fn tanks() -> impl Strategy<Value = (String, f64)> {
     let contact = prop_oneof![
         (5.0..11.0_f64, 0.0..2e-3_f64).prop_map(|(modulus, time)| format!(
             "law = 'hertz', young_modulus = {:e}, poisson_ratio = 0.3, dissipation_time = {time:e}",
-            10_f64.powf(modulus)
+            libm::pow(10.0, modulus)
         )),
         (1.0..6.0_f64, 0.0..1.0_f64).prop_map(|(stiffness, damping)| format!(
             "law = 'linear', stiffness = {:e}, damping = {damping:e}",
-            10_f64.powf(stiffness)
+            libm::pow(10.0, stiffness)
         )),
     ];
     let friction = (0.0..1.0_f64, 1e-5..1.0_f64).prop_map(|(mu, speed)| {
