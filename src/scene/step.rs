@@ -9,7 +9,7 @@ use crate::document::{Problem, number};
 /// A fifth of the Rayleigh time is what Altair's EDEM advises for dense packings ("Estimate
 /// Simulation Time" in its help). A fifth of the limit of
 /// twelve contacts, t_c / (2.015 sqrt(6)) with the duration t_c of a Hertz contact, resolves the
-/// shortest contact with 25 steps; with a linear contact, t_c = pi / w, it is 19.
+/// shortest contact with about 25 steps; with a linear contact, t_c = pi / w, it is 19.
 pub(super) const SAFETY_FACTOR: f64 = 0.2;
 
 /// Steps per frame that can be counted exactly.
