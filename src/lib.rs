@@ -44,6 +44,7 @@
 //!         Start::Random { z_min: 0.01, z_max: 0.05, speed: 0.005, spin: 0.0 },
 //!         Time {
 //!             dt: 1e-4,
+//!             safety_factor: None,
 //!             duration: 4.0,
 //!             frame_interval: 1e-2,
 //!             integrator: Integrator::SymplecticEuler,

@@ -126,6 +126,7 @@ pub const SCENE_KEYS: &[Notation] = &[
     row("spin_damping.coefficient", "c_ω", "kg m²/s", "coefficient of spin damping"),
     row("neighbours.length", "L", "m", "side of a cell"),
     row("time.dt", "Δt", "s", "time step"),
+    row("time.safety_factor", "f", "", "time step over its least limit"),
     row("time.duration", "T", "s", "duration"),
     row("time.frame_interval", "Δt_{frame}", "s", "time between frames"),
     row("guards.overlap", "ξ_{max} / r", "", "largest overlap, in radii"),
@@ -227,7 +228,7 @@ mod tests {
             "door": { "opens": 60.0 },
             "outlet": { "height": -1.0 },
             "neighbours": { "search": "cells", "length": 0.25 },
-            "time": { "dt": 1e-3, "duration": 300.0, "frame_interval": 0.05 },
+            "time": { "dt": 1e-3, "safety_factor": 0.2, "duration": 300.0, "frame_interval": 0.05 },
         });
         vec![
             scene(

@@ -4,9 +4,10 @@ mod walls;
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
+use super::time_step::{self, Tightest, tightest_limits};
 use super::{classify, format, job, kind};
 use phase::classify::Sieves;
-use phase::dem::timestep::{self, Limit};
+use phase::dem::timestep::{Limit, Standing};
 use phase::scene::{Contact, Friction, Scene, Start};
 use phase::sweep::{Axis, Forecast, Job, PlotSettings, Sweep, describe, forecast, work};
 use serde::Serialize;
@@ -17,6 +18,10 @@ use std::time::Duration;
 /// Check a scene or sweep file and say what it would run, without running it.
 ///
 /// A short trial of a few jobs tells how long it will take and how much memory and disk it needs.
+///
+/// The time step is compared with its limits (docs/time-step.md; --verbose lists all, with formulas).
+/// Above a limit that decides about stability a scene is refused; above half of it, and above an
+/// advised one, there is a warning.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: what will the full diagram cost on 16 cores?
@@ -41,7 +46,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let sweep = if is_sweep {
         phase::sweep::load(&arguments.file).map_err(Failure::refused)?
     } else {
-        sweep_of_one(phase::scene::load(&arguments.file).map_err(Failure::refused)?)
+        sweep_of_one(phase::scene::load_base(&arguments.file).map_err(Failure::refused)?)
     };
     let jobs = sweep.jobs().map_err(Failure::refused)?;
     if is_sweep {
@@ -54,6 +59,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     for text in describe_time_step(&tightest, &sweep.axes, console.is_verbose()) {
         console.result(line("time step", text))?;
     }
+    if let Some(text) = time_step::describe_choice(&sweep, &jobs) {
+        console.result(line("time step", text))?;
+    }
+    time_step::warn_of_jobs(&tightest, &sweep.axes, console);
     let walls = walls::weakest(&jobs);
     if let Some(wall) = &walls {
         console.result(line("walls", wall.describe(&sweep.axes)))?;
@@ -77,9 +86,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         frames,
         steps_per_frame,
         dt: scene.time.dt,
+        safety_factor: scene.time.safety_factor,
         limits: tightest
             .iter()
-            .map(|limit| limit.answer(&sweep.axes))
+            .map(|limit| LimitAnswer::new(limit, &sweep.axes))
             .collect(),
         walls: walls.map(|walls| walls.answer()),
         forecast: forecast.map(|forecast| ForecastAnswer::new(&forecast, workers)),
@@ -163,81 +173,32 @@ fn describe_time(scene: &Scene) -> String {
     )
 }
 
-/// Every limit of the time step with the job that comes closest to it: those that must not be
-/// exceeded first, then the tightest.
-fn tightest_limits(jobs: &[Job]) -> Vec<Tightest<'_>> {
-    let mut tightest: Vec<Tightest<'_>> = Vec::new();
-    for job in jobs {
-        for limit in timestep::limits(&job.scene) {
-            let next = Tightest {
-                limit,
-                ratio: job.scene.time.dt / limit.seconds,
-                job,
-            };
-            match tightest
-                .iter_mut()
-                .find(|tightest| tightest.limit.name == limit.name)
-            {
-                Some(tightest) if tightest.ratio < next.ratio => *tightest = next,
-                Some(_) => {}
-                None => tightest.push(next),
-            }
-        }
-    }
-    tightest.sort_by(|a, b| {
-        let order = b.limit.decisive.cmp(&a.limit.decisive);
-        order.then(b.ratio.total_cmp(&a.ratio))
-    });
-    tightest
-}
-
 /// The time step over the limit it must not exceed, and over those it had better not; with
 /// `all`, over every limit, explained.
 fn describe_time_step(tightest: &[Tightest<'_>], axes: &[Axis], all: bool) -> Vec<String> {
     let is_told =
-        |(index, tightest): &(usize, &Tightest<'_>)| all || *index == 0 || tightest.ratio > 1.0;
+        |(index, it): &(usize, &Tightest<'_>)| all || *index == 0 || it.standing.ratio > 1.0;
     let told = tightest.iter().enumerate().filter(is_told);
-    told.map(|(_, tightest)| tightest.describe(axes, all))
+    told.map(|(_, tightest)| describe_limit(tightest, axes, all))
         .collect()
 }
 
-/// A limit of the time step, and the job that comes closest to it.
-struct Tightest<'a> {
-    limit: Limit,
-    ratio: f64,
-    job: &'a Job,
-}
-
-impl Tightest<'_> {
-    fn answer(&self, axes: &[Axis]) -> LimitAnswer {
-        LimitAnswer {
-            name: self.limit.name,
-            seconds: self.limit.seconds,
-            decisive: self.limit.decisive,
-            ratio: self.ratio,
-            point: job::point(axes, &self.job.values),
-            seed: self.job.seed,
-        }
+/// A limit with its ratio, where that occurs, and with `explain` its formula.
+fn describe_limit(tightest: &Tightest<'_>, axes: &[Axis], explain: bool) -> String {
+    let Standing { limit, ratio } = tightest.standing;
+    let Limit {
+        name,
+        seconds,
+        decisive,
+        explanation,
+    } = limit;
+    let kind = if decisive { "limit" } else { "advised limit" };
+    let at = describe(axes, &tightest.job.values, tightest.job.seed);
+    let mut text = format!("{ratio:.2} of the {kind} {seconds:.2e} s ({name}) at {at}");
+    if explain {
+        text += &format!("\n{:14}{explanation}", "");
     }
-
-    fn describe(&self, axes: &[Axis], explain: bool) -> String {
-        let Limit {
-            name,
-            seconds,
-            decisive,
-            explanation,
-        } = self.limit;
-        let kind = if decisive { "limit" } else { "advised limit" };
-        let at = describe(axes, &self.job.values, self.job.seed);
-        let mut text = format!(
-            "{:.2} of the {kind} {seconds:.2e} s ({name}) at {at}",
-            self.ratio
-        );
-        if explain {
-            text += &format!("\n{:14}{explanation}", "");
-        }
-        text
-    }
+    text
 }
 
 fn print_forecast(jobs: &[Job], workers: usize, console: &Console) -> Result<Forecast, Failure> {
@@ -288,6 +249,8 @@ struct Answer<'a> {
     frames: u64,
     steps_per_frame: u64,
     dt: f64,
+    /// That of `dt = "auto"`; none if the step was given.
+    safety_factor: Option<f64>,
     limits: Vec<LimitAnswer>,
     /// Whether walls of discs hold; none without any.
     walls: Option<walls::Answer>,
@@ -303,6 +266,20 @@ struct LimitAnswer {
     ratio: f64,
     point: BTreeMap<String, f64>,
     seed: u64,
+}
+
+impl LimitAnswer {
+    fn new(tightest: &Tightest<'_>, axes: &[Axis]) -> Self {
+        let Standing { limit, ratio } = tightest.standing;
+        Self {
+            name: limit.name,
+            seconds: limit.seconds,
+            decisive: limit.decisive,
+            ratio,
+            point: job::point(axes, &tightest.job.values),
+            seed: tightest.job.seed,
+        }
+    }
 }
 
 /// What the sweep will cost.

@@ -85,6 +85,11 @@ impl Console {
         }
     }
 
+    /// Says what may go wrong.
+    pub(crate) fn warning(&self, text: impl Display) {
+        self.note(format_args!("warning: {text}"));
+    }
+
     /// Says something that only few want to know.
     pub(crate) fn detail(&self, text: impl Display) {
         if self.verbose {

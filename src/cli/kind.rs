@@ -7,13 +7,24 @@ use std::path::Path;
 
 /// Reads a scene file.
 pub(super) fn load_scene(file: &Path) -> Result<Scene, Failure> {
+    refuse_sweep(file)?;
+    phase::scene::load(file).map_err(Failure::refused)
+}
+
+/// Reads the file of a scene that is to be varied.
+pub(super) fn load_base_scene(file: &Path) -> Result<Scene, Failure> {
+    refuse_sweep(file)?;
+    phase::scene::load_base(file).map_err(Failure::refused)
+}
+
+fn refuse_sweep(file: &Path) -> Result<(), Failure> {
     if is_sweep(file) {
         return Err(Failure::refused(format_args!(
             "{}: this is a sweep, not a scene; `phase sweep {0}` runs it",
             file.display()
         )));
     }
-    phase::scene::load(file).map_err(Failure::refused)
+    Ok(())
 }
 
 /// Reads a sweep file.

@@ -21,6 +21,7 @@ mod run;
 mod schema;
 mod status;
 mod sweep;
+mod time_step;
 mod verify;
 mod view;
 

@@ -5,9 +5,10 @@ mod again;
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::progress::{Progress, Work};
-use super::{folders, format, interrupt, kind};
+use super::{folders, format, interrupt, kind, time_step};
 use again::Original;
 use phase::dem::Counts;
+use phase::dem::timestep::Standing;
 use phase::document::Problem;
 use phase::record::{Milestone, MilestoneKind, Outcome, RunRecord};
 use phase::run::RunError;
@@ -87,6 +88,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         folders::refuse_to_replace(table, "a table of observables", b"time,kinetic,")?;
     }
     folders::make_for(&path)?;
+    time_step::tell_of_scene(&scene, console);
     let Some((record, seconds)) = run(&scene, console)? else {
         console.note("interrupted; nothing was stored");
         return Ok(Exit::Interrupted);
@@ -209,6 +211,10 @@ struct Answer<'a> {
     cpu_seconds: f64,
     sphere_steps: u64,
     frames: usize,
+    /// Time step (s), over the limit above which it is refused, and the name of that limit.
+    dt: f64,
+    dt_over_limit: Option<f64>,
+    limit: Option<&'static str>,
     /// What happened once, and when (s), where spheres come or go.
     milestones: Vec<Milestone>,
     /// What was to happen and did not.
@@ -242,6 +248,7 @@ impl<'a> Answer<'a> {
             Outcome::Completed => ("completed", None),
             Outcome::Unstable(instability) => ("unstable", Some(instability)),
         };
+        let standing = Standing::decisive(&record.scene);
         Self {
             record: path,
             seed: record.scene.seed,
@@ -257,6 +264,9 @@ impl<'a> Answer<'a> {
             cpu_seconds: record.cpu_seconds,
             sphere_steps: work::sphere_steps_of(record),
             frames: observations.frames(),
+            dt: record.scene.time.dt,
+            dt_over_limit: standing.map(|it| it.ratio),
+            limit: standing.map(|it| it.limit.name),
             milestones: record.milestones.clone(),
             unmet: unmet(record),
             last_frame,

@@ -4,7 +4,7 @@ use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
 use super::job::NamedJob;
 use super::progress::{Progress, Work};
-use super::{classify, format, interrupt, kind, plot};
+use super::{classify, format, interrupt, kind, plot, time_step};
 use phase::record::Outcome;
 use phase::sweep::{
     Event, Failure as JobFailure, Folder, FolderError, Job, Plan, Pool, PoolError, Report,
@@ -95,6 +95,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         Plan::new(&folder, jobs.clone(), workers).map_err(Failure::failed)?
     };
     tell_of_plan(&plan, console);
+    time_step::tell_of_jobs(&jobs, &sweep.axes, console);
     let run = run(&plan, &sweep, &folder, workers, stop, console)?;
     run.print(&plan, &sweep, console)?;
     let mut answer = Answer::new(&folder, &plan, &sweep, &run);

@@ -178,6 +178,10 @@ impl Kind {
         };
         match (self, value) {
             (Self::Either(kinds), _) => match kinds.iter().find(|kind| kind.fits_type_of(value)) {
+                // Who writes another word may have meant any of the kinds.
+                Some(Self::Choice(words)) if words.iter().all(|word| value != word) => {
+                    problems.push(misfit());
+                }
                 Some(kind) => kind.check(value, path, problems),
                 None => problems.push(misfit()),
             },

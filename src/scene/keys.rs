@@ -6,6 +6,9 @@ use crate::document::schema::Kind;
 use crate::document::{Problem, any_of, number, one_of, suggest};
 use serde_json::Value;
 
+/// The key that only a scene with `dt = "auto"` has.
+const SAFETY_FACTOR_KEY: &str = "time.safety_factor";
+
 /// A key that a sweep may vary.
 struct NumericKey {
     path: String,
@@ -29,6 +32,9 @@ impl Scene {
         let mut keys = Vec::new();
         collect(&SCENE, Some(&self.tree()), "", &mut keys);
         keys.retain(|key| key.path != "seed" && !is_without_effect(&key.path));
+        if self.time.safety_factor.is_none() {
+            keys.retain(|key| key.path != SAFETY_FACTOR_KEY);
+        }
         keys
     }
 
@@ -68,6 +74,10 @@ impl Scene {
         if is_without_effect(key) {
             return Problem::new("", format!("`{key}` changes nothing in the motion"))
                 .help("set it in the scene; every job then has it");
+        }
+        if [SAFETY_FACTOR_KEY, leaf(SAFETY_FACTOR_KEY)].contains(&key) {
+            return Problem::new("", format!("`{key}` goes with `dt = \"auto\"` only"))
+                .help("use `dt = \"auto\"` in [time] of the scene, or vary `time.dt`");
         }
         let table = key.split('.').next().unwrap_or(key);
         if let Kind::Table(tables) = SCENE

@@ -1,6 +1,7 @@
 //! From a scene file to a scene.
 
-use super::schema::SCENE;
+use super::schema::{AUTO, SCENE};
+use super::step::SAFETY_FACTOR;
 use super::{Geometry, Radii, Scene, Start};
 use crate::document::{Document, LoadError, Problem};
 use crate::store;
@@ -16,6 +17,16 @@ pub fn load(path: &Path) -> Result<Scene, LoadError> {
     of_document(&Document::read(path)?)
 }
 
+/// Like [`load`], for a scene that is to be varied: where the file says `dt = "auto"`,
+/// `time.safety_factor` is kept beside the number that is chosen for the scene as it stands, so that
+/// [`Scene::with_chosen_step`] can choose another after other keys have changed.
+///
+/// # Errors
+/// Those of [`load`].
+pub fn load_base(path: &Path) -> Result<Scene, LoadError> {
+    base_of_document(&Document::read(path)?)
+}
+
 /// Like [`load`], with `text` for the content of the file `path`.
 ///
 /// # Errors
@@ -25,27 +36,45 @@ pub fn from_str(text: &str, path: &Path) -> Result<Scene, LoadError> {
 }
 
 fn of_document(document: &Document) -> Result<Scene, LoadError> {
-    let scene = of_tree(document.tree(), document.folder());
+    let mut scene = base_of_document(document)?;
+    scene.time.safety_factor = None;
+    Ok(scene)
+}
+
+fn base_of_document(document: &Document) -> Result<Scene, LoadError> {
+    let scene = base_of_tree(document.tree(), document.folder());
     scene.map_err(|problems| document.refuse(&problems))
 }
 
-/// The scene that a tree of values describes; files it names are relative to `folder`.
-pub(crate) fn of_tree(tree: &Value, folder: &Path) -> Result<Scene, Vec<Problem>> {
+/// The scene that a tree of values describes, as [`load_base`] returns it; files it names are relative
+/// to `folder`.
+pub(crate) fn base_of_tree(tree: &Value, folder: &Path) -> Result<Scene, Vec<Problem>> {
     let mut problems = Vec::new();
     SCENE.check(tree, "", &mut problems);
     if !problems.is_empty() {
         return Err(problems);
     }
-    let mut scene: Scene = serde_json::from_value(tree.clone())
+    let mut tree = tree.clone();
+    let is_auto = tree["time"]["dt"] == AUTO;
+    if is_auto {
+        // Any number, until the scene is there that one follows from.
+        tree["time"]["dt"] = tree["time"]["frame_interval"].clone();
+    }
+    let mut scene: Scene = serde_json::from_value(tree)
         .map_err(|error| vec![Problem::new("", format!("not a scene: {error}"))])?;
     read_files(&mut scene, folder, &mut problems);
-    if problems.is_empty() {
-        problems = scene.problems();
+    if !problems.is_empty() {
+        return Err(problems);
     }
-    if problems.is_empty() {
-        Ok(scene)
-    } else {
-        Err(problems)
+    if is_auto {
+        let safety_factor = *scene.time.safety_factor.get_or_insert(SAFETY_FACTOR);
+        scene = scene.with_chosen_step()?;
+        scene.time.safety_factor = Some(safety_factor);
+        return Ok(scene);
+    }
+    match scene.problems() {
+        problems if problems.is_empty() => Ok(scene),
+        problems => Err(problems),
     }
 }
 

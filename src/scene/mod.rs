@@ -13,12 +13,13 @@ mod neighbours;
 mod radius;
 pub(crate) mod schema;
 mod silo;
+mod step;
 mod validate;
 
 pub use drag::{Drag, DragForm, DragLaw};
 pub(crate) use keys::leaf;
-pub(crate) use load::of_tree;
-pub use load::{from_str, load};
+pub(crate) use load::base_of_tree;
+pub use load::{from_str, load, load_base};
 pub use neighbours::Neighbours;
 pub use radius::{Radii, RadiusShare};
 pub use silo::{Door, FixedSphere, FixedSpheres, Geometry, Hopper, LengthUnit, Outlet, Rest};
@@ -108,6 +109,7 @@ impl Scene {
     ///         Start::List { spheres: vec![StartSphere::at([0.0, 0.0, 1.0])] },
     ///         Time {
     ///             dt: 1e-4,
+    ///             safety_factor: None,
     ///             duration: 0.1,
     ///             frame_interval: 1e-2,
     ///             integrator: Integrator::VelocityVerlet,
@@ -453,8 +455,13 @@ pub struct SpinDamping {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
-    /// Time step dt (s).
+    /// Time step dt (s); or "auto", which chooses the largest that is at most `safety_factor` times
+    /// every limit of the scene and that divides `frame_interval` and the interval of a feed.
     pub dt: f64,
+    /// With `dt = "auto"` only: the largest step over the least limit, advised limits included
+    /// (default 0.2). A scene that runs has a number for its step, and none here.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub safety_factor: Option<f64>,
     /// Duration of the run (s).
     pub duration: f64,
     /// Time between frames (s); a whole number of steps.

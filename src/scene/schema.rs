@@ -7,6 +7,9 @@ use crate::document::schema::{Kind, Range, needed, optional};
 /// Least and largest length (m), in scene files and in the files that they name.
 pub(crate) const LENGTHS: [f64; 2] = [1e-9, 1e9];
 
+/// In the place of a time step: one that follows from the scene.
+pub(super) const AUTO: &str = "auto";
+
 // Wider than any experiment, narrow enough that masses, energies and numbers of steps made of them
 // neither vanish nor overflow.
 const LENGTH: Kind = Kind::Number(Range::between(LENGTHS[0], LENGTHS[1]));
@@ -226,7 +229,8 @@ const NEIGHBOURS: Kind = Kind::Tagged(
 );
 
 const TIME: Kind = Kind::Table(&[
-    needed("dt", SECONDS),
+    needed("dt", Kind::Either(&[SECONDS, Kind::Choice(&[AUTO])])),
+    optional("safety_factor", Kind::Number(Range::above(0.0, 1.0))),
     needed("duration", SECONDS),
     needed("frame_interval", SECONDS),
     optional(

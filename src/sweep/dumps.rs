@@ -2,6 +2,7 @@
 
 use super::{LabelRow, LabelTable, Labelling, work};
 use crate::classify::{self, Family, Sieves};
+use crate::document::Problem;
 use crate::replay;
 use crate::scene::{Radii, Scene};
 use crate::store::{self, DumpName};
@@ -124,8 +125,11 @@ fn scene_of(path: &Path, base: &Scene) -> Result<(Scene, DumpName), String> {
             ));
         }
     }
-    match scene.problems().first() {
-        None => Ok((scene, name)),
-        Some(problem) => Err(format!("with what its name says, {problem}")),
+    match scene.with_chosen_step() {
+        Ok(scene) => Ok((scene, name)),
+        Err(problems) => {
+            let problems: Vec<String> = problems.iter().map(Problem::to_string).collect();
+            Err(format!("with what its name says, {}", problems.join("; ")))
+        }
     }
 }

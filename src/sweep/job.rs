@@ -89,12 +89,7 @@ impl Sweep {
             .scene
             .with_values(keys.zip(values.iter().copied()))
             .map_err(|problem| fail(vec![problem]))?;
-        let problems = scene.problems();
-        if problems.is_empty() {
-            Ok(scene)
-        } else {
-            Err(fail(problems))
-        }
+        scene.with_chosen_step().map_err(fail)
     }
 
     fn describe(&self, values: &[f64]) -> String {

@@ -73,8 +73,13 @@ fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     document.accept(&problems)?;
     let file = SweepFile::deserialize(document.tree())
         .map_err(|error| document.refuse(&[Problem::new("", format!("not a sweep: {error}"))]))?;
-    let scene = base_scene(&file.scene, document)?;
+    let mut scene = base_scene(&file.scene, document)?;
     let axes = expand_axes(&file.axis, &scene, &mut problems);
+    check_steps(&axes, &mut problems);
+    if axes.iter().any(|axis| axis.key == "time.dt") {
+        // The axis has a number for every point.
+        scene.time.safety_factor = None;
+    }
     let seeds = expand_seeds(file.seeds.as_ref(), &mut problems);
     let sweep = Sweep {
         title: file.title,
@@ -100,12 +105,12 @@ fn of_document(document: &Document) -> Result<Sweep, LoadError> {
 /// The scene that the sweep starts from: in a file of its own, or in the table `scene`.
 fn base_scene(scene: &Value, document: &Document) -> Result<Scene, LoadError> {
     let Some(path) = scene.as_str() else {
-        return scene::of_tree(scene, document.folder()).map_err(|problems| {
+        return scene::base_of_tree(scene, document.folder()).map_err(|problems| {
             let within = |problem: Problem| problem.within("scene");
             document.refuse(&problems.into_iter().map(within).collect::<Vec<_>>())
         });
     };
-    match scene::load(&document.folder().join(path)) {
+    match scene::load_base(&document.folder().join(path)) {
         Err(error @ LoadError::Read { .. }) => {
             let help = "the path is relative to the folder of this file";
             Err(document.refuse(&[Problem::new("scene", error.to_string()).help(help)]))
@@ -184,6 +189,16 @@ fn check_axes(axes: &[Axis], problems: &mut Vec<Problem>) {
             let help = format!("add a `name`, such as \"{}\"", axis.key);
             problems.push(Problem::new(path, message).help(help));
         }
+    }
+}
+
+/// The step of a point is given or chosen, not both.
+fn check_steps(axes: &[Axis], problems: &mut Vec<Problem>) {
+    let position = |key: &str| axes.iter().position(|axis| axis.key == key);
+    if let (Some(_), Some(index)) = (position("time.dt"), position("time.safety_factor")) {
+        let message = "`time.safety_factor` has no effect where another axis varies `time.dt`";
+        let problem = Problem::new(format!("axis[{index}].key"), message);
+        problems.push(problem.help("remove one of the two axes"));
     }
 }
 

@@ -139,6 +139,7 @@ impl Bench {
         };
         let time = Time {
             dt,
+            safety_factor: None,
             duration: dt,
             frame_interval: dt,
             integrator: self.integrator,

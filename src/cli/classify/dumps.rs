@@ -16,7 +16,7 @@ pub(super) fn label(
     workers: usize,
     console: &Console,
 ) -> Result<Labelled, Failure> {
-    let scene = kind::load_scene(scene)?;
+    let scene = kind::load_base_scene(scene)?;
     sieves.check(&scene).map_err(Failure::refused)?;
     let dumps = dumps_in(folder)?;
     let labelling =

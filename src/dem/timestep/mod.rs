@@ -13,9 +13,11 @@
 mod air;
 mod hertz;
 mod linear;
+mod standing;
 
 pub use hertz::{Impact, dissipation_time, rayleigh_time};
 pub use linear::LinearImpact;
+pub use standing::Standing;
 
 use crate::scene::{Integrator, Scene, Start, StartSphere};
 
@@ -182,6 +184,12 @@ pub fn limits(scene: &Scene) -> Vec<Limit> {
 /// The limit above which a scene is refused; absent if nothing in it can become unstable.
 pub fn largest_stable(scene: &Scene) -> Option<Limit> {
     limits(scene).into_iter().find(|limit| limit.decisive)
+}
+
+/// The least of all limits, whether decisive or not.
+pub fn least(scene: &Scene) -> Option<Limit> {
+    let limits = limits(scene).into_iter();
+    limits.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
 }
 
 #[cfg(test)]

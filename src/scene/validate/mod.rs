@@ -20,20 +20,35 @@ impl Scene {
     pub fn problems(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
         SCENE.check(&self.tree(), "", &mut problems);
-        // The questions below take numbers in their ranges for granted.
         if problems.is_empty() {
-            self.check_laws(&mut problems);
-            self.check_spheres(&mut problems);
-            self.check_start(&mut problems);
-            self.check_times(&mut problems);
-            self.check_silo(&mut problems);
-            self.check_neighbours(&mut problems);
-            self.check_output(&mut problems);
+            self.check_all_but_step(&mut problems);
+            self.check_whole_steps(&mut problems);
         }
         if problems.is_empty() {
             self.check_time_step(&mut problems);
         }
         problems
+    }
+
+    /// What is wrong with this scene whatever its time step.
+    pub(super) fn problems_but_of_step(&self) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        SCENE.check(&self.tree(), "", &mut problems);
+        if problems.is_empty() {
+            self.check_all_but_step(&mut problems);
+        }
+        problems
+    }
+
+    /// Takes numbers in their ranges for granted.
+    fn check_all_but_step(&self, problems: &mut Vec<Problem>) {
+        self.check_laws(problems);
+        self.check_spheres(problems);
+        self.check_start(problems);
+        self.check_times(problems);
+        self.check_silo(problems);
+        self.check_neighbours(problems);
+        self.check_output(problems);
     }
 
     fn check_laws(&self, problems: &mut Vec<Problem>) {

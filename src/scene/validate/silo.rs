@@ -1,6 +1,6 @@
 //! Whether geometry, feed, door, rest and outlet of a scene go together.
 
-use super::{rounded, time};
+use super::rounded;
 use crate::document::{Problem, number};
 use crate::scene::{Friction, Geometry, Hopper, Scene, Shape, Start};
 
@@ -184,15 +184,6 @@ impl Scene {
         else {
             return;
         };
-        if !time::multiple(*interval, self.time.dt) {
-            let dt = self.time.dt;
-            problems.push(time::not_multiple(
-                "start.interval",
-                *interval,
-                "time.dt",
-                dt,
-            ));
-        }
         let last = (self.spheres.count - 1) as f64 * interval;
         if last >= self.time.duration {
             problems.push(too_late(

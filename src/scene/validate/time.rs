@@ -3,7 +3,7 @@
 use super::rounded;
 use crate::dem::timestep;
 use crate::document::{Problem, number};
-use crate::scene::Scene;
+use crate::scene::{Scene, Start};
 
 /// Two times count as commensurate if their ratio is a whole number within this.
 const ROUNDING: f64 = 1e-6;
@@ -15,15 +15,6 @@ impl Scene {
     pub(super) fn check_times(&self, problems: &mut Vec<Problem>) {
         let time = &self.time;
         let interval = time.frame_interval;
-        let whole_steps = multiple(interval, time.dt);
-        if !whole_steps {
-            problems.push(not_multiple(
-                "time.frame_interval",
-                interval,
-                "time.dt",
-                time.dt,
-            ));
-        }
         if !multiple(time.duration, interval) {
             let name = "time.frame_interval";
             problems.push(not_multiple("time.duration", time.duration, name, interval));
@@ -47,6 +38,31 @@ impl Scene {
                 interval,
             ));
         }
+    }
+
+    /// What happens at steps must not fall between them.
+    pub(super) fn check_whole_steps(&self, problems: &mut Vec<Problem>) {
+        let (dt, safety_factor) = (self.time.dt, self.time.safety_factor);
+        if safety_factor.is_some() {
+            let message = "`time.safety_factor` goes with `dt = \"auto\"` only";
+            let help = "use `dt = \"auto\"`, or remove `safety_factor`";
+            let path = "time.safety_factor";
+            problems.push(Problem::new(path, message).help(help).at_key());
+        }
+        for (path, interval) in self.intervals_of_steps() {
+            if !multiple(interval, dt) {
+                problems.push(not_multiple(path, interval, "time.dt", dt));
+            }
+        }
+    }
+
+    /// The times (s) that must be whole numbers of steps, by their keys.
+    pub(in crate::scene) fn intervals_of_steps(&self) -> Vec<(&'static str, f64)> {
+        let mut intervals = vec![("time.frame_interval", self.time.frame_interval)];
+        if let Start::Feed { interval, .. } = self.start {
+            intervals.push(("start.interval", interval));
+        }
+        intervals
     }
 
     pub(super) fn check_time_step(&self, problems: &mut Vec<Problem>) {

@@ -1,0 +1,161 @@
+//! How the time step of a scene stands to its limits, and when that deserves a warning.
+
+use super::{Limit, limits};
+use crate::scene::Scene;
+
+/// How a time step stands to one limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Standing {
+    /// The limit.
+    pub limit: Limit,
+    /// Time step over limit.
+    pub ratio: f64,
+}
+
+impl Standing {
+    /// Above this share of a decisive limit there is a warning. A spring then has w dt > 1 and
+    /// swings 5 % too fast, 2 asin(w dt / 2) > pi/3 instead of 1; a relaxation at the rate g has
+    /// g dt > 1 and passes its end.
+    pub const CAUTION: f64 = 0.5;
+
+    /// How a scene's step stands to each of its limits, in the order of [`limits`].
+    pub fn all(scene: &Scene) -> Vec<Self> {
+        let of = |limit: Limit| Self {
+            limit,
+            ratio: scene.time.dt / limit.seconds,
+        };
+        limits(scene).into_iter().map(of).collect()
+    }
+
+    /// How a scene's step stands to the limit above which it is refused, if there is one.
+    pub fn decisive(scene: &Scene) -> Option<Self> {
+        Self::all(scene).into_iter().find(|it| it.limit.decisive)
+    }
+
+    /// What may happen at this step, if that deserves a warning: above [`CAUTION`](Self::CAUTION) times
+    /// a decisive limit, and above an advised one. The Rayleigh time is left out: a step is
+    /// customarily a fifth of it, but no force of this engine travels as a surface wave.
+    pub fn consequence(&self) -> Option<&'static str> {
+        let threshold = if self.limit.decisive {
+            Self::CAUTION
+        } else {
+            1.0
+        };
+        if self.ratio <= threshold {
+            return None;
+        }
+        match self.limit.name {
+            "drag" | "spin damping" => {
+                Some("stable, but what relaxes passes its end and returns, step by step")
+            }
+            "twelve contacts" => Some("a sphere that many others squeeze may gain energy"),
+            "displacement" => {
+                Some("the fastest sphere may pass the displacement guard, which ends the run")
+            }
+            "regularised friction" => {
+                Some("sliding that should stop may change sign from step to step")
+            }
+            _ if self.limit.decisive => Some(
+                "stable for a pair, but coarse: with few steps per contact restitutions are off, and \
+                 several contacts at once may gain energy",
+            ),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::from_str;
+    use std::path::Path;
+
+    fn limit(name: &'static str, decisive: bool) -> Limit {
+        Limit {
+            name,
+            seconds: 1.0,
+            decisive,
+            explanation: "",
+        }
+    }
+
+    fn warns(name: &'static str, decisive: bool, ratio: f64) -> bool {
+        let limit = limit(name, decisive);
+        Standing { limit, ratio }.consequence().is_some()
+    }
+
+    #[test]
+    fn warnings_begin_at_their_thresholds() {
+        for name in ["contact", "damped contact", "sticking contact", "drag"] {
+            assert!(
+                !warns(name, true, 0.5) && warns(name, true, 0.501),
+                "{name}"
+            );
+        }
+        for name in ["twelve contacts", "displacement", "regularised friction"] {
+            assert!(
+                !warns(name, false, 1.0) && warns(name, false, 1.001),
+                "{name}"
+            );
+        }
+        assert!(!warns("Rayleigh time", false, 1.5));
+    }
+
+    /// A scene in the air with every limit that goes with the contact and friction.
+    fn scene(contact: &str, friction: &str, dt: f64) -> Scene {
+        let text = format!(
+            "contact = {{ {contact} }}
+            friction = {{ {friction} }}
+            spheres = {{ count = 2, density = 1e4, radius = 0.004 }}
+            tank = {{ radius = 0.06, floor = 0.0 }}
+            start = {{ kind = 'random', z_min = 0.1, z_max = 0.2 }}
+            gravity = {{ acceleration = 9.8 }}
+            drag = {{ law = 'diameter', linear = 1e-4, quadratic = 0.2 }}
+            swirl = {{ omega = 3.0 }}
+            spin_damping = {{ coefficient = 1e-8 }}
+            time = {{ dt = {dt:e}, duration = 1, frame_interval = 1e-3 }}"
+        );
+        from_str(&text, Path::new("scene.toml")).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    const HERTZ: &str =
+        "law = 'hertz', young_modulus = 2e6, poisson_ratio = 0.3, dissipation_time = 1e-4";
+    const LINEAR: &str = "law = 'linear', stiffness = 100.0, damping = 0.05";
+    const COULOMB: &str = "law = 'coulomb', coefficient = 0.3, regularisation = 1.0";
+    const LAWS: [(&str, &str); 4] = [
+        (HERTZ, COULOMB),
+        (HERTZ, "law = 'mindlin', coefficient = 0.3"),
+        (LINEAR, COULOMB),
+        (
+            LINEAR,
+            "law = 'cundall-strack', coefficient = 0.3, stiffness = 80.0, damping = 0.05",
+        ),
+    ];
+
+    #[test]
+    fn every_limit_has_words_but_the_rayleigh_time() {
+        let mut seen = std::collections::BTreeSet::new();
+        for (contact, friction) in LAWS {
+            for Limit { name, decisive, .. } in limits(&scene(contact, friction, 1e-5)) {
+                assert_eq!(
+                    warns(name, decisive, 2.0),
+                    name != "Rayleigh time",
+                    "{name}"
+                );
+                seen.insert(name);
+            }
+        }
+        assert_eq!(seen.len(), 9, "{seen:?}");
+    }
+
+    #[test]
+    fn no_limit_depends_on_the_step_that_it_limits() {
+        for (contact, friction) in LAWS {
+            let [short, long] = [1e-6, 1e-5].map(|dt| scene(contact, friction, dt));
+            assert_eq!(limits(&short), limits(&long));
+            let ratios =
+                |scene: &Scene| Standing::all(scene).iter().map(|it| it.ratio).sum::<f64>();
+            assert!((ratios(&long) / ratios(&short) - 10.0).abs() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! The time step that follows from a scene: `dt = "auto"`.
+
+use super::Scene;
+use crate::dem::timestep;
+use crate::document::{Problem, number};
+
+/// The step over the least limit, if the file does not say it.
+///
+/// A fifth of the Rayleigh time is what Altair's EDEM advises for dense packings ("Estimate
+/// Simulation Time" in its help). A fifth of the limit of
+/// twelve contacts, t_c / (2.015 sqrt(6)) with the duration t_c of a Hertz contact, resolves the
+/// shortest contact with about 25 steps; with a linear contact, t_c = pi / w, it is 19.
+pub(super) const SAFETY_FACTOR: f64 = 0.2;
+
+/// Steps per frame that can be counted exactly.
+const MOST_STEPS: f64 = 9e15;
+
+/// Largest number of parts of a frame that the feed's interval may be counted in.
+const MOST_PARTS: u32 = 1000;
+
+/// How far, relatively, a number of parts may be from a whole one: little enough that no number of
+/// parts fits by chance, and that a million steps still add up.
+const ROUNDING: f64 = 1e-9;
+
+impl Scene {
+    /// The scene that is run, checked. Where `time.safety_factor` is there, the time step is chosen:
+    /// the largest that is at most that factor times every limit of [`timestep::limits`] and of which
+    /// the intervals of frames and of the feed are whole multiples. What comes back has a number for
+    /// its step and no safety factor.
+    ///
+    /// # Errors
+    /// [`Scene::problems`] of what comes back; and if a step is to be chosen, but nothing limits it, or
+    /// no step divides both intervals.
+    pub fn with_chosen_step(mut self) -> Result<Self, Vec<Problem>> {
+        if let Some(safety_factor) = self.time.safety_factor {
+            accept(self.problems_but_of_step())?;
+            let step = self.chosen_step(safety_factor);
+            self.time.dt = step.map_err(|problem| vec![problem])?;
+            self.time.safety_factor = None;
+        }
+        accept(self.problems())?;
+        Ok(self)
+    }
+
+    fn chosen_step(&self, safety_factor: f64) -> Result<f64, Problem> {
+        let refuse = |message: String, help: &str| {
+            let help = format!("{help}, or give `dt` as a number");
+            Problem::new("time.dt", message).help(help)
+        };
+        let least = timestep::least(self).ok_or_else(|| {
+            let message = "`dt = \"auto\"` has nothing to go by: no contact at which spheres meet, no \
+                           drag, no spin damping";
+            Problem::new("time.dt", message).help("give `dt` as a number")
+        })?;
+        let frame = self.time.frame_interval;
+        let parts = self.parts_of_a_frame().ok_or_else(|| {
+            let times = self.intervals_of_steps().into_iter();
+            let times = times.map(|(key, time)| format!("`{key}` = {} s", number(time)));
+            let message = format!(
+                "`dt = \"auto\"` finds no step that divides {}",
+                times.collect::<Vec<_>>().join(" and ")
+            );
+            refuse(message, "make one a whole multiple of the other")
+        })?;
+        let longest = safety_factor * least.seconds;
+        let mut steps = libm::ceil(frame / longest / parts).max(1.0) * parts;
+        // The quotient may have been rounded down to a whole number.
+        if frame / steps > longest {
+            steps += parts;
+        }
+        if steps > MOST_STEPS {
+            let message = format!(
+                "`dt = \"auto\"` would make {steps:.0e} steps per frame for the {} limit of {:.3e} s",
+                least.name, least.seconds
+            );
+            return Err(refuse(message, "use a shorter `frame_interval`"));
+        }
+        Ok(frame / steps)
+    }
+
+    /// The least number of equal parts of a frame of which everything that must be a whole number of
+    /// steps is a whole number.
+    fn parts_of_a_frame(&self) -> Option<f64> {
+        let frame = self.time.frame_interval;
+        let is_whole = |parts: f64| {
+            let whole = libm::round(parts);
+            whole >= 1.0 && (parts - whole).abs() <= ROUNDING * whole
+        };
+        let intervals = self.intervals_of_steps();
+        (1..=MOST_PARTS).map(f64::from).find(|parts| {
+            intervals
+                .iter()
+                .all(|(_, time)| is_whole(parts * time / frame))
+        })
+    }
+}
+
+/// Nothing if there are no problems, else the problems.
+fn accept(problems: Vec<Problem>) -> Result<(), Vec<Problem>> {
+    if problems.is_empty() {
+        Ok(())
+    } else {
+        Err(problems)
+    }
+}
