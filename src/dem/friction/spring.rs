@@ -1,9 +1,10 @@
 //! The loaded spring of a contact that sticks.
 
 use crate::dem::vector::Vector;
+use serde::{Deserialize, Serialize};
 
 /// The loaded spring of a contact that sticks.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Spring {
     /// Its force (N).
     pub(super) force: Vector,

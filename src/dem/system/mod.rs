@@ -2,6 +2,9 @@
 
 mod contacts;
 mod integrate;
+mod state;
+
+pub(in crate::dem) use self::state::EngineState;
 
 use self::contacts::PairBlock;
 use super::block::{Body, Load};
@@ -11,6 +14,7 @@ use super::friction::TangentialLaw;
 use super::guard::Limits;
 use super::neighbours::{Near, Reach, VerletList};
 use super::particles::{Particles, Sphere, retain};
+use super::state::StateError;
 use super::vector::Vector;
 use super::walls::{Cylinder, Floor, Wall};
 use crate::record::Instability;
@@ -30,6 +34,10 @@ pub(in crate::dem) trait Engine: Send {
     fn insert(&mut self, sphere: &Sphere);
     /// Removes the spheres that are not to be kept.
     fn retain(&mut self, keep: &[bool]);
+    /// Everything that the motion goes on from.
+    fn state(&self) -> EngineState;
+    /// Takes up a state of the same scene.
+    fn restore(&mut self, state: EngineState) -> Result<(), StateError>;
 }
 
 /// What contacts hold.
@@ -321,6 +329,14 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.near.remove_spheres(keep);
         self.block.forget();
         self.renumber();
+    }
+
+    fn state(&self) -> EngineState {
+        self.save()
+    }
+
+    fn restore(&mut self, state: EngineState) -> Result<(), StateError> {
+        self.take_up(state)
     }
 
     /// Reads positions alone, and builds the list at most earlier than a step would: bits of
