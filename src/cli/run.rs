@@ -103,8 +103,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     folders::make_for(&path)?;
     let interval = arguments.checkpoint_interval.unwrap_or(DEFAULT_INTERVAL);
     let checkpoints = Checkpoints::beside(&path, interval);
-    let signature = store::CHECKPOINT_SIGNATURE;
-    folders::refuse_to_replace(checkpoints.path(), "a checkpoint", signature)?;
+    if !arguments.resume {
+        let signature = store::CHECKPOINT_SIGNATURE;
+        folders::refuse_to_replace(checkpoints.path(), "a checkpoint", signature)?;
+    }
     let ran = interruptible::run(&scene, &checkpoints, arguments.resume, console)?;
     let Some(Ran {
         record,
@@ -115,13 +117,13 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         return Ok(Exit::Interrupted);
     };
     store::write_record(&record, &path).map_err(Failure::failed)?;
-    checkpoints.remove().map_err(Failure::failed)?;
     console.result(summary(&record, seconds))?;
     console.file(&path)?;
     if let Some(table) = &table {
         store::write_observations(&record, table).map_err(Failure::failed)?;
         console.file(table)?;
     }
+    checkpoints.remove().map_err(Failure::failed)?;
     let same_bits = match &original {
         Some(original) => original.compare(&record, console)?,
         None => None,
