@@ -334,6 +334,9 @@ fn replace(bytes: &mut [u8], text: &str, by: &str) {
     bytes[at..at + by.len()].copy_from_slice(by.as_bytes());
 }
 
+/// What is to be said of a checkpoint, and what was done to it.
+type Spoil<'a> = (&'a str, &'a dyn Fn(&Path));
+
 #[test]
 fn nothing_goes_on_from_a_checkpoint_that_is_not_right() {
     let place = interrupted_by("INT");
@@ -346,7 +349,7 @@ fn nothing_goes_on_from_a_checkpoint_that_is_not_right() {
         .map(|it| if it == 'x' { 'y' } else { 'x' })
         .collect();
     let version = phase::store::CHECKPOINT_SIGNATURE.len();
-    let spoils: [(&str, &dyn Fn(&PathBuf)); 8] = [
+    let spoils: [Spoil<'_>; 8] = [
         ("damaged or cut short: its checksum differs", &|path| {
             damage(path)
         }),
@@ -470,7 +473,13 @@ fn killed_sweep() -> Workplace {
         "0",
     ];
     let mut killed = place.start(&arguments);
-    wait_until(|| !place.records("results").is_empty() && !checkpoints(&place).is_empty());
+    // A record is there an instant before the checkpoint of its job goes.
+    let under_way = || {
+        checkpoints(&place)
+            .iter()
+            .any(|it| !it.with_extension("h5").exists())
+    };
+    wait_until(|| !place.records("results").is_empty() && under_way());
     killed.kill().unwrap();
     killed.wait().unwrap();
     assert_eq!(checkpoints(&place).len(), 1);
