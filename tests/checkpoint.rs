@@ -219,6 +219,35 @@ fn a_state_that_does_not_fit_is_refused() {
     }
 }
 
+/// A disk that is full for a while must not end a run of hours; who stops it then is told.
+#[test]
+fn a_checkpoint_that_cannot_be_written_does_not_end_the_run() {
+    let place = Workplace::new();
+    let mut scene = tank(None, Integrator::SymplecticEuler);
+    scene.time.duration = 0.02;
+    let checkpoints = Checkpoints::beside(&place.path("no-folder/run.h5"), Duration::ZERO);
+    let run = || Run::new(&scene).unwrap();
+    let mut warnings = Vec::new();
+    let mut warn = |error: phase::store::StoreError| warnings.push(error.to_string());
+    let Ending::Finished(record) =
+        checkpoints.run(run(), &mut |_| ControlFlow::Continue(()), &mut warn)
+    else {
+        panic!("it did not end");
+    };
+    assert_eq!(
+        content_digest(&record).unwrap(),
+        content_digest(&whole(&scene)).unwrap()
+    );
+    assert_eq!(warnings.len(), 19);
+    assert!(
+        warnings[0].contains("no-folder/run.checkpoint"),
+        "{warnings:?}"
+    );
+
+    let ending = checkpoints.run(run(), &mut |_| ControlFlow::Break(()), &mut |_| {});
+    assert!(matches!(ending, Ending::Lost(_)), "{ending:?}");
+}
+
 /// A scene that takes some seconds with a checkpoint at every frame.
 fn slow_scene() -> String {
     support::scene_file().replace("duration = 2.0", "duration = 40.0")
