@@ -10,6 +10,7 @@
 //! | a [`Simulation`](dem::Simulation), advanced step by step | [`dem`] |
 //! | what is measured at every frame | [`observe`] |
 //! | all of that in one call: a [`RunRecord`](record::RunRecord) | [`run`](mod@run) |
+//! | a run that is interrupted and goes on from its checkpoint | [`resume`] |
 //! | the label of a record | [`classify`](mod@classify) |
 //! | many scenes at once, their labels, and figures of them | [`sweep`], [`plot`] |
 //! | records and tables as files | [`store`] |
@@ -84,6 +85,7 @@ pub mod record;
 pub mod reference;
 pub mod render;
 pub mod replay;
+pub mod resume;
 pub mod run;
 pub mod scene;
 pub mod statistics;

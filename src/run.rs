@@ -1,10 +1,12 @@
 //! One run: from a scene to its record.
 
 use crate::cpu_time;
-use crate::dem::{BuildError, Counts, Simulation};
+use crate::dem::{BuildError, Counts, Simulation, SimulationState, StateError};
 use crate::observe::{Observer, Snapshot};
 use crate::record::{Outcome, Program, RunRecord};
 use crate::scene::Scene;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::ops::ControlFlow;
 
 /// How far a run is.
@@ -50,64 +52,224 @@ pub fn frames(scene: &Scene) -> (u64, u64) {
 /// frame whether to go on.
 ///
 /// # Errors
-/// If the scene cannot be built, or `control` breaks.
+/// If the scene cannot be built, or `control` breaks before the end.
 pub fn run(
     scene: &Scene,
     control: &mut dyn FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<RunRecord, RunError> {
-    let started = cpu_time::of_this_thread();
-    let (steps, frames) = frames(scene);
-    let mut simulation = Simulation::new(scene)?;
-    let mut observer = Observer::new(scene, simulation.radius());
-    let mut snapshots = Vec::new();
-    let mut trajectory = Vec::new();
-    let every = match scene.output.snapshot_interval / scene.time.frame_interval {
-        ratio if ratio > 0.0 => (ratio.round() as u64).max(1),
-        _ => u64::MAX,
-    };
-    let mut outcome = Outcome::Completed;
-    for frame in 0..=frames {
-        if frame > 0 {
-            if let Err(instability) = simulation.advance(steps) {
-                outcome = Outcome::Unstable(instability);
-            }
-            let counts = simulation.counts();
-            if control(Progress {
-                frame,
-                frames,
-                counts,
-            })
-            .is_break()
-            {
-                return Err(RunError::Interrupted);
-            }
-        }
-        let ended = frame == frames || outcome != Outcome::Completed || simulation.ended();
-        let time = simulation.time();
-        let view = simulation.frame();
-        if outcome == Outcome::Completed {
-            observer.observe(time, &view);
-        }
-        if ended || frame.is_multiple_of(every) {
-            snapshots.push(Snapshot::take(time, &view));
-        }
-        if scene.output.trajectory {
-            trajectory.push(Snapshot::take(time, &view));
-        }
-        if ended {
-            break;
+    let mut run = Run::new(scene)?;
+    while !run.ended() {
+        run.advance_frame();
+        if control(run.progress()).is_break() && !run.ended() {
+            return Err(RunError::Interrupted);
         }
     }
-    Ok(RunRecord {
-        scene: scene.clone(),
-        program: Program::current(),
-        outcome,
-        radius: simulation.radius().to_vec(),
-        mass: simulation.mass().to_vec(),
-        milestones: simulation.milestones().to_vec(),
-        observations: observer.finish(),
-        snapshots,
-        trajectory,
-        cpu_seconds: cpu_time::of_this_thread() - started,
-    })
+    Ok(run.finish())
+}
+
+/// A run under way, to be advanced frame by frame on one thread.
+///
+/// ```
+/// # let scene: phase::scene::Scene = toml::from_str(r#"
+/// #     spheres = { count = 1, radius = 0.004, density = 1000.0 }
+/// #     start = { kind = "list", spheres = [{ position = [0.0, 0.0, 1.0] }] }
+/// #     gravity = { acceleration = 9.8 }
+/// #     time = { dt = 1e-3, duration = 0.01, frame_interval = 1e-3 }
+/// # "#).unwrap();
+/// use phase::run::Run;
+///
+/// let mut first = Run::new(&scene)?;
+/// first.advance_frame();
+/// // What was saved of one run, another goes on from.
+/// let mut second = Run::new(&scene)?;
+/// second.restore(first.state().expect("no guard ended it").into_owned())?;
+/// while !second.ended() {
+///     second.advance_frame();
+/// }
+/// let record = second.finish();
+/// assert_eq!(record.observations.frames(), 11);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Run {
+    scene: Scene,
+    simulation: Simulation,
+    results: Results,
+    outcome: Outcome,
+    frame: u64,
+    frames: u64,
+    steps_per_frame: u64,
+    frames_per_snapshot: u64,
+    /// Processor time that the run took before `started` (s).
+    cpu_seconds_before: f64,
+    /// Processor time of this thread when the run began or was restored (s).
+    started: f64,
+}
+
+/// What a run has found so far.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+struct Results {
+    observer: Observer,
+    snapshots: Vec<Snapshot>,
+    trajectory: Vec<Snapshot>,
+}
+
+/// The state of a run between two frames: with the scene all that it goes on from.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct RunState<'a> {
+    frame: u64,
+    cpu_seconds: f64,
+    simulation: SimulationState,
+    results: Cow<'a, Results>,
+}
+
+impl RunState<'_> {
+    /// The same, on its own.
+    pub fn into_owned(self) -> RunState<'static> {
+        RunState {
+            results: Cow::Owned(self.results.into_owned()),
+            ..self
+        }
+    }
+}
+
+impl Run {
+    /// A run at its start.
+    ///
+    /// # Errors
+    /// If the scene cannot be built.
+    pub fn new(scene: &Scene) -> Result<Self, BuildError> {
+        let started = cpu_time::of_this_thread();
+        let (steps_per_frame, frames) = frames(scene);
+        let simulation = Simulation::new(scene)?;
+        let frames_per_snapshot = match scene.output.snapshot_interval / scene.time.frame_interval {
+            ratio if ratio > 0.0 => (ratio.round() as u64).max(1),
+            _ => u64::MAX,
+        };
+        let mut run = Self {
+            scene: scene.clone(),
+            results: Results {
+                observer: Observer::new(scene, simulation.radius()),
+                snapshots: Vec::new(),
+                trajectory: Vec::new(),
+            },
+            simulation,
+            outcome: Outcome::Completed,
+            frame: 0,
+            frames,
+            steps_per_frame,
+            frames_per_snapshot,
+            cpu_seconds_before: 0.0,
+            started,
+        };
+        run.look();
+        Ok(run)
+    }
+
+    /// The scene.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// Advances to the next frame, or to the guard that is broken before it. A run that has ended
+    /// stays as it is.
+    pub fn advance_frame(&mut self) {
+        if self.ended() {
+            return;
+        }
+        self.frame += 1;
+        if let Err(instability) = self.simulation.advance(self.steps_per_frame) {
+            self.outcome = Outcome::Unstable(instability);
+        }
+        self.look();
+    }
+
+    /// Whether the run is over: its time is up, a guard is broken, or nothing more will happen.
+    pub fn ended(&self) -> bool {
+        self.frame == self.frames || self.broken() || self.simulation.ended()
+    }
+
+    /// How far the run is.
+    pub fn progress(&self) -> Progress {
+        Progress {
+            frame: self.frame,
+            frames: self.frames,
+            counts: self.simulation.counts(),
+        }
+    }
+
+    /// Time of the latest frame (s).
+    pub fn time(&self) -> f64 {
+        self.simulation.time()
+    }
+
+    /// The state at the latest frame; none if a guard ended the run. Asking for it changes nothing.
+    pub fn state(&self) -> Option<RunState<'_>> {
+        (!self.broken()).then(|| RunState {
+            frame: self.frame,
+            cpu_seconds: self.cpu_seconds(),
+            simulation: self.simulation.state(),
+            results: Cow::Borrowed(&self.results),
+        })
+    }
+
+    /// Takes up the state of a run of the same scene and output, by the same program: this run, which
+    /// must be at its start, goes on with the same bits.
+    ///
+    /// # Errors
+    /// If the state cannot be one of this scene; the run is then as it was.
+    pub fn restore(&mut self, state: RunState<'static>) -> Result<(), StateError> {
+        self.simulation.restore(state.simulation)?;
+        self.frame = state.frame;
+        self.results = state.results.into_owned();
+        self.cpu_seconds_before = state.cpu_seconds;
+        self.started = cpu_time::of_this_thread();
+        Ok(())
+    }
+
+    /// The record of the run, of all frames so far.
+    pub fn finish(self) -> RunRecord {
+        let cpu_seconds = self.cpu_seconds();
+        let Results {
+            observer,
+            snapshots,
+            trajectory,
+        } = self.results;
+        RunRecord {
+            scene: self.scene,
+            program: Program::current(),
+            outcome: self.outcome,
+            radius: self.simulation.radius().to_vec(),
+            mass: self.simulation.mass().to_vec(),
+            milestones: self.simulation.milestones().to_vec(),
+            observations: observer.finish(),
+            snapshots,
+            trajectory,
+            cpu_seconds,
+        }
+    }
+
+    fn broken(&self) -> bool {
+        self.outcome != Outcome::Completed
+    }
+
+    fn cpu_seconds(&self) -> f64 {
+        self.cpu_seconds_before + (cpu_time::of_this_thread() - self.started)
+    }
+
+    /// Looks at the present frame, and keeps of it what the scene's output asks for.
+    fn look(&mut self) {
+        let (broken, ended) = (self.broken(), self.ended());
+        let time = self.simulation.time();
+        let view = self.simulation.frame();
+        let results = &mut self.results;
+        if !broken {
+            results.observer.observe(time, &view);
+        }
+        if ended || self.frame.is_multiple_of(self.frames_per_snapshot) {
+            results.snapshots.push(Snapshot::take(time, &view));
+        }
+        if self.scene.output.trajectory {
+            results.trajectory.push(Snapshot::take(time, &view));
+        }
+    }
 }

@@ -42,7 +42,8 @@ Exit codes:
   1    something failed: a job, the disk, a file that cannot be read or written
   2    refused before anything was done: wrong arguments, a wrong scene or sweep file,
        records of other parameters in the way, a folder in use
-  130  interrupted by Ctrl-C or a request to end; the same command goes on from there
+  130  interrupted by Ctrl-C or a request to end; the same command goes on from there, `run` with
+       --resume
 
 Example: a phase diagram from one file
   phase sweep sweeps/quick.toml";

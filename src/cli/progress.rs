@@ -77,6 +77,14 @@ impl<'a> Progress<'a> {
         self.show(state);
     }
 
+    /// So many sphere-steps of the work were done before.
+    pub(crate) fn skip(&self, steps: u64) {
+        let mut state = self.state();
+        state.work.steps_done += steps;
+        state.done_before += steps;
+        self.show(state);
+    }
+
     /// A job is over; this many of its sphere-steps need not be run any more.
     pub(crate) fn job_done(&self, skipped: u64) {
         let mut state = self.state();
@@ -90,6 +98,14 @@ impl<'a> Progress<'a> {
         match &self.bar {
             Some(bar) => bar.suspend(|| self.console.detail(text)),
             None => self.console.detail(text),
+        }
+    }
+
+    /// Says something above the bar.
+    pub(crate) fn note(&self, text: impl Display) {
+        match &self.bar {
+            Some(bar) => bar.suspend(|| self.console.note(text)),
+            None => self.console.note(text),
         }
     }
 

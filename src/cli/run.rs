@@ -1,25 +1,25 @@
 //! `phase run`: runs one scene, or one job of a sweep again.
 
 mod again;
+mod interruptible;
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
-use super::progress::{Progress, Work};
-use super::{folders, format, interrupt, kind, time_step};
+use super::sweep::seconds;
+use super::{folders, format, kind, time_step};
 use again::Original;
-use phase::dem::Counts;
+use interruptible::Ran;
 use phase::dem::timestep::Standing;
 use phase::document::Problem;
 use phase::record::{Milestone, MilestoneKind, Outcome, RunRecord};
-use phase::run::RunError;
+use phase::resume::{Checkpoints, DEFAULT_INTERVAL};
 use phase::scene::{Scene, Start};
 use phase::store;
 use phase::sweep::work;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
+use std::time::Duration;
 
 /// Run one scene, or one job of a sweep again, and store its record.
 ///
@@ -31,7 +31,14 @@ Example: one scene with another seed
   phase run sweeps/scenes/theoretical.toml --seed 7 --out tank-7.h5
 
 Example: one job of a sweep, this time with all spheres at every frame
-  phase run --from results/quick --point radius=0.003,omega=6 --trajectory --out spout.h5")]
+  phase run --from results/quick --point radius=0.003,omega=6 --trajectory --out spout.h5
+
+Example: a long run that was interrupted goes on
+  phase run sweeps/scenes/silo.toml --resume
+
+A run that takes longer leaves a checkpoint beside the record to be, NAME.checkpoint beside NAME.h5,
+every two minutes and when it is interrupted. What goes on from it gives the same bits as a run that was
+not interrupted. Only the same build of phase, with the same scene and output, can go on from it.")]
 pub(crate) struct Arguments {
     /// The scene file (TOML).
     #[arg(required_unless_present = "from")]
@@ -56,6 +63,13 @@ pub(crate) struct Arguments {
     /// Time between snapshots of all spheres (s); 0 for none but the last.
     #[arg(long, value_name = "SECONDS")]
     snapshot_interval: Option<f64>,
+    /// Go on from the checkpoint that an interrupted run of this record left; without one start from the
+    /// beginning.
+    #[arg(short, long)]
+    resume: bool,
+    /// Time between two checkpoints (s); 0 for one at every frame [default: 120].
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    checkpoint_interval: Option<Duration>,
     /// Print the result as one JSON object (docs/json.md) instead of text.
     #[arg(long)]
     pub(super) json: bool,
@@ -89,8 +103,19 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     folders::make_for(&path)?;
     time_step::tell_of_scene(&scene, console);
-    let Some((record, seconds)) = run(&scene, console)? else {
-        console.note("interrupted; nothing was stored");
+    let interval = arguments.checkpoint_interval.unwrap_or(DEFAULT_INTERVAL);
+    let checkpoints = Checkpoints::beside(&path, interval);
+    if !arguments.resume {
+        let signature = store::CHECKPOINT_SIGNATURE;
+        folders::refuse_to_replace(checkpoints.path(), "a checkpoint", signature)?;
+    }
+    let ran = interruptible::run(&scene, &checkpoints, arguments.resume, console)?;
+    let Some(Ran {
+        record,
+        seconds,
+        resumed_from,
+    }) = ran
+    else {
         return Ok(Exit::Interrupted);
     };
     store::write_record(&record, &path).map_err(Failure::failed)?;
@@ -100,11 +125,16 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         store::write_observations(&record, table).map_err(Failure::failed)?;
         console.file(table)?;
     }
+    checkpoints.remove().map_err(Failure::failed)?;
     let same_bits = match &original {
         Some(original) => original.compare(&record, console)?,
         None => None,
     };
-    console.answer(&Answer::new(&record, seconds, &path, same_bits))?;
+    console.answer(&Answer {
+        resumed_from,
+        same_bits,
+        ..Answer::new(&record, seconds, &path)
+    })?;
     Ok(Exit::Done)
 }
 
@@ -133,62 +163,6 @@ fn ask_for_more(scene: &mut Scene, arguments: &Arguments) -> Result<(), Failure>
             let problems: Vec<String> = problems.iter().map(Problem::to_string).collect();
             Err(Failure::refused(problems.join("; ")))
         }
-    }
-}
-
-/// Runs a scene, with a progress bar. Returns the record and the seconds it took, or nothing if it
-/// was interrupted.
-fn run(scene: &Scene, console: &Console) -> Result<Option<(RunRecord, f64)>, Failure> {
-    let stop = interrupt::stop_on_signal(console)?;
-    let steps = work::sphere_steps(scene);
-    let progress = Progress::new(
-        console,
-        Work {
-            jobs: 1,
-            jobs_done: 0,
-            steps,
-            steps_done: 0,
-        },
-    );
-    let steps_per_frame = phase::run::frames(scene).0;
-    let mut told = 0;
-    let result = phase::run::run(scene, &mut |now| {
-        let inside = now.counts.map_or(scene.spheres.count, |counts| {
-            counts.released - counts.gone()
-        });
-        let done = (now.share() * steps as f64) as u64;
-        let phase = now.counts.as_ref().map(phase_of).unwrap_or_default();
-        progress.advance_to(steps_per_frame * inside as u64, done - told, phase);
-        told = done;
-        if stop.load(Ordering::Relaxed) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    });
-    let seconds = progress.finish();
-    match result {
-        Ok(record) => Ok(Some((record, seconds))),
-        Err(RunError::Interrupted) => Ok(None),
-        Err(error) => Err(Failure::failed(error)),
-    }
-}
-
-/// What goes on in a run where spheres come and go.
-fn phase_of(counts: &Counts) -> String {
-    let Counts {
-        all,
-        released,
-        discharged,
-        is_closed,
-        ..
-    } = *counts;
-    if released < all {
-        format!("filling, {released} of {all} are in")
-    } else if is_closed {
-        format!("coming to rest, all {all} are in")
-    } else {
-        format!("draining, {discharged} of {all} left")
     }
 }
 
@@ -221,6 +195,8 @@ struct Answer<'a> {
     unmet: Vec<String>,
     /// Time (s) and every scalar observable of the last frame, in the units of the record.
     last_frame: BTreeMap<&'static str, f64>,
+    /// Time (s) of the checkpoint that the run went on from; none if it began at its start.
+    resumed_from: Option<f64>,
     /// Whether a job that was run again gave the bits of the sweep's record; none without one.
     same_bits: Option<bool>,
 }
@@ -236,7 +212,7 @@ struct Broken {
 }
 
 impl<'a> Answer<'a> {
-    fn new(record: &RunRecord, seconds: f64, path: &'a Path, same_bits: Option<bool>) -> Self {
+    fn new(record: &RunRecord, seconds: f64, path: &'a Path) -> Self {
         let observations = &record.observations;
         let mut last_frame = BTreeMap::new();
         last_frame.extend(observations.time.last().map(|time| ("time", *time)));
@@ -270,7 +246,8 @@ impl<'a> Answer<'a> {
             milestones: record.milestones.clone(),
             unmet: unmet(record),
             last_frame,
-            same_bits,
+            resumed_from: None,
+            same_bits: None,
         }
     }
 }

@@ -6,6 +6,7 @@ use super::job::NamedJob;
 use super::progress::{Progress, Work};
 use super::{classify, format, interrupt, kind, plot, time_step};
 use phase::record::Outcome;
+use phase::resume::DEFAULT_INTERVAL;
 use phase::sweep::{
     Event, Failure as JobFailure, Folder, FolderError, Job, Plan, Pool, PoolError, Report,
     Standing, Sweep, describe, differing_keys, work,
@@ -14,12 +15,13 @@ use serde::Serialize;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
+use std::time::Duration;
 
 /// Run the simulations of a sweep, label them, draw the phase diagram.
 ///
 /// Jobs whose record is already in the results folder are not run again: a sweep that was stopped
-/// goes on where it was.
+/// goes on where it was, and long runs that were under way from their latest checkpoint.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: the 9 x 9 grid on four cores, results in ./results/quick
@@ -43,6 +45,10 @@ pub(crate) struct Arguments {
     /// Seeds in place of the file's; may be given several times.
     #[arg(short, long, value_name = "SEED", value_delimiter = ',')]
     seed: Vec<u64>,
+    /// Time between two checkpoints of a run (s), from which it goes on when the sweep is run again
+    /// [default: 120].
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    checkpoint_interval: Option<Duration>,
     /// Only run the simulations: no labels, no figures.
     #[arg(long)]
     no_classify: bool,
@@ -52,6 +58,15 @@ pub(crate) struct Arguments {
     /// Print the result as one JSON object (docs/json.md) instead of text.
     #[arg(long)]
     pub(super) json: bool,
+}
+
+/// Parses a time in seconds.
+pub(super) fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().map(Duration::try_from_secs_f64);
+    match seconds {
+        Some(Ok(time)) => Ok(time),
+        _ => Err("must be a time in seconds, 0 or more".to_owned()),
+    }
 }
 
 /// Parses a number of workers.
@@ -96,7 +111,16 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     };
     tell_of_plan(&plan, console);
     time_step::tell_of_jobs(&jobs, &sweep.axes, console);
-    let run = run(&plan, &sweep, &folder, workers, stop, console)?;
+    let pool = Pool {
+        folder: &folder,
+        sweep: &sweep,
+        workers,
+        stop,
+        checkpoint_interval: arguments.checkpoint_interval.unwrap_or(DEFAULT_INTERVAL),
+        resume: !arguments.force,
+        watch: &|_| {},
+    };
+    let run = run(&plan, pool, console)?;
     run.print(&plan, &sweep, console)?;
     let mut answer = Answer::new(&folder, &plan, &sweep, &run);
 
@@ -198,6 +222,7 @@ struct Answer {
     jobs: usize,
     done_before: usize,
     run_now: usize,
+    resumed: usize,
     left: usize,
     unstable: Vec<NamedJob>,
     failed: Vec<NamedJob>,
@@ -218,6 +243,7 @@ impl Answer {
             jobs: plan.jobs.len(),
             done_before: plan.done().count(),
             run_now: run.report.finished,
+            resumed: run.report.resumed,
             left: run.report.left,
             unstable: NamedJob::all(&sweep.axes, &run.unstable),
             failed: NamedJob::all(&sweep.axes, &run.report.failures),
@@ -232,14 +258,9 @@ impl Answer {
     }
 }
 
-fn run(
-    plan: &Plan,
-    sweep: &Sweep,
-    folder: &Folder,
-    workers: usize,
-    stop: &AtomicBool,
-    console: &Console,
-) -> Result<Run, Failure> {
+/// Runs what is to be run of a plan and watches it.
+fn run(plan: &Plan, pool: Pool<'_>, console: &Console) -> Result<Run, Failure> {
+    let (sweep, workers) = (pool.sweep, pool.workers);
     let steps = |job: &Job| work::sphere_steps(&job.scene);
     let progress = Progress::new(
         console,
@@ -263,6 +284,21 @@ fn run(
     }
     let watch = |event: Event<'_>| match event {
         Event::Started(_) => {}
+        Event::Resumed(job, steps) => {
+            progress.skip(steps);
+            progress.detail(format_args!(
+                "goes on from its checkpoint: {} (job {})",
+                name(job),
+                job.id
+            ));
+        }
+        Event::CheckpointRefused(job, error) => progress.note(format_args!(
+            "job {} starts from the beginning: {error}",
+            job.id
+        )),
+        Event::NoCheckpoint(job, error) => {
+            progress.note(format_args!("no checkpoint of job {}: {error}", job.id))
+        }
         Event::Advanced(_, steps) => progress.advance(steps),
         Event::Finished(job, record) => {
             note_unstable(job, &record.outcome);
@@ -288,11 +324,8 @@ fn run(
         }
     };
     let pool = Pool {
-        folder,
-        sweep,
-        workers,
-        stop,
         watch: &watch,
+        ..pool
     };
     let report = pool.run(plan).map_err(|error| match error {
         PoolError::Foreign(_) => Failure::refused(error),
@@ -318,6 +351,7 @@ impl Run {
     fn print(&self, plan: &Plan, sweep: &Sweep, console: &Console) -> Result<(), Failure> {
         let Report {
             finished,
+            resumed,
             failures,
             left,
             sphere_steps,
@@ -331,6 +365,7 @@ impl Run {
             format::count(self.workers, "worker"),
         );
         for (number, what) in [
+            (*resumed, "of them from a checkpoint"),
             (plan.done().count(), "done before"),
             (self.unstable.len(), "unstable"),
             (failures.len(), "failed"),

@@ -1,10 +1,11 @@
 //! The spheres of a simulation, one array per quantity.
 
 use super::vector::Vector;
+use serde::{Deserialize, Serialize};
 
 /// The spheres. Every array has one entry per sphere, or none at all where the scene has no
 /// use for it: spins, torques and moments of inertia exist only with friction.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Particles {
     /// How many of the spheres, the first ones, never move.
     pub fixed: usize,
@@ -47,6 +48,24 @@ impl Particles {
     /// Whether the spheres have spins.
     pub fn rotate(&self) -> bool {
         !self.inertia.is_empty()
+    }
+
+    /// Whether every array has an entry per sphere, or none where a scene may have no use for it.
+    pub(super) fn fits_together(&self) -> bool {
+        let all = self.len();
+        let turning = if self.rotate() { all } else { 0 };
+        let vectors = [&self.position, &self.velocity, &self.force];
+        let scalars = [&self.mass, &self.inverse_mass];
+        self.fixed <= all
+            && (self.number.is_empty() || self.number.len() == all)
+            && vectors.iter().all(|vectors| vectors.len() == all)
+            && scalars.iter().all(|scalars| scalars.len() == all)
+            && [&self.spin, &self.torque]
+                .iter()
+                .all(|it| it.len() == turning)
+            && [&self.inertia, &self.inverse_inertia]
+                .iter()
+                .all(|it| it.len() == turning)
     }
 
     /// Adds a sphere that moves, at the end.

@@ -38,9 +38,9 @@ const COLUMN_SKIN: f64 = 1.0;
 
 /// A running simulation.
 pub struct Simulation {
-    engine: Box<dyn Engine>,
+    pub(super) engine: Box<dyn Engine>,
     /// Absent where no sphere comes or goes.
-    process: Option<Process>,
+    pub(super) process: Option<Process>,
     /// Radius (m) and mass (kg) of every sphere of the scene, those included that are not in yet.
     radius: Vec<f64>,
     mass: Vec<f64>,

@@ -1,12 +1,14 @@
 //! What scene files and sweep files have in common: TOML text whose every key knows its place, a
 //! description of the keys that may be there, and errors that point into the text.
 
+mod difference;
 mod load_error;
 mod problem;
 pub(crate) mod schema;
 mod spelling;
 mod tree;
 
+pub use difference::differing_keys;
 pub use load_error::{Finding, LoadError, Spot};
 pub use problem::Problem;
 pub(crate) use spelling::{any_of, number, one_of, quoted, suggest};

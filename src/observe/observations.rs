@@ -1,6 +1,7 @@
 //! The observables of a run: one value (or one row) per frame.
 
 use ndarray::{Array2, Array3};
+use serde::{Deserialize, Serialize};
 
 /// One named scalar observable.
 pub struct Series<'a> {
@@ -26,7 +27,7 @@ macro_rules! scalars {
         ///
         /// Values are single precision: the record stays small, and sieves read exactly what a
         /// record holds.
-        #[derive(Clone, Debug, Default, PartialEq)]
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
         pub struct Observations {
             /// Time of each frame (s).
             pub time: Vec<f64>,
@@ -141,7 +142,7 @@ impl Observations {
 }
 
 /// All spheres at one instant, in double precision.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     /// Time (s).
     pub time: f64,

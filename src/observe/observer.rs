@@ -4,10 +4,12 @@ use super::reduce::{largest, least, sum};
 use super::{FrameView, Observations};
 use crate::scene::{Gravity, Scene};
 use ndarray::{Array2, Array3};
+use serde::{Deserialize, Serialize};
 
 /// Measures a simulation at every frame.
 ///
 /// Sums run over the spheres in the order of their indices, so equal states give equal bits.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Observer {
     /// Components of gravity along x and z, 0 without it (m/s2).
     gravity: [f64; 2],
@@ -27,6 +29,7 @@ pub struct Observer {
     /// Entries of `Observations::rising`, one frame after the other.
     rising: Vec<u16>,
     /// Distance of each centre from the axis at this frame (m).
+    #[serde(skip)]
     distance: Vec<f64>,
     previous: Option<Previous>,
     /// What all energy, dissipated and brought, came to at the first frame (J).
@@ -34,6 +37,7 @@ pub struct Observer {
 }
 
 /// What the count of rising spheres needs of the frame before.
+#[derive(Clone, Debug, Serialize, Deserialize)]
 struct Previous {
     height: Vec<f64>,
     distance: Vec<f64>,

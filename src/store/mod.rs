@@ -1,8 +1,9 @@
-//! Files: run records (HDF5), tables (CSV), states for other programs (XYZ, VTK, NPY, CSV, SVG, pages). One file per format, the only place that knows it.
+//! Files: run records (HDF5), checkpoints of runs, tables (CSV), states for other programs (XYZ, VTK, NPY, CSV, SVG, pages). One file per format, the only place that knows it.
 //!
 //! Whatever is written here appears whole or not at all (see [`write_atomic`]).
 
 mod atomic;
+mod checkpoint;
 mod dump;
 mod export;
 mod failures;
@@ -15,6 +16,7 @@ mod start;
 mod text;
 
 pub use atomic::{remove_leftovers, write_atomic};
+pub use checkpoint::{CHECKPOINT_SIGNATURE, CheckpointError, read_checkpoint, write_checkpoint};
 pub use dump::{DumpName, read_dump, write_dump};
 pub use export::{
     PAGE_SIGNATURE, SPHERES_SIGNATURE, frame_name, write_arrays, write_fixed, write_fixed_xyz,

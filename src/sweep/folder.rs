@@ -2,6 +2,7 @@
 
 use super::Sweep;
 use crate::record::RunRecord;
+use crate::resume::Checkpoints;
 use crate::store::{self, StoreError};
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -126,6 +127,11 @@ impl Folder {
     /// The record of the run with that identity.
     pub fn record(&self, id: &str) -> PathBuf {
         self.records().join(format!("{id}.h5"))
+    }
+
+    /// The checkpoints of the run with that identity, beside its record.
+    pub fn checkpoints(&self, id: &str, interval: Duration) -> Checkpoints {
+        Checkpoints::beside(&self.record(id), interval)
     }
 
     /// Reads the record of the run with that identity.

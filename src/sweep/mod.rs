@@ -1,7 +1,6 @@
 //! Sweeps: a scene, the axes it is varied over, and the jobs that follow.
 
 mod axis;
-mod difference;
 mod dumps;
 mod failure;
 mod folder;
@@ -18,8 +17,8 @@ mod spacing;
 mod status;
 pub mod work;
 
+pub use crate::document::differing_keys;
 pub use axis::Axis;
-pub use difference::differing_keys;
 pub use dumps::find_dumps;
 pub use failure::{Failure, describe};
 pub use folder::{Folder, FolderError, Lock};

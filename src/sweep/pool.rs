@@ -1,14 +1,16 @@
 //! Runs the jobs of a sweep on all cores.
 
 use super::{Failure, Folder, FolderError, ForeignRecord, Job, Plan, Sweep, work};
+use crate::dem::BuildError;
 use crate::record::RunRecord;
-use crate::run::{self, Progress, RunError};
-use crate::scene::Scene;
-use crate::store::{self, StoreError};
+use crate::resume::{self, Checkpoints};
+use crate::run::{self, Progress, Run};
+use crate::store::{self, CheckpointError, StoreError};
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 /// How, where and under whose eyes the jobs of a sweep are run.
 pub struct Pool<'a> {
@@ -18,8 +20,13 @@ pub struct Pool<'a> {
     pub sweep: &'a Sweep,
     /// Number of simulations at the same time.
     pub workers: usize,
-    /// When set, runs under way end soon, without records, and no more are started.
+    /// When set, runs under way end soon, with a checkpoint and without a record, and no more are
+    /// started.
     pub stop: &'a AtomicBool,
+    /// Time between two checkpoints of a run.
+    pub checkpoint_interval: Duration,
+    /// Whether runs go on from checkpoints that are there.
+    pub resume: bool,
     /// Is told what happens.
     pub watch: &'a (dyn Fn(Event<'_>) + Sync),
 }
@@ -29,6 +36,12 @@ pub struct Pool<'a> {
 pub enum Event<'a> {
     /// A job has begun.
     Started(&'a Job),
+    /// A job goes on from its checkpoint, where it had done this many sphere-steps.
+    Resumed(&'a Job, u64),
+    /// A job cannot go on from its checkpoint, and starts from the beginning.
+    CheckpointRefused(&'a Job, &'a CheckpointError),
+    /// A checkpoint of a job could not be written; an older one is still there.
+    NoCheckpoint(&'a Job, &'a StoreError),
     /// A job did this many sphere-steps since the last such event.
     Advanced(&'a Job, u64),
     /// A job has ended and its record is stored.
@@ -42,6 +55,8 @@ pub enum Event<'a> {
 pub struct Report {
     /// Runs that ended and whose record is stored.
     pub finished: usize,
+    /// How many of these went on from a checkpoint.
+    pub resumed: usize,
     /// Jobs that failed, in the sweep's order.
     pub failures: Vec<Failure>,
     /// Jobs left to do, neither finished nor failed.
@@ -68,11 +83,8 @@ pub enum PoolError {
     Folder(#[from] FolderError),
 }
 
-/// Simulates a scene.
-type Simulate<'a> = &'a (
-        dyn Fn(&Scene, &mut dyn FnMut(Progress) -> ControlFlow<()>) -> Result<RunRecord, RunError>
-            + Sync
-    );
+/// Makes the run of a job.
+type Begin<'a> = &'a (dyn Fn(&Job) -> Result<Run, BuildError> + Sync);
 
 impl Pool<'_> {
     /// Runs what is pending in the plan, and stores each record as soon as it is there.
@@ -84,14 +96,18 @@ impl Pool<'_> {
     /// Before anything is run, if a record of another scene is in the way or the folder
     /// cannot be written.
     pub fn run(&self, plan: &Plan) -> Result<Report, PoolError> {
-        self.run_with(plan, &run::run)
+        self.run_with(plan, &|job| self.begin(job))
     }
 
-    fn run_with(&self, plan: &Plan, simulate: Simulate<'_>) -> Result<Report, PoolError> {
+    fn run_with(&self, plan: &Plan, begin: Begin<'_>) -> Result<Report, PoolError> {
         plan.check()?;
         self.folder.remove_leftovers()?;
         self.folder.write_sweep(self.sweep)?;
         self.folder.forget_failures()?;
+        for (job, _) in plan.done() {
+            // Left by a process that was killed between record and removal.
+            self.checkpoints(job).remove().map_err(FolderError::from)?;
+        }
 
         let pending: Vec<(usize, &Job)> = plan.pending().enumerate().collect();
         let tally = Mutex::new(Tally::default());
@@ -99,8 +115,8 @@ impl Pool<'_> {
             if self.stop.load(Ordering::Relaxed) || lock(&tally).halted.is_some() {
                 return;
             }
-            match self.job(job, simulate) {
-                Ending::Finished(record) => lock(&tally).add(&record),
+            match self.job(job, begin) {
+                Ending::Finished(record, resumed) => lock(&tally).add(&record, resumed),
                 Ending::Failed(failure) => self.fail(&mut lock(&tally), position, failure),
                 Ending::NotStored(error) => lock(&tally).halted = Some(error),
                 Ending::Interrupted => {}
@@ -110,6 +126,7 @@ impl Pool<'_> {
         let failures: Vec<_> = tally.failures.into_values().collect();
         Ok(Report {
             finished: tally.finished,
+            resumed: tally.resumed,
             left: pending.len() - tally.finished - failures.len(),
             failures,
             sphere_steps: tally.sphere_steps,
@@ -119,10 +136,64 @@ impl Pool<'_> {
     }
 
     /// Runs one job and stores its record.
-    fn job(&self, job: &Job, simulate: Simulate<'_>) -> Ending {
+    fn job(&self, job: &Job, begin: Begin<'_>) -> Ending {
         (self.watch)(Event::Started(job));
+        let fail = |reason: String| {
+            let failure = Failure::new(job, reason);
+            (self.watch)(Event::Failed(job, &failure));
+            Ending::Failed(failure)
+        };
+        let run = || begin(job).map(|run| self.drive(job, run));
+        let (record, resumed) = match catch_unwind(AssertUnwindSafe(run)) {
+            Ok(Ok((resume::Ending::Finished(record), resumed))) => (record, resumed),
+            Ok(Ok((resume::Ending::Lost(error), _))) => {
+                (self.watch)(Event::NoCheckpoint(job, &error));
+                return Ending::Interrupted;
+            }
+            Ok(Ok(_)) => return Ending::Interrupted,
+            Ok(Err(error)) => return fail(error.to_string()),
+            Err(panic) => return fail(format!("a bug in phase: {}", panic_message(&*panic))),
+        };
+        match store::write_record(&record, &self.folder.record(&job.id)) {
+            Ok(()) => {
+                // What cannot be removed now is when the sweep is run again.
+                let _ = self.checkpoints(job).remove();
+                (self.watch)(Event::Finished(job, &record));
+                Ending::Finished(record, resumed)
+            }
+            // What does not fit into a record concerns this job alone, unlike a full disk.
+            Err(error @ StoreError::Content { .. }) => fail(error.to_string()),
+            Err(error) => Ending::NotStored(error),
+        }
+    }
+
+    fn checkpoints(&self, job: &Job) -> Checkpoints {
+        self.folder.checkpoints(&job.id, self.checkpoint_interval)
+    }
+
+    /// The run of a job: at its checkpoint, if there is a good one and it may be used.
+    fn begin(&self, job: &Job) -> Result<Run, BuildError> {
+        let mut run = Run::new(&job.scene)?;
+        if self.resume {
+            match self.checkpoints(job).restore(&mut run) {
+                Ok(true) => {
+                    let frame = run.progress().frame;
+                    let before =
+                        work::sphere_steps_until(&job.scene, frame * run::frames(&job.scene).0);
+                    (self.watch)(Event::Resumed(job, before));
+                }
+                Ok(false) => {}
+                Err(error) => (self.watch)(Event::CheckpointRefused(job, &error)),
+            }
+        }
+        Ok(run)
+    }
+
+    /// Advances a run to its end and tells of it; and whether it went on from a checkpoint.
+    fn drive(&self, job: &Job, run: Run) -> (resume::Ending, bool) {
         let (steps_per_frame, frames) = run::frames(&job.scene);
-        let mut told = 0;
+        let first = run.progress().frame;
+        let mut told = first;
         let mut control = |progress: Progress| {
             // A frame may take less than a millisecond: too often for people, and for locks.
             if progress.frame == frames || (progress.frame - told) * 100 >= frames {
@@ -138,26 +209,9 @@ impl Pool<'_> {
                 ControlFlow::Continue(())
             }
         };
-        let fail = |reason: String| {
-            let failure = Failure::new(job, reason);
-            (self.watch)(Event::Failed(job, &failure));
-            Ending::Failed(failure)
-        };
-        let record = match catch_unwind(AssertUnwindSafe(|| simulate(&job.scene, &mut control))) {
-            Ok(Ok(record)) => record,
-            Ok(Err(RunError::Interrupted)) => return Ending::Interrupted,
-            Ok(Err(error)) => return fail(error.to_string()),
-            Err(panic) => return fail(format!("a bug in phase: {}", panic_message(&*panic))),
-        };
-        match store::write_record(&record, &self.folder.record(&job.id)) {
-            Ok(()) => {
-                (self.watch)(Event::Finished(job, &record));
-                Ending::Finished(Box::new(record))
-            }
-            // What does not fit into a record concerns this job alone, unlike a full disk.
-            Err(error @ StoreError::Content { .. }) => fail(error.to_string()),
-            Err(error) => Ending::NotStored(error),
-        }
+        let mut warn = |error: StoreError| (self.watch)(Event::NoCheckpoint(job, &error));
+        let ending = self.checkpoints(job).run(run, &mut control, &mut warn);
+        (ending, first > 0)
     }
 
     /// Notes a failure, in the file too, so that nothing is forgotten if the sweep is killed.
@@ -173,7 +227,8 @@ impl Pool<'_> {
 
 /// How one job ended.
 enum Ending {
-    Finished(Box<RunRecord>),
+    /// With its record, and whether it went on from a checkpoint.
+    Finished(Box<RunRecord>, bool),
     Failed(Failure),
     NotStored(StoreError),
     Interrupted,
@@ -183,6 +238,7 @@ enum Ending {
 #[derive(Default)]
 struct Tally {
     finished: usize,
+    resumed: usize,
     /// By position among the pending jobs.
     failures: std::collections::BTreeMap<usize, Failure>,
     sphere_steps: u64,
@@ -191,8 +247,9 @@ struct Tally {
 }
 
 impl Tally {
-    fn add(&mut self, record: &RunRecord) {
+    fn add(&mut self, record: &RunRecord, resumed: bool) {
         self.finished += 1;
+        self.resumed += usize::from(resumed);
         self.sphere_steps += work::sphere_steps_of(record);
         self.cpu_seconds += record.cpu_seconds;
     }
@@ -213,6 +270,7 @@ fn panic_message(panic: &(dyn std::any::Any + Send)) -> &str {
 mod tests {
     use super::*;
     use crate::classify::Sieves;
+    use crate::scene::Scene;
     use crate::sweep::{Axis, PlotSettings};
 
     const SCENE: &str = r#"
@@ -254,10 +312,6 @@ mod tests {
         )
     }
 
-    fn acceleration(scene: &Scene) -> f64 {
-        scene.gravity.as_ref().unwrap().acceleration
-    }
-
     #[test]
     fn failed_and_panicking_jobs_do_not_stop_the_rest() {
         let place = tempfile::tempdir().unwrap();
@@ -269,14 +323,14 @@ mod tests {
             sweep: &sweep,
             workers: 2,
             stop: &AtomicBool::new(false),
+            checkpoint_interval: resume::DEFAULT_INTERVAL,
+            resume: true,
             watch: &|_| {},
         };
-        let faulty: Simulate<'_> = &|scene, control| match acceleration(scene) {
+        let faulty: Begin<'_> = &|job| match job.values[0] {
             1.0 => panic!("one is too few"),
-            3.0 => Err(RunError::Build(
-                crate::dem::BuildError::FrictionWithoutContact,
-            )),
-            _ => run::run(scene, control),
+            3.0 => Err(BuildError::FrictionWithoutContact),
+            _ => Run::new(&job.scene),
         };
         let plan = Plan::new(&folder, jobs.clone(), 2).unwrap();
         let report = pool.run_with(&plan, faulty).unwrap();
@@ -324,6 +378,8 @@ mod tests {
             sweep: &sweep,
             workers: 1,
             stop: &stop,
+            checkpoint_interval: resume::DEFAULT_INTERVAL,
+            resume: true,
             watch: &watch,
         };
         let plan = Plan::new(&folder, jobs.clone(), 1).unwrap();

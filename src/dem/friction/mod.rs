@@ -13,6 +13,8 @@ pub use spin::SpinFriction;
 pub use spring::Spring;
 
 use super::vector::Vector;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
 /// A touching pair, or a sphere touching a wall, as a tangential law sees it. The first
 /// partner is the sphere that the force acts on; a wall is a partner at rest, of infinite mass.
@@ -102,8 +104,8 @@ pub struct Traction {
 pub trait TangentialLaw: Copy + Send + 'static {
     /// Whether spheres rotate, which costs spins and torques.
     const ROTATES: bool = true;
-    /// What a contact remembers from step to step; `()` costs nothing.
-    type History: Copy + Default + Send;
+    /// What a contact remembers from step to step; `()` costs nothing. A checkpoint stores it.
+    type History: Copy + Default + Send + Serialize + DeserializeOwned;
 
     /// Traction at a contact over the coming step; none where the normal force is zero.
     fn traction(&self, touch: &Touch, history: &mut Self::History) -> Traction;

@@ -2,9 +2,10 @@
 
 use super::{Touch, Traction};
 use crate::dem::vector::Vector;
+use serde::{Deserialize, Serialize};
 
 /// The loaded spring of a contact that sticks.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Spring {
     /// Its force (N).
     pub(super) force: Vector,

@@ -33,6 +33,17 @@ impl Feed {
         self.released
     }
 
+    /// How many spheres are not in yet.
+    pub(super) fn waiting(&self) -> usize {
+        self.waiting.len()
+    }
+
+    /// Passes over the next so many spheres: they came in before.
+    pub(super) fn skip(&mut self, spheres: usize) {
+        self.waiting.drain(..spheres.min(self.waiting.len()));
+        self.released += spheres;
+    }
+
     /// The next step after `step` at which a sphere may come in.
     pub(super) fn due_after(&self, step: u64) -> Option<u64> {
         // Without spheres there may be no interval.

@@ -9,7 +9,7 @@ use crate::record::{Guard, Instability};
 use crate::scene::{FixedSphere, FixedSpheres, Scene, Shape};
 
 /// A point of the plane, x and z (m).
-type Point = [f64; 2];
+pub(super) type Point = [f64; 2];
 
 /// Watches the centres of the discs.
 pub(super) struct LeakWatch {
@@ -17,7 +17,7 @@ pub(super) struct LeakWatch {
     /// The same with the door, while it is closed.
     closed: Option<Barrier>,
     /// Number and centre of each disc at the latest look.
-    before: Vec<(u32, Point)>,
+    pub(super) before: Vec<(u32, Point)>,
 }
 
 impl LeakWatch {

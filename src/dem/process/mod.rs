@@ -6,9 +6,11 @@
 mod feed;
 mod leak;
 mod rest;
+mod state;
 
 pub(super) use feed::Feed;
 pub(super) use leak::wall_pairs;
+pub(super) use state::ProcessState;
 
 use self::leak::LeakWatch;
 use self::rest::RestWatch;

@@ -9,7 +9,7 @@ pub(super) struct RestWatch {
     /// Steps for which the energy must stay below the limit.
     hold: u64,
     /// Step since which it has.
-    since: Option<u64>,
+    pub(super) since: Option<u64>,
 }
 
 impl RestWatch {

@@ -107,7 +107,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             work.start.put_back(&mut self.parts.particles);
             self.put_back_histories(&work.start);
             if let (Some(ledger), Some(work)) = (&mut self.ledger, books) {
-                ledger.work = work;
+                ledger.books.work = work;
             }
         }
         self.age.time += dt;
@@ -308,8 +308,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 particles.position[i] += particles.velocity[i] * (0.5 * dt);
                 kick(particles, i, dt);
                 if let Some(ledger) = &mut self.ledger {
-                    ledger.clear_sphere(i as u32);
-                    ledger.note_kick(i, particles, dt);
+                    ledger.books.clear_sphere(i as u32);
+                    ledger.books.note_kick(i, particles, dt);
                 }
                 particles.position[i] += particles.velocity[i] * (0.5 * dt);
             }
@@ -340,7 +340,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
             if let Some(ledger) = &mut self.ledger {
                 let spheres = island.spheres.iter();
-                spheres.for_each(|&i| ledger.clear_sphere(i));
+                spheres.for_each(|&i| ledger.books.clear_sphere(i));
             }
             self.note_contacts(&island.among);
             self.forces_among(&island.among, false);
@@ -382,7 +382,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         kick(particles, i, time);
         if let Some(ledger) = &mut self.ledger {
-            ledger.note_kick(i, particles, time);
+            ledger.books.note_kick(i, particles, time);
         }
         particles.position[i] += particles.velocity[i] * (0.5 * time);
     }

@@ -12,9 +12,10 @@ use crate::dem::friction::TangentialLaw;
 use crate::dem::particles::{Particles, retain};
 use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;
+use serde::{Deserialize, Serialize};
 
 /// Work since the start (J).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(in crate::dem) struct Work {
     /// Of the damping of contacts, negative where it dissipates.
     pub(in crate::dem) damping: f64,
@@ -26,8 +27,9 @@ pub(in crate::dem) struct Work {
     pub(in crate::dem) brought: f64,
 }
 
-/// The books of a system.
-pub(super) struct Ledger<H> {
+/// Work so far, and the parts of the latest forces that do it.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Books {
     pub(super) work: Work,
     /// Parts of the latest force on each sphere (N) and of its torque (N m).
     damping: Vec<Vector>,
@@ -35,38 +37,34 @@ pub(super) struct Ledger<H> {
     tangential_torque: Vec<Vector>,
     air: Vec<Vector>,
     air_torque: Vec<Vector>,
-    block: Box<PairBlock<H>>,
 }
 
-impl<H: Copy + Default> Ledger<H> {
-    pub(super) fn new() -> Self {
-        Self {
-            work: Work::default(),
-            damping: Vec::new(),
-            tangential: Vec::new(),
-            tangential_torque: Vec::new(),
-            air: Vec::new(),
-            air_torque: Vec::new(),
-            block: Box::new(PairBlock::new()),
-        }
-    }
-
-    fn contacts(&mut self) -> [&mut Vec<Vector>; 3] {
-        [
-            &mut self.damping,
-            &mut self.tangential,
-            &mut self.tangential_torque,
-        ]
-    }
-
-    /// Makes room for that many spheres.
-    fn resize(&mut self, spheres: usize) {
-        let air = [&mut self.air, &mut self.air_torque];
+impl Books {
+    /// What contacts fill, and what the air does.
+    fn parts(&mut self) -> ([&mut Vec<Vector>; 3], [&mut Vec<Vector>; 2]) {
         let contacts = [
             &mut self.damping,
             &mut self.tangential,
             &mut self.tangential_torque,
         ];
+        (contacts, [&mut self.air, &mut self.air_torque])
+    }
+
+    /// Whether they may be those of so many spheres; before the first step they are empty.
+    pub(super) fn fit(&self, spheres: usize) -> bool {
+        let parts = [
+            &self.damping,
+            &self.tangential,
+            &self.tangential_torque,
+            &self.air,
+        ];
+        let first = self.damping.len();
+        (first == spheres || first == 0) && parts.iter().all(|part| part.len() == first)
+    }
+
+    /// Makes room for that many spheres.
+    pub(super) fn resize(&mut self, spheres: usize) {
+        let (contacts, air) = self.parts();
         for forces in contacts.into_iter().chain(air) {
             forces.resize(spheres, Vector::ZERO);
         }
@@ -74,31 +72,29 @@ impl<H: Copy + Default> Ledger<H> {
 
     /// Forgets the contacts of all spheres.
     fn clear(&mut self) {
-        self.contacts()
-            .into_iter()
-            .for_each(|forces| forces.fill(Vector::ZERO));
+        for forces in self.parts().0 {
+            forces.fill(Vector::ZERO);
+        }
     }
 
     /// Forgets the contacts of one sphere.
     pub(super) fn clear_sphere(&mut self, i: u32) {
-        self.contacts()
-            .into_iter()
-            .for_each(|forces| forces[i as usize] = Vector::ZERO);
+        for forces in self.parts().0 {
+            forces[i as usize] = Vector::ZERO;
+        }
     }
 
     /// Adds a sphere at the end, which touches nothing.
     pub(super) fn add_sphere(&mut self) {
-        self.resize(self.air.len() + 1);
+        self.resize(self.damping.len() + 1);
     }
 
     pub(super) fn retain(&mut self, keep: &[bool]) {
         self.resize(keep.len());
-        self.block.forget();
-        retain(&mut self.air, keep);
-        retain(&mut self.air_torque, keep);
-        self.contacts()
-            .into_iter()
-            .for_each(|forces| retain(forces, keep));
+        let (contacts, air) = self.parts();
+        for forces in contacts.into_iter().chain(air) {
+            retain(forces, keep);
+        }
     }
 
     /// Adds the force of a contact on sphere `i`, without its elastic part, and its torque.
@@ -112,11 +108,7 @@ impl<H: Copy + Default> Ledger<H> {
     /// Notes what effects of the air added to forces and torques.
     pub(super) fn note_air(&mut self, before: [&[Vector]; 2], particles: &Particles) {
         let after = [&particles.force, &particles.torque];
-        for ((air, before), after) in [&mut self.air, &mut self.air_torque]
-            .into_iter()
-            .zip(before)
-            .zip(after)
-        {
+        for ((air, before), after) in self.parts().1.into_iter().zip(before).zip(after) {
             air.clear();
             let added = after.iter().zip(before);
             air.extend(added.map(|(&after, &before)| after - before));
@@ -137,6 +129,26 @@ impl<H: Copy + Default> Ledger<H> {
             self.work.tangential += self.tangential_torque[i].dot(turn);
             self.work.air += self.air_torque[i].dot(turn);
         }
+    }
+}
+
+/// The books of a system, and where contacts are computed for them.
+pub(super) struct Ledger<H> {
+    pub(super) books: Books,
+    block: Box<PairBlock<H>>,
+}
+
+impl<H: Copy + Default> Ledger<H> {
+    pub(super) fn new() -> Self {
+        Self {
+            books: Books::default(),
+            block: Box::new(PairBlock::new()),
+        }
+    }
+
+    /// Forgets the pairs of the past.
+    pub(super) fn forget(&mut self) {
+        self.block.forget();
     }
 }
 
@@ -166,9 +178,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let Some(before) = before else { return };
         let after = self.energy_in_books();
         if let (Some(ledger), Some(after)) = (&mut self.ledger, after) {
-            ledger.work.brought += after[0] - before[0];
+            ledger.books.work.brought += after[0] - before[0];
             // Springs that are gone have rubbed nothing.
-            ledger.work.tangential -= after[1] - before[1];
+            ledger.books.work.tangential -= after[1] - before[1];
         }
     }
 
@@ -179,15 +191,15 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         };
         let particles = &self.parts.particles;
         for i in particles.fixed..particles.len() {
-            ledger.note_kick(i, particles, dt);
+            ledger.books.note_kick(i, particles, dt);
         }
     }
 
     /// Notes all contacts, before their forces are evaluated: histories are not moved on.
     pub(super) fn note_all_contacts(&mut self, among: &Among) {
         if let Some(ledger) = &mut self.ledger {
-            ledger.resize(self.parts.particles.len());
-            ledger.clear();
+            ledger.books.resize(self.parts.particles.len());
+            ledger.books.clear();
         }
         self.note_contacts(among);
     }
@@ -222,8 +234,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 };
                 let [damping, tangential] = self.parts_of(&meeting);
                 let [one, other] = meeting.torque;
-                ledger.add(pair.i, damping, tangential, one);
-                ledger.add(pair.j, -damping, -tangential, other);
+                ledger.books.add(pair.i, damping, tangential, one);
+                ledger.books.add(pair.j, -damping, -tangential, other);
             }
         }
     }
@@ -245,7 +257,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     continue;
                 };
                 let [damping, tangential] = self.parts_of(&meeting);
-                ledger.add(sphere, damping, tangential, meeting.torque[0]);
+                ledger
+                    .books
+                    .add(sphere, damping, tangential, meeting.torque[0]);
             }
         }
     }

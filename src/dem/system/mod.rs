@@ -5,12 +5,14 @@ mod contacts;
 mod integrate;
 mod islands;
 mod ledger;
+mod state;
 
 use self::adaptive::Adaptive;
 use self::contacts::{Among, PairBlock};
 use self::integrate::Before;
 use self::ledger::Ledger;
 pub(in crate::dem) use self::ledger::Work;
+pub(in crate::dem) use self::state::EngineState;
 use super::block::{Body, Load};
 use super::contact::NormalLaw;
 use super::effects::Effect;
@@ -18,6 +20,7 @@ use super::friction::{Increment, TangentialLaw};
 use super::guard::Limits;
 use super::neighbours::{Near, Reach, VerletList};
 use super::particles::{Particles, Sphere, retain};
+use super::state::StateError;
 use super::vector::Vector;
 use super::walls::{Cylinder, Floor, Wall};
 use crate::record::Instability;
@@ -43,6 +46,10 @@ pub(in crate::dem) trait Engine: Send {
     fn insert(&mut self, sphere: &Sphere);
     /// Removes the spheres that are not to be kept.
     fn retain(&mut self, keep: &[bool]);
+    /// Everything that the motion goes on from.
+    fn state(&self) -> EngineState;
+    /// Takes up a state of the same scene.
+    fn restore(&mut self, state: EngineState) -> Result<(), StateError>;
 }
 
 /// What contacts hold.
@@ -224,7 +231,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             effect.apply(self.level, particles, &self.shielding);
         }
         if let (Some(ledger), Some([force, torque])) = (&mut self.ledger, before) {
-            ledger.note_air([&force, &torque], particles);
+            ledger.books.note_air([&force, &torque], particles);
         }
     }
 
@@ -394,7 +401,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
     }
 
     fn work(&self) -> Option<Work> {
-        self.ledger.as_ref().map(|ledger| ledger.work)
+        self.ledger.as_ref().map(|ledger| ledger.books.work)
     }
 
     fn insert(&mut self, sphere: &Sphere) {
@@ -409,7 +416,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         } = &mut self.parts;
         particles.push(sphere);
         if let Some(ledger) = &mut self.ledger {
-            ledger.add_sphere();
+            ledger.books.add_sphere();
         }
         limits.add_sphere(sphere.radius, *dt);
         if floor.is_some() {
@@ -428,7 +435,8 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         let before = self.energy_in_books();
         self.parts.particles.retain(keep);
         if let Some(ledger) = &mut self.ledger {
-            ledger.retain(keep);
+            ledger.books.retain(keep);
+            ledger.forget();
         }
         retain(&mut self.parts.limits.speed_squared, keep);
         retain(&mut self.floor_history, keep);
@@ -440,6 +448,14 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.block.forget();
         self.renumber();
         self.note_exchange(before);
+    }
+
+    fn state(&self) -> EngineState {
+        self.save()
+    }
+
+    fn restore(&mut self, state: EngineState) -> Result<(), StateError> {
+        self.take_up(state)
     }
 
     /// Reads positions alone, and builds the list at most earlier than a step would: bits of

@@ -1,0 +1,145 @@
+//! A run that can be interrupted and goes on from its checkpoint.
+
+use crate::cli::console::Console;
+use crate::cli::exit::Failure;
+use crate::cli::format;
+use crate::cli::interrupt;
+use crate::cli::progress::{Progress, Work};
+use phase::dem::Counts;
+use phase::record::RunRecord;
+use phase::resume::{Checkpoints, Ending};
+use phase::run::{self, Run};
+use phase::scene::Scene;
+use phase::sweep::work;
+use std::ops::ControlFlow;
+use std::sync::atomic::Ordering;
+
+/// A run that came to its end.
+pub(super) struct Ran {
+    pub(super) record: RunRecord,
+    /// How long it took now (s).
+    pub(super) seconds: f64,
+    /// Time (s) of the checkpoint that it went on from.
+    pub(super) resumed_from: Option<f64>,
+}
+
+/// Runs a scene, with a progress bar and checkpoints. None if it was interrupted: says how to go on.
+pub(super) fn run(
+    scene: &Scene,
+    checkpoints: &Checkpoints,
+    resume: bool,
+    console: &Console,
+) -> Result<Option<Ran>, Failure> {
+    let stop = interrupt::stop_on_signal(console)?;
+    let mut run = Run::new(scene).map_err(Failure::failed)?;
+    let resumed = begin(&mut run, checkpoints, resume, console)?;
+    let resumed_from = resumed.then(|| run.time());
+    let steps = work::sphere_steps(scene);
+    let done = |now: &run::Progress| (now.share() * steps as f64) as u64;
+    let mut told = done(&run.progress());
+    let progress = Progress::new(
+        console,
+        Work {
+            jobs: 1,
+            jobs_done: 0,
+            steps,
+            steps_done: told,
+        },
+    );
+    let steps_per_frame = run::frames(scene).0;
+    let mut frame = 0;
+    let mut control = |now: run::Progress| {
+        let inside = now.counts.map_or(scene.spheres.count, |counts| {
+            counts.released - counts.gone()
+        });
+        let done = done(&now);
+        let phase = now.counts.as_ref().map(phase_of).unwrap_or_default();
+        progress.advance_to(steps_per_frame * inside as u64, done - told, phase);
+        told = done;
+        frame = now.frame;
+        if stop.load(Ordering::Relaxed) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    };
+    let mut warn = |error| progress.note(format_args!("no checkpoint: {error}"));
+    let ending = checkpoints.run(run, &mut control, &mut warn);
+    let seconds = progress.finish();
+    let path = checkpoints.path().display();
+    match ending {
+        Ending::Finished(record) => {
+            return Ok(Some(Ran {
+                record: *record,
+                seconds,
+                resumed_from,
+            }));
+        }
+        Ending::Interrupted => console.note(format_args!(
+            "interrupted at frame {frame} of {}; the same command with --resume goes on from there \
+             ({path})",
+            run::frames(scene).1
+        )),
+        Ending::EarlierKept => console.note(format_args!(
+            "interrupted; nothing was stored. The checkpoint that was there still is: --resume goes on \
+             from it ({path})"
+        )),
+        Ending::Lost(error) => return Err(Failure::failed(error)),
+    }
+    Ok(None)
+}
+
+/// Takes a run to its checkpoint, if that is asked for and there is one, and says where it begins.
+fn begin(
+    run: &mut Run,
+    checkpoints: &Checkpoints,
+    resume: bool,
+    console: &Console,
+) -> Result<bool, Failure> {
+    let path = checkpoints.path().display();
+    if !resume {
+        if checkpoints.path().exists() {
+            console.note(format_args!(
+                "{path} is there, the checkpoint of an interrupted run, and --resume would go on from \
+                 it; starting from the beginning, which replaces it"
+            ));
+        }
+        return Ok(false);
+    }
+    let resumed = checkpoints.restore(run).map_err(|error| {
+        Failure::refused(format_args!(
+            "{error}; without --resume the run starts from the beginning and replaces it"
+        ))
+    })?;
+    if resumed {
+        console.note(format_args!(
+            "going on at {}, frame {} of {}, from {path}",
+            format::time(run.time()),
+            run.progress().frame,
+            run.progress().frames
+        ));
+    } else {
+        console.note(format_args!(
+            "there is no checkpoint {path}; starting from the beginning"
+        ));
+    }
+    Ok(resumed)
+}
+
+/// What goes on in a run where spheres come and go.
+fn phase_of(counts: &Counts) -> String {
+    let Counts {
+        all,
+        released,
+        discharged,
+        is_closed,
+        ..
+    } = *counts;
+    if released < all {
+        format!("filling, {released} of {all} are in")
+    } else if is_closed {
+        format!("coming to rest, all {all} are in")
+    } else {
+        format!("draining, {discharged} of {all} left")
+    }
+}

@@ -1,0 +1,73 @@
+//! What of a process changes while it runs: the rest follows from the scene.
+
+use super::leak::Point;
+use super::{LeakWatch, Process};
+use crate::dem::state::StateError;
+use crate::record::Milestone;
+use serde::{Deserialize, Serialize};
+
+/// What of a process changes while it runs.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(in crate::dem) struct ProcessState {
+    /// Spheres that the feed let in; the others wait in the order of the scene.
+    fed: usize,
+    /// Whether a door is still to open.
+    is_closed: bool,
+    /// Step since which the spheres have been slow.
+    slow_since: Option<u64>,
+    /// Number and place of each disc when the watch over walls last looked.
+    watched: Vec<(u32, Point)>,
+    milestones: Vec<Milestone>,
+    discharged: usize,
+    spilled: usize,
+    ended: bool,
+}
+
+impl Process {
+    /// What has changed so far.
+    pub(in crate::dem) fn state(&self) -> ProcessState {
+        ProcessState {
+            fed: self.feed.released(),
+            is_closed: self.door.is_some(),
+            slow_since: self.rest.as_ref().and_then(|rest| rest.since),
+            watched: self
+                .leak
+                .as_ref()
+                .map_or_else(Vec::new, |leak| leak.before.clone()),
+            milestones: self.milestones.clone(),
+            discharged: self.discharged,
+            spilled: self.spilled,
+            ended: self.ended,
+        }
+    }
+
+    /// Makes sure that a state is one of this process, which has just begun.
+    pub(in crate::dem) fn accepts(&self, state: &ProcessState) -> Result<(), StateError> {
+        let fits = state.fed <= self.feed.waiting()
+            && self.feed.released() == 0
+            && (self.door.is_some() || !state.is_closed);
+        match fits {
+            true => Ok(()),
+            false => Err(StateError("it feeds other spheres or has another door")),
+        }
+    }
+
+    /// Takes up an accepted state.
+    pub(in crate::dem) fn restore(&mut self, state: ProcessState) {
+        self.feed.skip(state.fed);
+        if self.door.is_some() && !state.is_closed {
+            self.door = None;
+            self.leak.iter_mut().for_each(LeakWatch::open_door);
+        }
+        if let Some(rest) = &mut self.rest {
+            rest.since = state.slow_since;
+        }
+        if let Some(leak) = &mut self.leak {
+            leak.before = state.watched;
+        }
+        self.milestones = state.milestones;
+        self.discharged = state.discharged;
+        self.spilled = state.spilled;
+        self.ended = state.ended;
+    }
+}

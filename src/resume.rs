@@ -1,0 +1,132 @@
+//! Runs that leave checkpoints, and go on from them.
+//!
+//! A checkpoint lies beside the record that is to be, and goes when the record is there. Frames are
+//! the only places where one is written, and writing it changes nothing: a run that was interrupted
+//! and went on has the bits of one that was not.
+
+use crate::record::RunRecord;
+use crate::run::{Progress, Run};
+use crate::store::{self, CheckpointError, StoreError};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+use std::{fs, io};
+
+/// Time between two checkpoints, if nobody says otherwise.
+pub const DEFAULT_INTERVAL: Duration = Duration::from_secs(120);
+
+/// Where a run leaves its checkpoint, and how often.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Checkpoints {
+    path: PathBuf,
+    interval: Duration,
+}
+
+/// How a run that leaves checkpoints came back.
+#[derive(Debug)]
+pub enum Ending {
+    /// It ended; its checkpoint may go once the record is stored.
+    Finished(Box<RunRecord>),
+    /// It was asked to stop, and left a checkpoint.
+    Interrupted,
+    /// It was asked to stop so soon that the checkpoint of an earlier run was left in place.
+    EarlierKept,
+    /// It was asked to stop, and the checkpoint could not be written.
+    Lost(StoreError),
+}
+
+impl Checkpoints {
+    /// Checkpoints of the run of that record: `NAME.checkpoint` beside `NAME.h5`. One is due at the
+    /// first frame after every `interval`.
+    pub fn beside(record: &Path, interval: Duration) -> Self {
+        // Records of other names are not cut: two that differ behind a dot have two checkpoints.
+        let is_plain = record.extension().is_some_and(|it| it == "h5");
+        let path = match is_plain {
+            true => record.with_extension("checkpoint"),
+            false => record.with_added_extension("checkpoint"),
+        };
+        Self { path, interval }
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Lets a run that is at its start go on from the checkpoint. False if there is none.
+    ///
+    /// # Errors
+    /// If nothing can go on from the file; file and run stay as they were.
+    pub fn restore(&self, run: &mut Run) -> Result<bool, CheckpointError> {
+        let Some(state) = store::read_checkpoint(&self.path, run.scene())? else {
+            return Ok(false);
+        };
+        match run.restore(state) {
+            Ok(()) => Ok(true),
+            Err(error) => Err(CheckpointError::Unfit {
+                path: self.path.clone(),
+                reason: error.to_string(),
+            }),
+        }
+    }
+
+    /// Runs to the end, and leaves checkpoints on the way. `control` is asked after every frame
+    /// whether to go on; `warn` is told of a checkpoint that could not be written, without which the
+    /// run goes on.
+    ///
+    /// A run from the start replaces the checkpoint of an earlier run, but not before the first one is
+    /// due: whoever started it by mistake may stop it and loses nothing.
+    pub fn run(
+        &self,
+        mut run: Run,
+        control: &mut dyn FnMut(Progress) -> ControlFlow<()>,
+        warn: &mut dyn FnMut(StoreError),
+    ) -> Ending {
+        let mut latest = Instant::now();
+        let mut is_ours = run.progress().frame > 0 || !self.path.exists();
+        while !run.ended() {
+            run.advance_frame();
+            let stop = control(run.progress()).is_break();
+            if run.ended() {
+                break;
+            }
+            let due = latest.elapsed() >= self.interval;
+            if stop && !due && !is_ours {
+                return Ending::EarlierKept;
+            }
+            if !(stop || due) {
+                continue;
+            }
+            match (self.write(&run), stop) {
+                (Ok(()), true) => return Ending::Interrupted,
+                (Err(error), true) => return Ending::Lost(error),
+                (Ok(()), false) => is_ours = true,
+                (Err(error), false) => warn(error),
+            }
+            latest = Instant::now();
+        }
+        Ending::Finished(Box::new(run.finish()))
+    }
+
+    fn write(&self, run: &Run) -> Result<(), StoreError> {
+        match run.state() {
+            Some(state) => store::write_checkpoint(&self.path, run.scene(), &state),
+            // A guard ended the run: there is nothing to go on with.
+            None => Ok(()),
+        }
+    }
+
+    /// Removes the file, if there is one.
+    ///
+    /// # Errors
+    /// If the system does not allow it.
+    pub fn remove(&self) -> Result<(), StoreError> {
+        match fs::remove_file(&self.path) {
+            Err(source) if source.kind() != io::ErrorKind::NotFound => Err(StoreError::Write {
+                path: self.path.clone(),
+                source,
+            }),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! The checkpoint of one run: what it goes on from when it was interrupted.
+//!
+//! ```text
+//! signature   21 bytes, "phase checkpoint" between marks
+//! version     u32
+//! header      version and commit of the program, the scene (JSON)
+//! state       of the run at one frame
+//! checksum    32 bytes, the BLAKE3 hash of all before
+//! ```
+//!
+//! Version, header and state are in the encoding of postcard, in which a number keeps all its bits,
+//! also one that is not a number. Only the very program that wrote a checkpoint reads it: another one
+//! might go on with other bits. Signature, version and checksum stay where they are in all versions.
+
+use super::{StoreError, write_atomic};
+use crate::document::differing_keys;
+use crate::record::Program;
+use crate::run::RunState;
+use crate::scene::{Neighbours, Scene};
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What every checkpoint begins with.
+pub const CHECKPOINT_SIGNATURE: &[u8; 21] = b"\x89phase checkpoint\r\n\x1a\n";
+/// Raised with every change of the layout above; what a state holds follows from the program.
+const VERSION: u32 = 1;
+
+/// Why a run cannot go on from a checkpoint. The file stays as it is.
+#[derive(Debug, thiserror::Error)]
+pub enum CheckpointError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    Read(#[from] StoreError),
+    /// The file is something else.
+    #[error("{}: this is not a checkpoint of phase", .0.display())]
+    NotACheckpoint(PathBuf),
+    /// The file is not what was once written.
+    #[error("{}: this checkpoint is damaged or cut short: {reason}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What shows it.
+        reason: &'static str,
+    },
+    /// The file has a layout that this program does not know.
+    #[error(
+        "{}: this checkpoint has format {found}, but this program reads format {VERSION}",
+        path.display()
+    )]
+    Version {
+        /// The file.
+        path: PathBuf,
+        /// Its version.
+        found: u32,
+    },
+    /// Another program wrote it, whose bits may differ.
+    #[error(
+        "{}: this checkpoint was written by phase {} (commit {}), but this is phase {} (commit \
+         {}), which may go on with other bits",
+        path.display(), found.version, found.commit, Program::current().version,
+        Program::current().commit
+    )]
+    OtherProgram {
+        /// The file.
+        path: PathBuf,
+        /// The program that wrote it.
+        found: Program,
+    },
+    /// It is of another scene, or of the same with other output.
+    #[error(
+        "{}: this checkpoint is of another run: they differ in {}",
+        path.display(), keys.join(", ")
+    )]
+    OtherScene {
+        /// The file.
+        path: PathBuf,
+        /// Keys in which the scenes differ.
+        keys: Vec<String>,
+    },
+    /// The state in it is not one of the scene.
+    #[error("{}: nothing can go on from this checkpoint: {reason}", path.display())]
+    Unfit {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// What is read before the state.
+#[derive(Serialize, Deserialize)]
+struct Header {
+    program_version: String,
+    program_commit: String,
+    /// The resolved scene (JSON).
+    scene: String,
+}
+
+/// Writes the checkpoint of a run of that scene, all or nothing.
+///
+/// # Errors
+/// [`StoreError::DiskFull`] or [`StoreError::Write`]; an older checkpoint is still there.
+pub fn write_checkpoint(
+    path: &Path,
+    scene: &Scene,
+    state: &RunState<'_>,
+) -> Result<(), StoreError> {
+    write_atomic(path, &encode(scene, &Program::current(), state))
+}
+
+fn encode(scene: &Scene, program: &Program, state: &RunState<'_>) -> Vec<u8> {
+    let header = Header {
+        program_version: program.version.clone(),
+        program_commit: program.commit.clone(),
+        scene: serde_json::to_string(scene).expect("a scene holds no map with odd keys"),
+    };
+    let bytes = CHECKPOINT_SIGNATURE.to_vec();
+    let mut bytes = postcard::to_extend(&(VERSION, header, state), bytes)
+        .expect("all lists of a state know their length, and memory has no end");
+    let hash = blake3::hash(&bytes);
+    bytes.extend_from_slice(hash.as_bytes());
+    bytes
+}
+
+/// Reads the checkpoint of a run of that scene, if there is a file at all.
+///
+/// # Errors
+/// If a run of this scene, by this program, cannot go on from that file.
+pub fn read_checkpoint(
+    path: &Path,
+    scene: &Scene,
+) -> Result<Option<RunState<'static>>, CheckpointError> {
+    match fs::read(path) {
+        Ok(bytes) => decode(&bytes, path, scene).map(Some),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(StoreError::reading(path, error).into()),
+    }
+}
+
+fn decode(bytes: &[u8], path: &Path, scene: &Scene) -> Result<RunState<'static>, CheckpointError> {
+    let path = || path.to_owned();
+    let damaged = |reason| CheckpointError::Damaged {
+        path: path(),
+        reason,
+    };
+    if !bytes.starts_with(CHECKPOINT_SIGNATURE) {
+        return Err(match CHECKPOINT_SIGNATURE.starts_with(bytes) {
+            true => damaged("it ends too early"),
+            false => CheckpointError::NotACheckpoint(path()),
+        });
+    }
+    let (body, hash) = bytes
+        .split_last_chunk::<{ blake3::OUT_LEN }>()
+        .ok_or_else(|| damaged("it ends too early"))?;
+    if blake3::hash(body) != *hash {
+        return Err(damaged("its checksum differs"));
+    }
+    let body = body
+        .get(CHECKPOINT_SIGNATURE.len()..)
+        .ok_or_else(|| damaged("it ends too early"))?;
+    let unreadable = |_| damaged("its content has another form");
+    let (found, body) = postcard::take_from_bytes::<u32>(body).map_err(unreadable)?;
+    if found != VERSION {
+        let path = path();
+        return Err(CheckpointError::Version { path, found });
+    }
+    let (header, body) = postcard::take_from_bytes::<Header>(body).map_err(unreadable)?;
+    let program = Program {
+        version: header.program_version,
+        commit: header.program_commit,
+    };
+    if program != Program::current() {
+        let (path, found) = (path(), program);
+        return Err(CheckpointError::OtherProgram { path, found });
+    }
+    let saved: Scene =
+        serde_json::from_str(&header.scene).map_err(|_| damaged("its scene cannot be read"))?;
+    if saved.identity() != scene.identity() || saved.output != scene.output {
+        return Err(CheckpointError::OtherScene {
+            path: path(),
+            keys: differing_keys(&without_names(&saved), &without_names(scene)),
+        });
+    }
+    match postcard::take_from_bytes(body) {
+        Ok((state, [])) => Ok(state),
+        Ok(_) => Err(damaged("there is something after its end")),
+        Err(error) => Err(unreadable(error)),
+    }
+}
+
+/// The scene without what changes nothing in its record but itself.
+fn without_names(scene: &Scene) -> Scene {
+    Scene {
+        title: None,
+        neighbours: Neighbours::default(),
+        ..scene.clone()
+    }
+}
