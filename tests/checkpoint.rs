@@ -97,7 +97,9 @@ fn silo(friction: Option<Friction>, integrator: Integrator) -> Scene {
 fn a_tank_with_every_effect_goes_on_with_the_same_bits() {
     for friction in frictions() {
         for integrator in Integrator::ALL {
-            assert_same_bits(tank(friction.clone(), integrator), 37);
+            let mut scene = tank(friction.clone(), integrator);
+            scene.output.ledger = integrator == Integrator::VelocityVerlet;
+            assert_same_bits(scene, 37);
         }
     }
 }
@@ -119,7 +121,9 @@ fn a_silo_goes_on_with_the_same_bits_while_it_is_filled_and_drained() {
     for friction in laws {
         for integrator in Integrator::ALL {
             // At every frame: between two grains, while they come to rest, at the door.
-            let record = assert_same_bits(silo(friction.clone(), integrator), 1);
+            let mut scene = silo(friction.clone(), integrator);
+            scene.output.ledger = true;
+            let record = assert_same_bits(scene, 1);
             let happened = |kind| record.milestones.iter().any(|it| it.kind == kind);
             assert!(happened(MilestoneKind::DoorOpened), "{friction:?}");
             assert_eq!(record.outcome, Outcome::Completed);
@@ -328,9 +332,9 @@ fn a_run_from_the_beginning_replaces_a_checkpoint_only_with_one_of_its_own_time(
     let place = interrupted_by("INT");
     let before = fs::read(place.path("run.checkpoint")).unwrap();
     let mut child = place.start(&["run", "scene.toml", "--out", "run.h5"]);
-    let mut line = String::new();
     let stderr = child.stderr.take().unwrap();
-    BufReader::new(stderr).read_line(&mut line).unwrap();
+    let mut lines = BufReader::new(stderr).lines().map(Result::unwrap);
+    let line = lines.find(|line| line.contains("run.checkpoint")).unwrap();
     assert!(line.contains("run.checkpoint is there"), "{line}");
     assert!(line.contains("--resume would go on"), "{line}");
     signal(&child, "INT");

@@ -130,7 +130,7 @@ fn a_sphere_that_is_knocked_far_is_seen() {
         ..sphere(0.0, 0.0)
     };
     let target = sphere(0.0051, 0.0);
-    let mut simulation = Simulation::new(&steel(vec![heavy, light, target], 0.0, 2e-4)).unwrap();
+    let mut simulation = Simulation::new(&steel(vec![heavy, light, target], 0.0, 1.5e-4)).unwrap();
     let (before, start) = (momentum(&simulation), kinetic(&simulation));
     for _ in 0..10 {
         simulation.advance(1).unwrap();
