@@ -1,6 +1,7 @@
 //! Limits of the Hertz contact.
 
 use super::Limit;
+use super::overlap::deepest_at_start;
 use crate::dem::contact::restitution::{dissipation_time_from_restitution, time_scale};
 use crate::scene::{Contact, Friction, Scene, Shape};
 use std::f64::consts::PI;
@@ -39,6 +40,16 @@ impl Impact {
     /// T = (m_eff / K)^(2/5) v^(-1/5) (s).
     pub fn time_scale(&self) -> f64 {
         time_scale(self.effective_mass, self.stiffness, self.speed)
+    }
+
+    /// The impact that ends like the release of such a pair at rest from an overlap (m): that is where
+    /// it is deepest.
+    pub fn from_overlap(self, overlap: f64) -> Self {
+        let speed_squared = 0.8 * self.stiffness * overlap * overlap * overlap.sqrt();
+        Self {
+            speed: (speed_squared / self.effective_mass).sqrt(),
+            ..self
+        }
     }
 
     /// Duration of the contact, 3.218065460 T (s).
@@ -102,8 +113,9 @@ pub fn dissipation_time(scene: &Scene) -> f64 {
     }
 }
 
-/// The impact of the two smallest spheres at the fastest speed. A wall or a larger partner is
-/// softer: w^2 falls with the effective mass faster than it grows with the effective radius.
+/// The impact of the two smallest spheres at the fastest speed, or from the deepest overlap at the
+/// start. A wall or a larger partner is softer: w^2 falls with the effective mass faster than it grows
+/// with the effective radius.
 pub(super) fn stiffest_impact(scene: &Scene) -> Option<Impact> {
     let Contact::Hertz {
         young_modulus,
@@ -113,16 +125,20 @@ pub(super) fn stiffest_impact(scene: &Scene) -> Option<Impact> {
     else {
         return None;
     };
-    let speed = super::fastest_impact(scene);
-    (speed > 0.0).then(|| {
-        Impact::of_equal_spheres(
-            scene.smallest_radius(),
-            scene.spheres.density,
-            *young_modulus,
-            *poisson_ratio,
-            speed,
-        )
-    })
+    let impact = Impact::of_equal_spheres(
+        scene.smallest_radius(),
+        scene.spheres.density,
+        *young_modulus,
+        *poisson_ratio,
+        super::fastest_impact(scene),
+    );
+    let release = impact.from_overlap(deepest_at_start(scene));
+    let fastest = if release.speed > impact.speed {
+        release
+    } else {
+        impact
+    };
+    (fastest.speed > 0.0).then_some(fastest)
 }
 
 /// Limits of the contact and of the friction at it; none without a Hertz contact.
@@ -146,8 +162,8 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
             name: "contact",
             seconds: 2.0 / frequency,
             decisive: true,
-            explanation: "2/w of the two smallest spheres at their deepest overlap in the fastest \
-                          impact, w^2 = (3/2) K sqrt(xi) / m_eff",
+            explanation: "2/w of the two smallest spheres at their deepest overlap, at the start or in \
+                          the fastest impact, w^2 = (3/2) K sqrt(xi) / m_eff",
         },
         super::twelve_contacts(frequency),
         Limit {

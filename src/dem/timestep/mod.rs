@@ -9,6 +9,7 @@
 mod air;
 mod hertz;
 mod linear;
+mod overlap;
 
 pub use hertz::{Impact, dissipation_time, rayleigh_time};
 pub use linear::LinearImpact;
@@ -261,6 +262,35 @@ mod tests {
             dissipation_time(&pair(&hertz("dissipation_time = 2e-4"))),
             2e-4
         );
+    }
+
+    /// Symptom: any step was accepted for spheres at rest that overlap, and gained energy. Cause: the
+    /// limit came from speeds alone.
+    #[test]
+    fn spheres_that_overlap_at_the_start_limit_the_step() {
+        let law = hertz("dissipation_time = 0");
+        let placed = |second: &str, tables: &str| {
+            let text = format!(
+                "{law}{tables}
+                spheres = {{ count = 2, radius = 0.004, density = 1e4 }}
+                start = {{ kind = 'list', spheres = [{{ position = [0, 0, 1] }}, {{ position = {second} }}] }}
+                time = {{ dt = 1e-7, duration = 1, frame_interval = 1e-3 }}"
+            );
+            from_str(&text, Path::new("pair.toml")).unwrap_or_else(|error| panic!("{error}"))
+        };
+        let apart = placed("[0.1, 0, 1]", "");
+        assert_eq!(largest_stable(&apart), None);
+        // Released from the deepest overlap of an impact, the pair parts like after it.
+        let impact = impact_at_one_metre_per_second(2e5, 1e4);
+        let distance = 0.008 - impact.deepest_overlap();
+        let pressed = placed(&format!("[0, {distance}, 1]"), "");
+        let expected = largest_stable(&pair(&law)).unwrap().seconds;
+        close(largest_stable(&pressed).unwrap().seconds, expected, 1e-9);
+        let wall = placed(
+            &format!("[0, {distance}, 3]"),
+            &format!("tank = {{ floor = {} }}\n", 1.0 - distance + 0.004),
+        );
+        close(largest_stable(&wall).unwrap().seconds, expected, 1e-9);
     }
 
     #[test]
