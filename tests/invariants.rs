@@ -4,11 +4,14 @@
 
 mod scenes;
 
+use phase::dem::Simulation;
 use phase::dem::vector::Vector;
-use phase::dem::{Particles, Simulation};
 use phase::scene::{Contact, Friction, Integrator, Scene, StartSphere, Tank};
 use proptest::prelude::*;
-use scenes::{INTEGRATORS, State, cluster, converging_spheres, frictions, state, tank};
+use scenes::{
+    INTEGRATORS, State, angular_momentum, cluster, converging_spheres, damped, energy, frictions,
+    momentum, scales, state, tank,
+};
 
 /// Laws in which every force on a sphere has a reaction on its partner, torques included.
 fn reciprocal_frictions() -> impl Strategy<Value = Option<Friction>> {
@@ -18,59 +21,6 @@ fn reciprocal_frictions() -> impl Strategy<Value = Option<Friction>> {
 
 fn integrators() -> impl Strategy<Value = Integrator> {
     prop::sample::select(INTEGRATORS.to_vec())
-}
-
-fn momentum(particles: &Particles) -> Vector {
-    (0..particles.len()).fold(Vector::ZERO, |sum, i| {
-        sum + particles.velocity[i] * particles.mass[i]
-    })
-}
-
-fn angular_momentum(particles: &Particles) -> Vector {
-    (0..particles.len()).fold(Vector::ZERO, |sum, i| {
-        let orbital = particles.position[i].cross(particles.velocity[i]) * particles.mass[i];
-        let spin = particles.spin.get(i).copied().unwrap_or_default();
-        let inertia = particles.inertia.get(i).copied().unwrap_or_default();
-        sum + orbital + spin * inertia
-    })
-}
-
-/// Momentum and angular momentum if all of it had one direction: what rounding is relative to.
-fn scales(particles: &Particles) -> (f64, f64) {
-    let spin = |i: usize| particles.spin.get(i).map_or(0.0, |spin| spin.norm());
-    let inertia = |i: usize| particles.inertia.get(i).copied().unwrap_or_default();
-    (0..particles.len()).fold((0.0, 0.0), |(linear, angular), i| {
-        let momentum = particles.mass[i] * particles.velocity[i].norm();
-        let orbital = momentum * particles.position[i].norm();
-        (linear + momentum, angular + orbital + inertia(i) * spin(i))
-    })
-}
-
-/// Kinetic, rotational, gravitational and elastic energy (J).
-fn energy(simulation: &mut Simulation, gravity: f64) -> f64 {
-    let elastic = simulation.elastic_energy();
-    let particles = simulation.particles();
-    let of_sphere = |i: usize| {
-        let spin = particles
-            .spin
-            .get(i)
-            .map_or(0.0, |spin| spin.norm_squared());
-        let inertia = particles.inertia.get(i).copied().unwrap_or_default();
-        let translation = 0.5 * particles.velocity[i].norm_squared();
-        particles.mass[i] * (translation + gravity * particles.position[i].z) + 0.5 * inertia * spin
-    };
-    (0..particles.len()).map(of_sphere).sum::<f64>() + elastic
-}
-
-fn damped(mut scene: Scene, time: f64) -> Scene {
-    let Some(Contact::Hertz {
-        dissipation_time, ..
-    }) = &mut scene.contact
-    else {
-        panic!("a scene with contacts")
-    };
-    *dissipation_time = Some(time);
-    scene
 }
 
 proptest! {

@@ -1,0 +1,195 @@
+//! Many spheres at once: at rest, dropped, packed to the brim.
+
+use crate::bench::{LIMIT, RADIUS, at, crowded, downward, keeps_or_is_reported, run, watch};
+use crate::contacts::of_steel;
+use crate::scenes::{cluster, damped};
+use phase::dem::{BuildError, Simulation, start::StartError};
+use phase::scene::{Contact, ContactDrag, Friction, Integrator, Scene, Start, StartSphere, Tank};
+
+pub(crate) const MINDLIN: Friction = Friction::Mindlin { coefficient: 0.5 };
+
+/// A damped column at rest: every contact is as deep as its load asks.
+pub(crate) fn column(count: usize, friction: Option<Friction>) -> Scene {
+    let mut scene = damped(cluster(Vec::new(), friction, 1e-6), 1e-4);
+    let mass = scene.spheres.shape.mass(scene.spheres.density, RADIUS);
+    let Some(Contact::Hertz {
+        young_modulus,
+        poisson_ratio,
+        ..
+    }) = scene.contact
+    else {
+        panic!("spheres of Hertz's law")
+    };
+    // K / sqrt(R_eff) of F = K xi^1.5.
+    let modulus = 2.0 * young_modulus / (3.0 * (1.0 - poisson_ratio * poisson_ratio));
+    let mut height = 0.0;
+    let place = |i: usize| {
+        let load = mass * 9.8 * (count - i) as f64;
+        let (effective_radius, distance) = match i {
+            0 => (RADIUS, RADIUS),
+            _ => (0.5 * RADIUS, 2.0 * RADIUS),
+        };
+        height += distance - libm::pow(load / (modulus * effective_radius.sqrt()), 2.0 / 3.0);
+        StartSphere::at([0.0, 0.0, height])
+    };
+    scene.start = Start::List {
+        spheres: (0..count).map(place).collect(),
+    };
+    scene.spheres.count = count;
+    scene.tank = Some(Tank {
+        radius: None,
+        floor: Some(0.0),
+    });
+    scene.gravity = downward();
+    scene
+}
+
+/// Largest way of a sphere (radii) and largest speed (m/s) at the end of so many steps.
+pub(crate) fn drift(scene: &Scene, steps: u64) -> [f64; 2] {
+    let mut simulation = Simulation::new(scene).unwrap();
+    let before = simulation.particles().position.clone();
+    simulation.advance(steps).unwrap();
+    let after = simulation.particles();
+    let ways = after
+        .position
+        .iter()
+        .zip(&before)
+        .map(|(&a, &b)| (a - b).norm());
+    let speeds = after.velocity.iter().map(|it| it.norm());
+    [
+        ways.fold(0.0, f64::max) / RADIUS,
+        speeds.fold(0.0, f64::max),
+    ]
+}
+
+pub(crate) fn column_frictions() -> [Option<Friction>; 3] {
+    let coulomb = Friction::Coulomb {
+        coefficient: 0.5,
+        regularisation: 1e-3,
+    };
+    [None, Some(MINDLIN), Some(coulomb)]
+}
+
+#[test]
+fn a_column_of_a_hundred_stays_at_rest() {
+    for integrator in Integrator::ALL {
+        for friction in column_frictions() {
+            let scene = crowded(&column(100, friction), integrator, LIMIT);
+            let [way, speed] = drift(&scene, 20_000);
+            assert!(way < 1e-11 && speed < 1e-11, "{way} radii, {speed} m/s");
+        }
+    }
+}
+
+/// A sphere with contacts above and below oscillates faster than a pair.
+#[test]
+fn a_column_at_the_limit_of_a_pair_is_reported() {
+    for integrator in Integrator::ALL {
+        let scene = at(&column(100, None), integrator, LIMIT);
+        keeps_or_is_reported(run(&scene, 20_000, 20), 1.0 + 1e-9);
+        let mut linear = column(20, None);
+        linear.contact = Some(Contact::Linear {
+            stiffness: 1e4,
+            damping: 0.05,
+            drag: ContactDrag::Normal,
+        });
+        keeps_or_is_reported(run(&at(&linear, integrator, LIMIT), 20_000, 20), 1.0 + 1e-9);
+        let seen = run(&crowded(&linear, integrator, LIMIT), 20_000, 20).unwrap();
+        assert!(seen.most < 1.0 + 1e-3, "{seen:?}");
+    }
+}
+
+/// Spheres that fall at once into a tank which they fill as high as it is wide.
+pub(crate) fn dropped(count: usize, friction: Option<Friction>) -> Scene {
+    let mut scene = damped(cluster(Vec::new(), friction, 1e-6), 3e-4);
+    let side = RADIUS * libm::cbrt(count as f64);
+    scene.spheres.count = count;
+    scene.start = Start::Random {
+        z_min: RADIUS,
+        z_max: 4.0 * side,
+        speed: 0.3,
+        spin: 10.0,
+    };
+    scene.tank = Some(Tank {
+        radius: Some(1.2 * side),
+        floor: Some(0.0),
+    });
+    scene.gravity = downward();
+    scene
+}
+
+/// Asserts that a crowd falls, and neither gains energy nor is pressed.
+#[track_caller]
+pub(crate) fn falls_soundly(scene: &Scene, steps: u64, looks: u64) {
+    let mut simulation = Simulation::new(scene).unwrap();
+    let seen = watch(&mut simulation, scene, steps, looks).unwrap();
+    assert!(seen.most < 1.0 && seen.overlap < 0.6, "{seen:?}");
+    assert!(seen.end < 0.6, "{seen:?}");
+}
+
+#[test]
+fn two_thousand_spheres_dropped_at_once_come_to_rest() {
+    for integrator in Integrator::ALL {
+        for friction in [None, Some(MINDLIN)] {
+            let scene = crowded(&dropped(2000, friction), integrator, LIMIT);
+            falls_soundly(&scene, 1500, 10);
+        }
+    }
+}
+
+#[test]
+fn a_heap_of_steel_at_full_stiffness_loses_energy() {
+    for integrator in Integrator::ALL {
+        let mut scene = of_steel(dropped(60, Some(MINDLIN)));
+        if let Some(Contact::Hertz {
+            restitution,
+            dissipation_time,
+            ..
+        }) = &mut scene.contact
+        {
+            (*restitution, *dissipation_time) = (Some(0.6), None);
+        }
+        let scene = crowded(&scene, integrator, LIMIT);
+        let mut simulation = Simulation::new(&scene).unwrap();
+        let seen = watch(&mut simulation, &scene, 40_000, 100).unwrap();
+        assert!(
+            seen.most < 1.0 && seen.overlap < 0.01 && seen.end < 0.9,
+            "{seen:?}"
+        );
+    }
+}
+
+/// Layers of touching spheres as far as the wall, and one layer more than fits.
+#[test]
+fn a_tank_filled_to_the_brim_holds() {
+    for integrator in Integrator::ALL {
+        let mut scene = dropped(1, Some(MINDLIN));
+        let wall = 6.0 * RADIUS;
+        scene.tank = Some(Tank {
+            radius: Some(wall),
+            floor: Some(0.0),
+        });
+        let even = |i: i32| 2.0 * RADIUS * f64::from(i);
+        let sites =
+            (0..6).flat_map(|k| (-3..=3).flat_map(move |i| (-3..=3).map(move |j| [i, j, k])));
+        let places = sites.map(|[i, j, k]| [even(i), even(j), even(k) + RADIUS]);
+        let inside = |[x, y, _]: &[f64; 3]| libm::hypot(*x, *y) <= wall - RADIUS;
+        let spheres: Vec<_> = places.filter(inside).map(StartSphere::at).collect();
+        scene.spheres.count = spheres.len();
+        scene.start = Start::List { spheres };
+        let scene = crowded(&scene, integrator, LIMIT);
+        let seen = run(&scene, 10_000, 100).unwrap();
+        assert!(seen.most < 1.0 + 1e-9 && seen.overlap < 0.3, "{seen:?}");
+    }
+}
+
+#[test]
+fn a_tank_that_is_too_small_is_refused() {
+    let mut scene = dropped(2000, None);
+    if let Start::Random { z_max, .. } = &mut scene.start {
+        *z_max = 2.0 * RADIUS;
+    }
+    let refused = Simulation::new(&scene).err();
+    let expected = matches!(refused, Some(BuildError::Start(StartError::NoRoom { .. })));
+    assert!(expected, "{refused:?}");
+}
