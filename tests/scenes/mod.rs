@@ -164,11 +164,25 @@ impl State {
     }
 
     /// The state after each vector of it went through `polar`, each spin through `axial`.
-    pub(crate) fn map(&self, polar: fn(Vector) -> Vector, axial: fn(Vector) -> Vector) -> Self {
+    pub(crate) fn map(
+        &self,
+        polar: impl Fn(Vector) -> Vector,
+        axial: impl Fn(Vector) -> Vector,
+    ) -> Self {
         Self {
-            position: self.position.iter().copied().map(polar).collect(),
-            velocity: self.velocity.iter().copied().map(polar).collect(),
-            spin: self.spin.iter().copied().map(axial).collect(),
+            position: self.position.iter().copied().map(&polar).collect(),
+            velocity: self.velocity.iter().copied().map(&polar).collect(),
+            spin: self.spin.iter().copied().map(&axial).collect(),
+        }
+    }
+
+    /// The spheres in another order.
+    pub(crate) fn reordered(&self, order: &[usize]) -> Self {
+        let pick = |all: &[Vector]| order.iter().filter_map(|&i| all.get(i).copied()).collect();
+        Self {
+            position: pick(&self.position),
+            velocity: pick(&self.velocity),
+            spin: pick(&self.spin),
         }
     }
 
