@@ -46,6 +46,17 @@ pub(crate) fn downward() -> Option<Gravity> {
     })
 }
 
+/// Advances until the first contact is over, and the step after, which has the last kick.
+pub(crate) fn collide(simulation: &mut Simulation) -> Result<(), Instability> {
+    while simulation.elastic_energy() == 0.0 {
+        simulation.advance(1)?;
+    }
+    while simulation.elastic_energy() > 0.0 {
+        simulation.advance(1)?;
+    }
+    simulation.advance(1)
+}
+
 /// What a run shows.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen {

@@ -1,10 +1,10 @@
 //! Contacts of two spheres: stiff, deep, unequal, elastic and not.
 
-use crate::bench::{LIMIT, RADIUS, at, keeps_or_is_reported, moving, run};
+use crate::bench::{LIMIT, RADIUS, at, collide, keeps_or_is_reported, moving, run};
 use crate::scenes::{angular_momentum, cluster, momentum, scales};
 use phase::dem::Simulation;
 use phase::record::{Guard, Instability};
-use phase::scene::{Contact, Friction, Integrator, Scene, StartSphere};
+use phase::scene::{Contact, Friction, Integrator, Radii, Scene, Start, StartSphere};
 
 /// Largest speed after an elastic impact at the limit, over that before: the impact takes two steps,
 /// and it depends on where the first falls. Measured: 0.61 to 2.33.
@@ -43,12 +43,7 @@ fn with_restitution(mut scene: Scene, value: f64) -> Scene {
 /// Relative speed (m/s) after an impact.
 fn rebound(scene: &Scene) -> Result<f64, Instability> {
     let mut simulation = Simulation::new(scene).unwrap();
-    simulation.advance(3)?;
-    while simulation.elastic_energy() > 0.0 {
-        simulation.advance(1)?;
-    }
-    // The last kick belongs to the step after.
-    simulation.advance(1)?;
+    collide(&mut simulation)?;
     let velocity = &simulation.particles().velocity;
     Ok(velocity[1].x - velocity[0].x)
 }
@@ -129,6 +124,29 @@ fn restitution_near_zero_and_one_is_what_the_scene_says() {
                 least > 0.0 && most < bound,
                 "{least} to {most} for {restitution}"
             );
+        }
+    }
+}
+
+/// The same scene with all lengths so many times as large.
+fn enlarged(mut scene: Scene, factor: f64) -> Scene {
+    scene.spheres.radius = Radii::One(factor * RADIUS);
+    if let Start::List { spheres } = &mut scene.start {
+        for sphere in spheres {
+            sphere.position = sphere.position.map(|part| factor * part);
+        }
+    }
+    scene
+}
+
+#[test]
+fn restitution_does_not_drift_with_size() {
+    for integrator in Integrator::ALL {
+        for factor in [0.01, 0.1, 1.0, 10.0, 100.0] {
+            let change = |scene| with_restitution(enlarged(scene, factor), 0.6);
+            let found = rebounds(change, integrator, 0.01);
+            let close = |speed: f64| (speed / 0.6 - 1.0).abs() < 2e-3;
+            assert!(found.into_iter().all(close), "{found:?} at {factor}");
         }
     }
 }

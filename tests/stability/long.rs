@@ -1,6 +1,6 @@
 //! Many steps: what takes minutes, and a short form of it.
 
-use crate::bench::{LIMIT, at, crowded, downward, moving, watch};
+use crate::bench::{LIMIT, RADIUS, at, crowded, downward, moving, watch};
 use crate::crowds::{MINDLIN, column, column_frictions, drift, dropped, falls_soundly};
 use crate::scenes::{cluster, momentum, scales};
 use phase::dem::Simulation;
@@ -11,7 +11,7 @@ use phase::scene::{Integrator, Scene, StartSphere, Tank};
 fn a_column_of_a_hundred_stays_at_rest_for_a_million_steps() {
     for integrator in Integrator::ALL {
         for friction in column_frictions() {
-            let scene = crowded(&column(100, friction), integrator, LIMIT);
+            let scene = crowded(&column(&[RADIUS; 100], friction), integrator, LIMIT);
             let [way, speed] = drift(&scene, 1_000_000);
             assert!(way < 1e-10 && speed < 1e-10, "{way} radii, {speed} m/s");
         }
@@ -38,7 +38,7 @@ fn bouncing() -> Scene {
     scene
 }
 
-/// Two spheres that fly to and fro between two others, in a tank's corner, without gravity.
+/// Three spheres in empty space, which meet and part.
 fn isolated() -> Scene {
     let sphere = |x: f64, velocity: [f64; 3]| moving([x, 0.0, 0.0], velocity);
     let spheres = vec![

@@ -87,6 +87,5 @@ fn what_traps_a_small_sphere_is_the_time_step() {
     for integrator in TRAPPING {
         assert!(falls(&at(&neck(10.0), integrator, 0.2)));
         assert!(falls(&at(&neck(20.0), integrator, 0.02)));
-        assert!(falls(&at(&neck(30.0), integrator, 0.02)));
     }
 }

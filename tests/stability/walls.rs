@@ -1,11 +1,12 @@
 //! Spheres at walls: on the axis, at the rim, in the corner; grazing, damped and not.
 
 use crate::bench::{
-    LIMIT, RADIUS, at, crowded, deepest_overlap, downward, keeps_or_is_reported, moving, run, watch,
+    LIMIT, RADIUS, at, collide, crowded, deepest_overlap, downward, keeps_or_is_reported, moving,
+    run, watch,
 };
 use crate::scenes::{cluster, damped, energy};
 use phase::dem::Simulation;
-use phase::scene::{Friction, Integrator, Scene, StartSphere, Swirl, Tank};
+use phase::scene::{FixedSphere, Friction, Geometry, Integrator, Scene, StartSphere, Swirl, Tank};
 
 const WALL: f64 = 0.06;
 
@@ -34,13 +35,7 @@ fn frictions() -> [Friction; 2] {
 fn hit(scene: &Scene) -> f64 {
     let mut simulation = Simulation::new(scene).unwrap();
     let before = energy(&mut simulation, 0.0);
-    while simulation.elastic_energy() == 0.0 {
-        simulation.advance(1).unwrap();
-    }
-    while simulation.elastic_energy() > 0.0 {
-        simulation.advance(1).unwrap();
-    }
-    simulation.advance(1).unwrap();
+    collide(&mut simulation).unwrap();
     energy(&mut simulation, 0.0) / before
 }
 
@@ -76,6 +71,46 @@ fn grazing_hits_gain_no_energy() {
                     "{kept} at {degrees} degrees, {friction:?}, {integrator:?}"
                 );
             }
+        }
+    }
+}
+
+/// A fixed sphere so large that its curvature does not show is a floor.
+#[test]
+fn floor_and_very_large_sphere_answer_alike() {
+    let large = 1e5 * RADIUS;
+    let mut sphere = moving([0.0, 0.0, 1.1 * RADIUS], [0.6, 0.2, -0.8]);
+    sphere.spin = [40.0, -30.0, 20.0];
+    for integrator in Integrator::ALL {
+        for friction in frictions() {
+            let scene = damped(cluster(vec![sphere.clone()], Some(friction), 1e-6), 1e-4);
+            let mut scene = at(&scene, integrator, 0.2);
+            let after = |scene: &Scene| {
+                let mut simulation = Simulation::new(scene).unwrap();
+                collide(&mut simulation).unwrap();
+                let last = simulation.particles().len() - 1;
+                let particles = simulation.particles();
+                [particles.velocity[last], particles.spin[last] * RADIUS]
+            };
+            let below = FixedSphere {
+                position: [0.0, 0.0, -large],
+                radius: large,
+            };
+            scene.geometry = Some(Geometry::List {
+                walls: vec![below],
+                door: Vec::new(),
+            });
+            let from_sphere = after(&scene);
+            scene.geometry = None;
+            scene.tank = Some(Tank {
+                radius: None,
+                floor: Some(0.0),
+            });
+            let from_floor = after(&scene);
+            for (a, b) in from_sphere.into_iter().zip(from_floor) {
+                assert!((a - b).norm() < 1e-3, "{from_sphere:?}, {from_floor:?}");
+            }
+            assert!(from_floor[0].z > 0.1);
         }
     }
 }
