@@ -3,8 +3,13 @@
 //! Both integrators evaluate forces once per step, at velocities half a step behind the positions.
 //! A linear oscillator x'' = -w^2 x - g x' then stays bounded while
 //! (w dt)^2 + 2 g dt < 4, which is dt < 2/w without damping and dt < 2/g without a spring. Every
-//! limit here is that criterion for one effect, at the fastest impact the scene lets expect; the
-//! smallest spheres decide, since all of these times grow with the radius.
+//! limit here is that criterion for one effect, at the fastest impact the scene lets expect or the
+//! deepest overlap it starts with; the smallest spheres decide, since all of these times grow with the
+//! radius.
+//!
+//! Bounded is not accurate: an elastic impact at the limit takes two steps and ends with 0.6 to 2.4
+//! times its speed, at half the limit within 4 %, at a tenth within 0.03 %. Nor do the decisive limits
+//! know of several contacts of one sphere, which need that of twelve (tests/stability measures both).
 
 mod air;
 mod hertz;
