@@ -1,7 +1,7 @@
 //! Above each kind of limit a run is reported, or gains the energy that is measured here; nothing is
 //! clamped.
 
-use crate::bench::{LIMIT, RADIUS, at, downward, moving};
+use crate::bench::{LIMIT, PLAIN, RADIUS, at, downward, moving};
 use crate::contacts::rebounds;
 use crate::scenes::{cluster, damped, energy};
 use phase::dem::{Simulation, timestep};
@@ -9,9 +9,6 @@ use phase::record::{Guard, Instability};
 use phase::scene::{
     Contact, ContactDrag, Friction, Integrator, Scene, SpinDamping, StartSphere, Swirl, Tank,
 };
-
-/// The integrators that take the step of the scene as it is. One that divides it has other limits.
-const PLAIN: [Integrator; 2] = [Integrator::SymplecticEuler, Integrator::VelocityVerlet];
 
 /// What is tried above the limit, in units of it.
 const ABOVE: [f64; 2] = [1.5, 3.0];

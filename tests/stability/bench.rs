@@ -11,6 +11,9 @@ pub(crate) const RADIUS: f64 = 0.004;
 /// The largest part of the limit that is stable whatever the rounding.
 pub(crate) const LIMIT: f64 = 0.999;
 
+/// The integrators that take the step of the scene as it is; one that divides it has other limits.
+pub(crate) const PLAIN: [Integrator; 2] = [Integrator::SymplecticEuler, Integrator::VelocityVerlet];
+
 /// The scene with this integrator, at this part of its limit of the time step.
 pub(crate) fn at(scene: &Scene, integrator: Integrator, part: f64) -> Scene {
     let mut scene = scene.clone();

@@ -1,6 +1,6 @@
 //! Many spheres at once: at rest, dropped, packed to the brim.
 
-use crate::bench::{LIMIT, RADIUS, at, crowded, downward, keeps_or_is_reported, run, watch};
+use crate::bench::{LIMIT, PLAIN, RADIUS, at, crowded, downward, keeps_or_is_reported, run, watch};
 use crate::contacts::of_steel;
 use crate::scenes::{cluster, damped};
 use phase::dem::{BuildError, Simulation, start::StartError};
@@ -86,6 +86,19 @@ fn a_column_of_a_hundred_stays_at_rest() {
     }
 }
 
+/// Symptom: a strongly damped column gained 2 % of its energy and trembled, with no word. Cause: the
+/// limit of twelve contacts left out their damping.
+#[test]
+fn a_strongly_damped_column_stays_at_rest() {
+    for integrator in Integrator::ALL {
+        for dissipation in [3e-3, 1e-2, 0.1] {
+            let scene = damped(column(&[RADIUS; 100], None), dissipation);
+            let [way, speed] = drift(&crowded(&scene, integrator, LIMIT), 20_000);
+            assert!(way < 1e-11 && speed < 1e-11, "{way} radii, {speed} m/s");
+        }
+    }
+}
+
 /// The lower sphere is pressed from above and below, by a thousand times its weight.
 #[test]
 fn a_thousandfold_mass_rests_on_a_light_sphere() {
@@ -154,7 +167,8 @@ fn a_leaning_column_with_regularised_friction_trembles_where_the_step_is_coarse(
         };
         assert!(way(0.05, 2, 150_000) < 2e-3);
         let trembling = way(LIMIT, 2, 7_500);
-        assert!(trembling > 0.01 && trembling < 2.0, "{trembling} radii");
+        assert!(trembling < 2.0, "{trembling} radii");
+        assert!(trembling > 0.01 || !PLAIN.contains(&integrator));
     }
 }
 

@@ -157,6 +157,8 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
     };
     let radius = scene.smallest_radius();
     let frequency = impact.angular_frequency();
+    // The law's damping at overlap xi: g = K c A sqrt(xi) / m_eff.
+    let rate = 2.0 / 3.0 * dissipation_factor * dissipation_time(scene) * frequency * frequency;
     let mut limits = vec![
         Limit {
             name: "contact",
@@ -165,7 +167,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
             explanation: "2/w of the two smallest spheres at their deepest overlap, at the start or in \
                           the fastest impact, w^2 = (3/2) K sqrt(xi) / m_eff",
         },
-        super::twelve_contacts(frequency),
+        super::twelve_contacts(frequency, rate),
         Limit {
             name: "Rayleigh time",
             seconds: rayleigh_time(
@@ -185,24 +187,17 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
             explanation: "the fastest sphere stays below the displacement guard",
         },
     ];
-    limits.extend(damping_limit(
-        frequency,
-        dissipation_factor * dissipation_time(scene),
-    ));
+    if rate > 0.0 {
+        limits.push(Limit {
+            name: "damped contact",
+            seconds: super::damped_oscillator(frequency, rate),
+            decisive: true,
+            explanation: "(w dt)^2 + 2 g dt < 4 with the w of the contact limit and the damping rate \
+                          g = (2/3) c A w^2",
+        });
+    }
     limits.extend(friction_limit(scene, &impact, *poisson_ratio));
     limits
-}
-
-/// The contact law's damping rate at overlap xi is g = K c A sqrt(xi) / m_eff = (2/3) c A w^2.
-fn damping_limit(frequency: f64, dissipation: f64) -> Option<Limit> {
-    let rate = 2.0 / 3.0 * dissipation * frequency * frequency;
-    (rate > 0.0).then(|| Limit {
-        name: "damped contact",
-        seconds: super::damped_oscillator(frequency, rate),
-        decisive: true,
-        explanation: "(w dt)^2 + 2 g dt < 4 with the w of the contact limit and the damping rate \
-                      g = (2/3) c A w^2",
-    })
 }
 
 fn friction_limit(scene: &Scene, impact: &Impact, poisson_ratio: f64) -> Option<Limit> {

@@ -111,15 +111,15 @@ fn damped_oscillator(frequency: f64, rate: f64) -> f64 {
     4.0 / (rate + (rate * rate + 4.0 * frequency * frequency).sqrt())
 }
 
-/// The limit of a sphere with twelve contacts, each of which has that angular frequency w (1/s) in a
-/// pair alone.
-fn twelve_contacts(frequency: f64) -> Limit {
+/// The limit of a sphere with twelve contacts, each of which has that angular frequency w (1/s) and
+/// damping rate g (1/s) in a pair alone.
+fn twelve_contacts(frequency: f64, rate: f64) -> Limit {
     Limit {
         name: "twelve contacts",
-        seconds: 2.0 / (6.0_f64.sqrt() * frequency),
+        seconds: damped_oscillator(6.0_f64.sqrt() * frequency, 6.0 * rate),
         decisive: false,
-        explanation: "2/w of a sphere with twelve such contacts, w^2 = 12 k / m, all of them taken \
-                      to act along one line",
+        explanation: "(w dt)^2 + 2 g dt < 4 of a sphere with twelve such contacts, w and g^(1/2) \
+                      sqrt(6) times those of a pair: all of them are taken to act along one line",
     }
 }
 
@@ -248,6 +248,15 @@ mod tests {
         );
         close(largest_stable(&elastic).unwrap().seconds, 3.370e-3, 5e-4);
         let damped = pair(&hertz("dissipation_time = 1e-3"));
+        // Six times as stiff and as damped as the pair.
+        let [one, twelve] = ["contact", "twelve contacts"].map(|name| {
+            let all = limits(&damped);
+            let found = all.iter().find(|limit| limit.name == name);
+            found.unwrap().seconds
+        });
+        let frequency = 2.0 / one;
+        let sum = 6.0 * frequency * frequency * twelve * (twelve + 4.0 / 3.0 * 1e-3);
+        close(sum, 4.0, 1e-12);
         assert_eq!(largest_stable(&damped).unwrap().name, "damped contact");
         let mindlin = "friction = { law = 'mindlin', coefficient = 0.3 }\n";
         let sticking = pair(&(hertz("dissipation_time = 0") + mindlin));
