@@ -41,7 +41,7 @@ pub fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
     let chart = Chart {
         name: "ledger",
         common: vec![format!(
-            "{}, $\\Delta t$ = {} s",
+            "{}, time step {} s",
             record.scene.time.integrator.name(),
             crate::document::number(record.scene.time.dt)
         )],

@@ -272,10 +272,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             force,
             ..
         } = *meeting;
-        let along = force.dot(normal);
         let elastic = self
             .normal
             .force(meeting.overlap, 0.0, meeting.effective_radius);
+        if !T::ROTATES {
+            return [force - normal * elastic, Vector::ZERO];
+        }
+        let along = force.dot(normal);
         let sideways = velocity.perpendicular_to(normal) * -self.normal.sideways_drag();
         let damping = normal * (along - elastic) + sideways;
         [damping, force - normal * along - sideways]

@@ -77,7 +77,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
             decisive: true,
             explanation: "2/w of the two smallest spheres, w^2 = k / m_eff",
         },
-        super::twelve_contacts(frequency),
+        super::twelve_contacts(scheme, frequency, impact.damping_rate()),
         Limit {
             name: super::DISPLACEMENT,
             seconds: scene.guards.displacement * scene.smallest_radius() / speed,
