@@ -2,6 +2,7 @@
 //!
 //! What the keys mean and their units stand at the structs in [`super`].
 
+use super::Integrator;
 use crate::document::schema::{Kind, Range, needed, optional};
 
 /// Least and largest length (m), in scene files and in the files that they name.
@@ -233,10 +234,7 @@ const TIME: Kind = Kind::Table(&[
     optional("safety_factor", Kind::Number(Range::above(0.0, 1.0))),
     needed("duration", SECONDS),
     needed("frame_interval", SECONDS),
-    optional(
-        "integrator",
-        Kind::Choice(&["symplectic-euler", "velocity-verlet"]),
-    ),
+    optional("integrator", Kind::Choice(&Integrator::NAMES)),
 ]);
 
 const GUARDS: Kind = Kind::Table(&[

@@ -42,18 +42,23 @@ fn an_elastic_impact_above_the_contact_limit_is_reported() {
     }
 }
 
-/// Measured: 0.025 of the speed is left at the limit, 0.63 and 3.8 above it.
+/// Measured: 0.025 of the speed is left at the limit, 0.63 and 3.8 above it; with synchronised Verlet,
+/// which has a tighter limit for damping, 0.03 and 0.66.
 #[test]
 fn a_damped_impact_above_its_limit_rebounds_the_faster() {
     for integrator in PLAIN {
         let most = |part| rebounds(|scene| damped(scene, 1e-2), integrator, part)[1];
         assert!(most(LIMIT) < 0.05, "{}", most(LIMIT));
-        assert!(most(1.5) > 0.3 && most(3.0) > 2.0, "{:?}", ABOVE.map(most));
+        assert!(
+            most(1.5) > most(LIMIT) && most(3.0) > 0.5,
+            "{:?}",
+            ABOVE.map(most)
+        );
     }
 }
 
 /// Largest energy after oblique impacts, over that before; infinite where one is reported. Measured:
-/// 1.50 at the limit, 31 half above it.
+/// 1.50 at the limit, 31 half above it (5.2 with synchronised Verlet).
 fn oblique(integrator: Integrator, part: f64) -> f64 {
     let outcomes = (0..32).map(|phase| {
         let offset = 1e-4 * f64::from(phase);
@@ -79,7 +84,7 @@ fn an_oblique_impact_above_the_sticking_limit_gains_energy() {
         let most = |part| oblique(integrator, part);
         assert!(most(0.1) < 1.0, "{}", most(0.1));
         assert!(most(LIMIT) < 1.6, "{}", most(LIMIT));
-        assert!(most(1.5) > 10.0, "{}", most(1.5));
+        assert!(most(1.5) > 4.0, "{}", most(1.5));
         assert_eq!(most(3.0), f64::INFINITY);
     }
 }
@@ -134,8 +139,10 @@ fn a_sphere_at_rest_above_the_damped_limit_trembles_or_is_reported() {
         let speed = |part| motion(&scene, integrator, part, 20_000).unwrap()[0];
         assert!(speed(LIMIT) < 1e-12, "{}", speed(LIMIT));
         assert!(speed(2.0) > 1e-3, "{}", speed(2.0));
-        let broken = motion(&scene, integrator, 3.0, 20_000).unwrap_err();
-        assert_eq!(broken.guard, Guard::Displacement, "{broken}");
+        match motion(&scene, integrator, 3.0, 20_000) {
+            Ok([speed, _]) => assert!(speed > 0.1, "{speed}"),
+            Err(broken) => assert_eq!(broken.guard, Guard::Displacement, "{broken}"),
+        }
     }
 }
 

@@ -227,13 +227,13 @@ fn friction_limit(scene: &Scene, impact: &Impact, poisson_ratio: f64) -> Option<
             let stiffness_ratio = 2.0 * (1.0 - poisson_ratio) / (2.0 - poisson_ratio);
             Some(Limit {
                 name: "sticking contact",
-                seconds: Scheme::of(scene).loaded_spring(
+                seconds: Scheme::of(scene).oscillator(
                     (3.5 * stiffness_ratio).sqrt() * impact.angular_frequency(),
                     0.0,
                 ),
                 decisive: true,
-                explanation: "2/w of the tangential spring, w^2 = 3.5 q k_t / m_eff with \
-                              k_t / k_n = 2 (1 - nu) / (2 - nu); q = 2 for synchronised-verlet, else 1",
+                explanation: "2/w of the tangential spring, w^2 = 3.5 k_t / m_eff with \
+                              k_t / k_n = 2 (1 - nu) / (2 - nu)",
             })
         }
     }
