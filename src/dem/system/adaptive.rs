@@ -16,9 +16,6 @@ use crate::record::Instability;
 /// damping rate g: an impact then lasts 27 sub-steps or more.
 const RESOLUTION: f64 = 0.15;
 
-/// The same for friction that grows with the sliding speed, which need not be resolved, only stable.
-const FRICTION_RESOLUTION: f64 = 0.5;
-
 /// What a step of the scheme works with; nothing of it is needed from step to step.
 #[derive(Default)]
 pub(super) struct Adaptive<H> {
@@ -299,12 +296,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let along = yielding + turning;
         let squared = (normal.stiffness(overlap, effective_radius) * yielding)
             .max(tangential.stiffness(overlap, effective_radius) * along);
-        let friction = tangential.damping(force, speed) * along;
+        // Sliding that stops faster than the contact swings is not resolved: it trembles, within what
+        // friction can carry.
+        let friction = (tangential.damping(force, speed) * along).min(squared.sqrt());
         let damping = normal.damping(overlap, effective_radius) * yielding;
-        [
-            squared,
-            damping.max(friction * (RESOLUTION / FRICTION_RESOLUTION)),
-        ]
+        [squared, damping.max(friction)]
     }
 
     fn move_free_spheres(&mut self, work: &Adaptive<T::History>) {
