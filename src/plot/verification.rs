@@ -158,7 +158,8 @@ impl Layout {
             _ => f64::from(DECADES.0),
         };
         // One integrator above the other, or equal errors would hide each other.
-        let shift = px(4) * index_of(error.integrator) as i32 - px(2);
+        let middle = px(2) * (Integrator::ALL.len() as i32 - 1);
+        let shift = px(4) * index_of(error.integrator) as i32 - middle;
         let place = (self.across(power), self.down(row) + shift);
         sheet.draw(&Circle::new(place, DOT, color(error.integrator).filled()))
     }
