@@ -247,6 +247,7 @@ const GUARDS: Kind = Kind::Table(&[
 const OUTPUT: Kind = Kind::Table(&[
     optional("snapshot_interval", NOT_NEGATIVE),
     optional("trajectory", Kind::Flag),
+    optional("ledger", Kind::Flag),
     optional("profile_bins", COUNT),
     optional("rise_speeds", Kind::List(&NUMBER)),
     optional("rise_radii", Kind::List(&POSITIVE)),
