@@ -54,9 +54,9 @@ pub(super) struct Layout {
 
 impl Layout {
     /// Places the parts of a diagram: the legend beside a single panel, else below all.
-    pub(super) fn new(
+    pub(super) fn new<P>(
         title: Option<&str>,
-        grid: &Grid,
+        grid: &Grid<P>,
         bar: Option<ColorBar>,
         entries: Vec<Entry>,
     ) -> Self {
@@ -74,7 +74,7 @@ impl Layout {
             };
         let (left, ticks_left) = shape.left(grid);
         let title = title_lines(title);
-        let column_heads = if grid.columns.is_some() { HEAD } else { 0 };
+        let column_heads = if grid.has_heads() { HEAD } else { 0 };
         let origin = (MARGIN + left, title_height(&title) + column_heads);
         let panel = shape.panel(WIDTH - 2 * MARGIN - left - right);
         let heads_between = if grid.rows.is_some() { 0 } else { column_heads };
@@ -173,7 +173,7 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    fn new(grid: &Grid, with_bar: bool) -> Self {
+    fn new<P>(grid: &Grid<P>, with_bar: bool) -> Self {
         let panels = grid.panels.len();
         let columns = match &grid.columns {
             Some(axis) if grid.rows.is_some() => axis.values.len(),
@@ -211,7 +211,7 @@ impl Shape {
     }
 
     /// Room left of the panels, and that of the tick labels therein.
-    fn left(self, grid: &Grid) -> (i32, i32) {
+    fn left<P>(self, grid: &Grid<P>) -> (i32, i32) {
         if self.strip {
             return (px(8), 0);
         }
@@ -221,12 +221,12 @@ impl Shape {
     }
 }
 
-fn x_scale(grid: &Grid, length: i32) -> Scale {
+fn x_scale<P>(grid: &Grid<P>, length: i32) -> Scale {
     scale(&grid.x, length, Direction::Horizontal)
 }
 
 /// The vertical scale; that of a strip goes from 0 to 1 without ticks.
-fn y_scale(grid: &Grid, length: i32) -> Scale {
+fn y_scale<P>(grid: &Grid<P>, length: i32) -> Scale {
     match &grid.y {
         Some(axis) => scale(axis, length, Direction::Vertical),
         None => Scale::bare(0.0, 1.0),

@@ -254,6 +254,7 @@ const GUARDS: Kind = Kind::Table(&[
 const OUTPUT: Kind = Kind::Table(&[
     optional("snapshot_interval", NOT_NEGATIVE),
     optional("trajectory", Kind::Flag),
+    optional("ledger", Kind::Flag),
     optional("profile_bins", COUNT),
     optional("rise_speeds", Kind::List(&NUMBER)),
     optional("rise_radii", Kind::List(&POSITIVE)),
@@ -285,7 +286,7 @@ mod tests {
             "neighbours": { "search": "cells", "length": 0.25 },
             "time": { "dt": 1e-4, "duration": 1.0, "frame_interval": 1e-3 },
             "guards": {},
-            "output": {},
+            "output": { "ledger": true },
         })
     }
 
