@@ -62,7 +62,10 @@ impl Layout {
     ) -> Self {
         let shape = Shape::new(grid, bar.is_some());
         let beside = shape.columns == 1 && bar.is_none() && !shape.strip;
-        let legend = Legend::new(entries, if beside { 0 } else { WIDTH - 2 * MARGIN });
+        let (left, ticks_left) = shape.left(grid);
+        // Below the panels it begins where they do.
+        let room = WIDTH - 2 * MARGIN - left;
+        let legend = Legend::new(entries, if beside { 0 } else { room });
         let bar = bar.map(|bar| bar.fitted(shape.rough_height()));
 
         let row_heads = if grid.rows.is_some() { SIDE_HEAD } else { 0 };
@@ -72,7 +75,6 @@ impl Layout {
                 None if beside && legend.size().0 > 0 => ASIDE + legend.size().0,
                 None => 0,
             };
-        let (left, ticks_left) = shape.left(grid);
         let title = title_lines(title);
         let column_heads = if grid.has_heads() { HEAD } else { 0 };
         let origin = (MARGIN + left, title_height(&title) + column_heads);
@@ -241,5 +243,10 @@ fn scale(axis: &super::grid::GridAxis, length: i32, direction: Direction) -> Sca
         direction,
     };
     let (low, high) = (edges[0], edges[edges.len() - 1]);
-    Scale::new(low, high, axis.logarithmic(), &axis.shown(), room)
+    let scale = Scale::new(low, high, axis.logarithmic(), &axis.shown(), room);
+    match direction {
+        // The room between panels is shared with the next one.
+        Direction::Horizontal => scale.with_labels_within(room, f64::from(GAP / 3)),
+        Direction::Vertical => scale,
+    }
 }
