@@ -90,7 +90,10 @@ impl Layout {
             ticks: (ticks_left, TICKS_BELOW),
             bar: None,
             legend: (legend, (0, 0)),
-            scales: (x_scale(grid, panel.0), y_scale(grid, panel.1)),
+            scales: (
+                x_scale(grid, panel.0, shape.columns),
+                y_scale(grid, panel.1),
+            ),
         };
 
         let end = layout.end();
@@ -223,8 +226,14 @@ impl Shape {
     }
 }
 
-fn x_scale<P>(grid: &Grid<P>, length: i32) -> Scale {
-    scale(&grid.x, length, Direction::Horizontal)
+/// The horizontal scale of panels of a length, of which so many stand side by side.
+fn x_scale<P>(grid: &Grid<P>, length: i32, columns: usize) -> Scale {
+    let scale = scale(&grid.x, length, Direction::Horizontal);
+    if columns == 1 {
+        return scale;
+    }
+    // The room between panels is shared with the next one.
+    scale.with_labels_within(room(length, Direction::Horizontal), f64::from(GAP / 3))
 }
 
 /// The vertical scale; that of a strip goes from 0 to 1 without ticks.
@@ -237,16 +246,15 @@ fn y_scale<P>(grid: &Grid<P>, length: i32) -> Scale {
 
 fn scale(axis: &super::grid::GridAxis, length: i32, direction: Direction) -> Scale {
     let edges = axis.edges();
-    let room = Room {
+    let room = room(length, direction);
+    let (low, high) = (edges[0], edges[edges.len() - 1]);
+    Scale::new(low, high, axis.logarithmic(), &axis.shown(), room)
+}
+
+fn room(length: i32, direction: Direction) -> Room {
+    Room {
         length: f64::from(length),
         size: f64::from(SMALL),
         direction,
-    };
-    let (low, high) = (edges[0], edges[edges.len() - 1]);
-    let scale = Scale::new(low, high, axis.logarithmic(), &axis.shown(), room);
-    match direction {
-        // The room between panels is shared with the next one.
-        Direction::Horizontal => scale.with_labels_within(room, f64::from(GAP / 3)),
-        Direction::Vertical => scale,
     }
 }
