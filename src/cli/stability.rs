@@ -129,10 +129,10 @@ struct Tried {
     integrator: &'static str,
     /// Number of runs by label.
     labels: BTreeMap<&'static str, usize>,
-    /// Largest step over its limit up to which all runs are stable.
-    all_stable_to: Option<f64>,
+    /// Least step over its limit of a run that is not stable.
+    all_stable_below: Option<f64>,
     /// Largest step over its limit of a stable run.
-    some_stable_to: Option<f64>,
+    none_stable_above: Option<f64>,
 }
 
 impl Tried {
@@ -155,14 +155,11 @@ impl Tried {
                 .filter(move |row| (row.label == Label::Stable) == stable);
             chosen.filter_map(|row| row.limit.as_ref().map(|limit| limit.0))
         };
-        let first_broken = ratios(false).fold(f64::INFINITY, f64::min);
         Self {
             integrator: integrator.name(),
             labels,
-            all_stable_to: ratios(true)
-                .filter(|ratio| *ratio < first_broken)
-                .reduce(f64::max),
-            some_stable_to: ratios(true).reduce(f64::max),
+            all_stable_below: ratios(false).reduce(f64::min),
+            none_stable_above: ratios(true).reduce(f64::max),
         }
     }
 
@@ -176,8 +173,14 @@ impl Tried {
             self.integrator,
             counts.collect::<Vec<_>>().join(", ")
         );
-        if let (Some(all), Some(some)) = (self.all_stable_to, self.some_stable_to) {
-            text += &format!("; all stable to {all:.3} of the limit, some to {some:.3}");
+        match (self.all_stable_below, self.none_stable_above) {
+            (Some(below), Some(above)) => {
+                text += &format!(
+                    "; all stable below {below:.3} of the limit, none above {above:.3} of it"
+                );
+            }
+            (None, Some(above)) => text += &format!(", up to {above:.3} of the limit"),
+            _ => {}
         }
         text
     }

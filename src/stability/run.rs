@@ -5,9 +5,10 @@ use crate::record::{Guard, Outcome};
 use crate::run::{self, RunError};
 use crate::scene::Integrator;
 use crate::store::{self, StoreError};
-use crate::sweep::{Failure, Job, work};
+use crate::sweep::{Failure, Job, panic_message, work};
 use std::collections::HashMap;
 use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -136,23 +137,27 @@ impl Trials<'_> {
     /// Makes one run and notes what became of it.
     fn make(&self, index: usize, state: &Mutex<State>) {
         let job = &self.jobs[index];
-        match self.row(job) {
-            Ok((row, cpu_seconds)) => {
+        let reason = match catch_unwind(AssertUnwindSafe(|| self.row(job))) {
+            Ok(Ok((row, cpu_seconds))) => {
                 (self.watch)(Event::Finished(job, &row));
-                let mut state = lock(state);
-                state.rows[index] = Some(row);
-                state.cpu_seconds += cpu_seconds;
-                if state.written.elapsed() >= BETWEEN_WRITINGS {
-                    state.halted = self.write(&state.rows).err();
-                    state.written = Instant::now();
-                }
+                return self.keep(index, row, cpu_seconds, &mut lock(state));
             }
-            Err(RunError::Interrupted) => {}
-            Err(RunError::Build(error)) => {
-                let failure = Failure::new(job, error.to_string());
-                (self.watch)(Event::Failed(job, &failure));
-                lock(state).failures.push(failure);
-            }
+            Ok(Err(RunError::Interrupted)) => return,
+            Ok(Err(RunError::Build(error))) => error.to_string(),
+            Err(panic) => format!("a bug in phase: {}", panic_message(&*panic)),
+        };
+        let failure = Failure::new(job, reason);
+        (self.watch)(Event::Failed(job, &failure));
+        lock(state).failures.push(failure);
+    }
+
+    /// Notes a row, and writes the table if that was not done for a while.
+    fn keep(&self, index: usize, row: Row, cpu_seconds: f64, state: &mut State) {
+        state.rows[index] = Some(row);
+        state.cpu_seconds += cpu_seconds;
+        if state.written.elapsed() >= BETWEEN_WRITINGS {
+            state.halted = self.write(&state.rows).err();
+            state.written = Instant::now();
         }
     }
 
