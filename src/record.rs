@@ -165,7 +165,7 @@ pub struct Instability {
 /// A numerical guard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Guard {
-    /// A position or velocity is not a number.
+    /// A position or velocity is not a number, or a spin beyond all numbers.
     NotANumber,
     /// A centre is out of bounds.
     OutOfBounds,

@@ -4,7 +4,7 @@
 
 mod scenes;
 
-use phase::dem::Simulation;
+use phase::dem::{Simulation, timestep};
 use phase::record::{Guard, Instability};
 use phase::scene::{Friction, Integrator, Scene, StartSphere};
 use proptest::prelude::*;
@@ -200,6 +200,19 @@ fn what_is_not_a_number_is_named_at_once() {
             .unwrap();
     assert_eq!(scene.problems().len(), 0);
     assert_broken(&scene, Guard::NotANumber, 1, 1..=1);
+}
+
+/// Symptom: the energy of a run was not a number, and the run went on. Cause: spins were only looked at
+/// where spheres touch.
+#[test]
+fn a_spin_that_grows_without_end_is_reported() {
+    let still = sphere([0.0; 3], [0.0; 3]);
+    let mut spinning = sphere([0.0, 0.1, 0.0], [0.0; 3]);
+    spinning.spin = [0.0, 0.0, 1.0];
+    let mut scene = cluster(vec![still, spinning], frictions()[3].clone(), 1e-5);
+    scene.spin_damping = Some(phase::scene::SpinDamping { coefficient: 0.01 });
+    scene.time.dt = 3.0 * timestep::largest_stable(&scene).unwrap().seconds;
+    assert_broken(&scene, Guard::NotANumber, 1, 500..=10_000);
 }
 
 #[test]

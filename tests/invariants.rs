@@ -4,11 +4,14 @@
 
 mod scenes;
 
+use phase::dem::Simulation;
 use phase::dem::vector::Vector;
-use phase::dem::{Particles, Simulation};
-use phase::scene::{Contact, Friction, Integrator, Scene, StartSphere, Tank};
+use phase::scene::{Contact, DragForm, Friction, Integrator, Scene, StartSphere, Tank};
 use proptest::prelude::*;
-use scenes::{INTEGRATORS, State, cluster, converging_spheres, frictions, state, tank};
+use scenes::{
+    INTEGRATORS, State, angular_momentum, cluster, converging_spheres, damped, energy, frictions,
+    momentum, scales, state, tank,
+};
 
 /// Laws in which every force on a sphere has a reaction on its partner, torques included.
 fn reciprocal_frictions() -> impl Strategy<Value = Option<Friction>> {
@@ -18,59 +21,6 @@ fn reciprocal_frictions() -> impl Strategy<Value = Option<Friction>> {
 
 fn integrators() -> impl Strategy<Value = Integrator> {
     prop::sample::select(INTEGRATORS.to_vec())
-}
-
-fn momentum(particles: &Particles) -> Vector {
-    (0..particles.len()).fold(Vector::ZERO, |sum, i| {
-        sum + particles.velocity[i] * particles.mass[i]
-    })
-}
-
-fn angular_momentum(particles: &Particles) -> Vector {
-    (0..particles.len()).fold(Vector::ZERO, |sum, i| {
-        let orbital = particles.position[i].cross(particles.velocity[i]) * particles.mass[i];
-        let spin = particles.spin.get(i).copied().unwrap_or_default();
-        let inertia = particles.inertia.get(i).copied().unwrap_or_default();
-        sum + orbital + spin * inertia
-    })
-}
-
-/// Momentum and angular momentum if all of it had one direction: what rounding is relative to.
-fn scales(particles: &Particles) -> (f64, f64) {
-    let spin = |i: usize| particles.spin.get(i).map_or(0.0, |spin| spin.norm());
-    let inertia = |i: usize| particles.inertia.get(i).copied().unwrap_or_default();
-    (0..particles.len()).fold((0.0, 0.0), |(linear, angular), i| {
-        let momentum = particles.mass[i] * particles.velocity[i].norm();
-        let orbital = momentum * particles.position[i].norm();
-        (linear + momentum, angular + orbital + inertia(i) * spin(i))
-    })
-}
-
-/// Kinetic, rotational, gravitational and elastic energy (J).
-fn energy(simulation: &mut Simulation, gravity: f64) -> f64 {
-    let elastic = simulation.elastic_energy();
-    let particles = simulation.particles();
-    let of_sphere = |i: usize| {
-        let spin = particles
-            .spin
-            .get(i)
-            .map_or(0.0, |spin| spin.norm_squared());
-        let inertia = particles.inertia.get(i).copied().unwrap_or_default();
-        let translation = 0.5 * particles.velocity[i].norm_squared();
-        particles.mass[i] * (translation + gravity * particles.position[i].z) + 0.5 * inertia * spin
-    };
-    (0..particles.len()).map(of_sphere).sum::<f64>() + elastic
-}
-
-fn damped(mut scene: Scene, time: f64) -> Scene {
-    let Some(Contact::Hertz {
-        dissipation_time, ..
-    }) = &mut scene.contact
-    else {
-        panic!("a scene with contacts")
-    };
-    *dissipation_time = Some(time);
-    scene
 }
 
 proptest! {
@@ -207,7 +157,7 @@ fn tanks() -> impl Iterator<Item = (Scene, State, Vec<f64>)> {
     })
 }
 
-/// Rounding grows in collisions: over 400 steps to much less than this part of a radius.
+/// Rounding grows in collisions: over the steps of these runs to much less than this part of a radius.
 const CLOSE: f64 = 1e-6;
 const STEPS: u64 = 400;
 
@@ -235,22 +185,78 @@ fn a_quarter_turn_about_the_axis_changes_nothing() {
     }
 }
 
+/// What turns a vector about the axis by this angle.
+fn turned(angle: f64) -> impl Fn(Vector) -> Vector + Copy {
+    let (sine, cosine) = libm::sincos(angle);
+    move |v| Vector::new(cosine * v.x - sine * v.y, sine * v.x + cosine * v.y, v.z)
+}
+
+#[test]
+fn a_turn_by_any_angle_about_the_axis_changes_nothing() {
+    let turn = turned(1.0);
+    for (mut scene, start, radius) in tanks() {
+        // Quadratic drag by components knows the axes, and so does the shield.
+        scene.drag.as_mut().unwrap().form = DragForm::Vector;
+        scene.updraught = None;
+        let end = run(&going_on(&scene, &start.map(turn, turn), &radius), STEPS);
+        let expected = run(&going_on(&scene, &start, &radius), STEPS).map(turn, turn);
+        let distance = end.distance(&expected, 0.004);
+        assert!(distance < CLOSE, "{:?}: {distance}", scene.friction);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    /// Turned, mirrored, renumbered or a hundred times as heavy and stiff: the same motion.
+    #[test]
+    fn isolated_spheres_move_alike_however_they_are_looked_at(
+        spheres in converging_spheres(),
+        friction in prop::sample::select(frictions().to_vec()),
+        integrator in integrators(),
+        dissipation in prop::sample::select(vec![0.0, 1e-4]),
+        angle in 0.0..6.3_f64,
+        shift in 0_usize..10,
+    ) {
+        let mut scene = damped(cluster(spheres, friction, 2e-5), dissipation);
+        scene.time.integrator = integrator;
+        let simulation = Simulation::new(&scene).unwrap();
+        let (start, radius) = (state(&simulation), simulation.particles().radius.clone());
+        let end = run(&scene, 1500);
+        let check = |other: &Scene, expected: &State, what: &str| {
+            let distance = run(other, 1500).distance(expected, 0.004);
+            prop_assert!(distance < CLOSE, "{what}: {distance}");
+            Ok(())
+        };
+        let turn = turned(angle);
+        let other = going_on(&scene, &start.map(turn, turn), &radius);
+        check(&other, &end.map(turn, turn), "turned")?;
+        let polar = |v: Vector| Vector::new(v.x, v.y, -v.z);
+        let axial = |v: Vector| Vector::new(-v.x, -v.y, v.z);
+        let other = going_on(&scene, &start.map(polar, axial), &radius);
+        check(&other, &end.map(polar, axial), "mirrored")?;
+        let mut order: Vec<usize> = (0..radius.len()).rev().collect();
+        order.rotate_left(shift % radius.len());
+        let radii: Vec<f64> = order.iter().map(|&i| radius[i]).collect();
+        let other = going_on(&scene, &start.reordered(&order), &radii);
+        check(&other, &end.reordered(&order), "renumbered")?;
+        let mut other = scene.clone();
+        other.spheres.density *= 100.0;
+        if let Some(Contact::Hertz { young_modulus, .. }) = &mut other.contact {
+            *young_modulus *= 100.0;
+        }
+        check(&other, &end, "scaled")?;
+    }
+}
+
 #[test]
 fn numbers_of_the_spheres_do_not_matter() {
     for (scene, start, radius) in tanks() {
         let count = radius.len();
         let order: Vec<usize> = (0..count).map(|i| (7 * i + 3) % count).collect();
-        let reordered = |state: &State| {
-            let pick = |all: &[Vector]| order.iter().filter_map(|&i| all.get(i).copied()).collect();
-            State {
-                position: pick(&state.position),
-                velocity: pick(&state.velocity),
-                spin: pick(&state.spin),
-            }
-        };
         let radius: Vec<f64> = order.iter().map(|&i| radius[i]).collect();
-        let renumbered = going_on(&scene, &reordered(&start), &radius);
-        let expected = reordered(&run(&scene, STEPS));
+        let renumbered = going_on(&scene, &start.reordered(&order), &radius);
+        let expected = run(&scene, STEPS).reordered(&order);
         let distance = run(&renumbered, STEPS).distance(&expected, 0.004);
         assert!(distance < CLOSE, "{:?}: {distance}", scene.friction);
     }

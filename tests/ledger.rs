@@ -11,6 +11,7 @@ use phase::run;
 use phase::scene::{Friction, Integrator, Scene};
 use scenes::{INTEGRATORS, frictions, tank};
 use std::ops::ControlFlow;
+use support::Workplace;
 
 fn observe(scene: &Scene) -> RunRecord {
     let record = run::run(scene, &mut |_| ControlFlow::Continue(())).unwrap();
@@ -257,4 +258,28 @@ fn the_books_of_a_silo_close() {
             "{integrator:?}: {residual} of {turnover}"
         );
     }
+}
+
+/// Through the program: asked for by a flag, drawn from the record, named where it is missing.
+#[test]
+fn the_program_keeps_and_draws_the_books() {
+    let place = Workplace::new();
+    place.write("scene.toml", &support::scene_file());
+    let run = |more: &[&str]| {
+        let arguments = [&["run", "scene.toml", "--out", "run.h5"], more].concat();
+        place.phase(&arguments).code(0)
+    };
+    assert!(run(&["--ledger"]).stdout.contains("residual"));
+    place
+        .phase(&["plot", "run.h5"])
+        .code(0)
+        .says("run-ledger.svg");
+    let picture = place.read("run-ledger.svg");
+    for word in ["dissipated by damping", "residual", "symplectic-euler"] {
+        assert!(picture.contains(word), "{word}");
+    }
+    assert!(!run(&[]).stdout.contains("residual"));
+    place
+        .phase(&["plot", "run.h5", "--figure", "ledger"])
+        .complains("ledger = true");
 }

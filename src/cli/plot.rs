@@ -4,14 +4,14 @@ use super::console::Console;
 use super::exit::{Exit, Failure};
 use phase::classify::Family;
 use phase::plot::{self, PlotError, Svg};
-use phase::record::Program;
+use phase::record::{Program, RunRecord};
 use phase::store;
 use phase::sweep::{Folder, FolderError, LabelTable, Sweep, parse_point};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Draw the figures of a results folder, as SVG and PNG, from its labels.csv and records, or the
-/// tracks of the spheres from the record of one run.
+/// Draw the figures of a results folder, as SVG and PNG, from its labels.csv and records, or those of
+/// the record of one run: the tracks of its spheres, the ledger of its energy.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: what can be drawn of a folder, and one of it
@@ -20,13 +20,15 @@ Example: what can be drawn of a folder, and one of it
 Example: the speeds in two runs
   phase plot results/quick --figure speeds --point radius=0.002,omega=8 --point radius=0.006,omega=8
 Example: the paths of the spheres in one record, which needs `trajectory = true` in its scene
-  phase plot results/collisions/cradle.h5")]
+  phase plot results/collisions/cradle.h5
+Example: where the energy went, in a record of `phase run --ledger`
+  phase plot tank.h5 --figure ledger")]
 pub(crate) struct Arguments {
     /// A results folder of `phase sweep`, a folder that holds several, or a record (.h5).
     #[arg(required_unless_present = "list")]
     dir: Option<PathBuf>,
     /// A figure to draw; may be given several times [default: phase and settle-time of a tank's folder,
-    /// phase and discharge-rate of a silo's, tracks of a record].
+    /// phase and discharge-rate of a silo's, of a record what it holds of tracks and ledger].
     #[arg(short, long, value_name = "NAME", value_delimiter = ',')]
     figure: Vec<String>,
     /// A point of the grid, such as `radius=0.003,omega=6`, and if you like `seed=2`, for figures of
@@ -48,8 +50,26 @@ type Point = Vec<(String, f64)>;
 /// The figure whose fits are printed.
 const BEVERLOO: &str = "beverloo";
 
-/// The figure of a single run.
-const TRACKS: &str = "tracks";
+/// A figure of a single run.
+struct RecordFigure {
+    name: &'static str,
+    description: &'static str,
+    draw: fn(&RunRecord) -> Result<Svg, PlotError>,
+}
+
+/// The figures of a single run.
+const OF_RECORD: [RecordFigure; 2] = [
+    RecordFigure {
+        name: "tracks",
+        description: "paths of the spheres, from the record of one run with its trajectory",
+        draw: plot::draw_tracks,
+    },
+    RecordFigure {
+        name: "ledger",
+        description: "where the energy went, from the record of one run with its ledger",
+        draw: plot::draw_ledger,
+    },
+];
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let (mut figures, mut fits) = (Vec::new(), Vec::new());
@@ -133,13 +153,12 @@ fn list(dir: Option<&Path>, console: &Console) -> Result<Vec<Entry>, Failure> {
         })
         .collect();
     if record {
-        entries.push(Entry {
-            name: TRACKS,
-            description: "paths of the spheres, from the record of one run with its trajectory"
-                .to_owned(),
+        entries.extend(OF_RECORD.map(|figure| Entry {
+            name: figure.name,
+            description: figure.description.to_owned(),
             default_runs: None,
             family: None,
-        });
+        }));
     }
     for entry in &entries {
         // What is listed for a folder applies to it.
@@ -165,9 +184,10 @@ fn draw_folders(
     arguments: &Arguments,
     console: &Console,
 ) -> Result<Vec<FitEntry>, Failure> {
-    if arguments.figure.iter().any(|name| name == TRACKS) {
+    let of_record = |name: &&String| OF_RECORD.iter().any(|known| known.name == *name);
+    if let Some(name) = arguments.figure.iter().find(of_record) {
         return Err(Failure::refused(format_args!(
-            "`{TRACKS}` is drawn from the record of one run; name its .h5 file instead of {}",
+            "`{name}` is drawn from the record of one run; name its .h5 file instead of {}",
             dir.display()
         )));
     }
@@ -302,20 +322,43 @@ fn refused_or_failed(error: PlotError) -> Failure {
     }
 }
 
-/// Draws the tracks of a record beside it: NAME.h5 gives NAME-tracks.svg and .png.
-fn draw_record(path: &Path, figures: &[String], console: &Console) -> Result<(), Failure> {
-    if let Some(name) = figures.iter().find(|name| *name != TRACKS) {
+/// Draws figures of a record beside it, NAME.h5 gives NAME-tracks.svg and .png: those that are asked
+/// for, or else all that it holds.
+fn draw_record(path: &Path, names: &[String], console: &Console) -> Result<(), Failure> {
+    let known = |name: &String| OF_RECORD.iter().find(|figure| figure.name == name);
+    if let Some(name) = names.iter().find(|name| known(name).is_none()) {
+        let known = OF_RECORD.map(|figure| figure.name).join("`, `");
         return Err(Failure::refused(format_args!(
-            "`{name}` is no figure of a single record; `{TRACKS}` is"
+            "`{name}` is no figure of a single record; there are `{known}`"
         )));
     }
     let record = store::read_record(path).map_err(Failure::refused)?;
-    let figure = plot::draw_tracks(&record)
-        .map_err(|error| Failure::failed(format_args!("{}: {error}", path.display())))?;
-    let mut stem = path.file_stem().unwrap_or_default().to_owned();
-    stem.push("-tracks");
-    let place = |extension: &str| path.with_file_name(&stem).with_added_extension(extension);
-    write(&figure, place, console)
+    let refused = |error| Failure::failed(format_args!("{}: {error}", path.display()));
+    let mut missing = None;
+    let mut drawn = 0;
+    for figure in &OF_RECORD {
+        if !names.is_empty() && !names.iter().any(|name| name == figure.name) {
+            continue;
+        }
+        match (figure.draw)(&record) {
+            Err(error @ (PlotError::NoTrajectory | PlotError::NoLedger)) if names.is_empty() => {
+                missing.get_or_insert(error);
+                continue;
+            }
+            image => {
+                let mut stem = path.file_stem().unwrap_or_default().to_owned();
+                stem.push(format!("-{}", figure.name));
+                let place =
+                    |extension: &str| path.with_file_name(&stem).with_added_extension(extension);
+                write(&image.map_err(refused)?, place, console)?;
+                drawn += 1;
+            }
+        }
+    }
+    match missing {
+        Some(error) if drawn == 0 => Err(refused(error)),
+        _ => Ok(()),
+    }
 }
 
 /// Writes a figure as SVG and PNG and prints their paths.

@@ -60,6 +60,10 @@ pub(crate) struct Arguments {
     /// Store position, velocity and spin of every sphere at every frame.
     #[arg(short, long)]
     trajectory: bool,
+    /// Keep the books of energy: what damping and friction dissipate, the work of the air, what the
+    /// integrator gets wrong (the residual). Slower; never changes the motion.
+    #[arg(short, long)]
+    ledger: bool,
     /// Time between snapshots of all spheres (s); 0 for none but the last.
     #[arg(long, value_name = "SECONDS")]
     snapshot_interval: Option<f64>,
@@ -148,6 +152,7 @@ fn beside(record: &Path) -> PathBuf {
 /// Puts what the command line says of the output into the scene.
 fn ask_for_more(scene: &mut Scene, arguments: &Arguments) -> Result<(), Failure> {
     scene.output.trajectory |= arguments.trajectory;
+    scene.output.ledger |= arguments.ledger;
     let Some(interval) = arguments.snapshot_interval else {
         return Ok(());
     };

@@ -53,13 +53,23 @@ impl Limits {
         self.speed_squared.push(speed * speed);
     }
 
-    /// Refuses positions that are not a number or out of bounds.
+    /// Refuses positions that are not a number or out of bounds, and spins whose squares are not finite.
     pub(super) fn check_positions(
         &self,
         particles: &Particles,
         step: u64,
         dt: f64,
     ) -> Result<(), Instability> {
+        let endless = |spin: &Vector| !(spin.norm_squared() <= f64::MAX);
+        if let Some(sphere) = particles.spin.iter().position(endless) {
+            return Err(Instability {
+                guard: Guard::NotANumber,
+                step,
+                time: step as f64 * dt,
+                sphere,
+                detail: format!("spin of {:.4e} rad/s", particles.spin[sphere].norm()),
+            });
+        }
         let outside = |centre: &Vector| {
             !(centre.x.abs() <= self.horizontal
                 && centre.y.abs() <= self.horizontal

@@ -20,6 +20,7 @@ mod diagram;
 mod energies;
 mod grid;
 mod layout;
+mod ledger;
 mod legend;
 mod map;
 mod measures;
@@ -39,6 +40,7 @@ mod tracks;
 pub mod verification;
 
 pub use beverloo::{FittedLine, fitted_lines};
+pub use ledger::draw as draw_ledger;
 pub use svg::Svg;
 pub use tracks::draw as draw_tracks;
 
@@ -305,6 +307,12 @@ pub enum PlotError {
          it again"
     )]
     NoTrajectory,
+    /// The record of a run does not hold its ledger.
+    #[error(
+        "the record holds no ledger of energy; add `ledger = true` to [output] of the scene and run \
+         it again"
+    )]
+    NoLedger,
     /// The drawing failed.
     #[error("cannot draw the figure: {0}")]
     Drawing(String),

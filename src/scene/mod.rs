@@ -498,8 +498,16 @@ impl Integrator {
         Self::AdaptiveVerlet,
     ];
 
+    /// Names of all schemes.
+    pub(crate) const NAMES: [&str; 4] = [
+        Self::ALL[0].name(),
+        Self::ALL[1].name(),
+        Self::ALL[2].name(),
+        Self::ALL[3].name(),
+    ];
+
     /// Name, as in a scene file.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::SymplecticEuler => "symplectic-euler",
             Self::VelocityVerlet => "velocity-verlet",

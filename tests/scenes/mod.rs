@@ -1,9 +1,9 @@
 //! Scenes that the tests of the engine share.
 #![allow(dead_code, reason = "each test program uses a part of it")]
 
-use phase::dem::Simulation;
 use phase::dem::vector::Vector;
-use phase::scene::{Friction, Integrator, Scene, Start, StartSphere};
+use phase::dem::{Particles, Simulation};
+use phase::scene::{Contact, Friction, Integrator, Scene, Start, StartSphere};
 use proptest::prelude::*;
 
 pub(crate) const INTEGRATORS: [Integrator; 4] = Integrator::ALL;
@@ -82,6 +82,59 @@ pub(crate) fn converging_spheres() -> impl Strategy<Value = Vec<StartSphere>> {
     })
 }
 
+pub(crate) fn momentum(particles: &Particles) -> Vector {
+    (0..particles.len()).fold(Vector::ZERO, |sum, i| {
+        sum + particles.velocity[i] * particles.mass[i]
+    })
+}
+
+pub(crate) fn angular_momentum(particles: &Particles) -> Vector {
+    (0..particles.len()).fold(Vector::ZERO, |sum, i| {
+        let orbital = particles.position[i].cross(particles.velocity[i]) * particles.mass[i];
+        let spin = particles.spin.get(i).copied().unwrap_or_default();
+        let inertia = particles.inertia.get(i).copied().unwrap_or_default();
+        sum + orbital + spin * inertia
+    })
+}
+
+/// Momentum and angular momentum if all of it had one direction: what rounding is relative to.
+pub(crate) fn scales(particles: &Particles) -> (f64, f64) {
+    let spin = |i: usize| particles.spin.get(i).map_or(0.0, |spin| spin.norm());
+    let inertia = |i: usize| particles.inertia.get(i).copied().unwrap_or_default();
+    (0..particles.len()).fold((0.0, 0.0), |(linear, angular), i| {
+        let momentum = particles.mass[i] * particles.velocity[i].norm();
+        let orbital = momentum * particles.position[i].norm();
+        (linear + momentum, angular + orbital + inertia(i) * spin(i))
+    })
+}
+
+/// Kinetic, rotational, gravitational and elastic energy (J).
+pub(crate) fn energy(simulation: &mut Simulation, gravity: f64) -> f64 {
+    let elastic = simulation.elastic_energy();
+    let particles = simulation.particles();
+    let of_sphere = |i: usize| {
+        let spin = particles
+            .spin
+            .get(i)
+            .map_or(0.0, |spin| spin.norm_squared());
+        let inertia = particles.inertia.get(i).copied().unwrap_or_default();
+        let translation = 0.5 * particles.velocity[i].norm_squared();
+        particles.mass[i] * (translation + gravity * particles.position[i].z) + 0.5 * inertia * spin
+    };
+    (0..particles.len()).map(of_sphere).sum::<f64>() + elastic
+}
+
+pub(crate) fn damped(mut scene: Scene, time: f64) -> Scene {
+    let Some(Contact::Hertz {
+        dissipation_time, ..
+    }) = &mut scene.contact
+    else {
+        panic!("a scene with contacts")
+    };
+    *dissipation_time = Some(time);
+    scene
+}
+
 /// Where spheres are and how they move: everything that the motion goes on from.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct State {
@@ -110,11 +163,25 @@ impl State {
     }
 
     /// The state after each vector of it went through `polar`, each spin through `axial`.
-    pub(crate) fn map(&self, polar: fn(Vector) -> Vector, axial: fn(Vector) -> Vector) -> Self {
+    pub(crate) fn map(
+        &self,
+        polar: impl Fn(Vector) -> Vector,
+        axial: impl Fn(Vector) -> Vector,
+    ) -> Self {
         Self {
-            position: self.position.iter().copied().map(polar).collect(),
-            velocity: self.velocity.iter().copied().map(polar).collect(),
-            spin: self.spin.iter().copied().map(axial).collect(),
+            position: self.position.iter().copied().map(&polar).collect(),
+            velocity: self.velocity.iter().copied().map(&polar).collect(),
+            spin: self.spin.iter().copied().map(&axial).collect(),
+        }
+    }
+
+    /// The spheres in another order.
+    pub(crate) fn reordered(&self, order: &[usize]) -> Self {
+        let pick = |all: &[Vector]| order.iter().filter_map(|&i| all.get(i).copied()).collect();
+        Self {
+            position: pick(&self.position),
+            velocity: pick(&self.velocity),
+            spin: pick(&self.spin),
         }
     }
 

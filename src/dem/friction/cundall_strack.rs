@@ -49,7 +49,6 @@ impl TangentialLaw for CundallStrack {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dem::friction::Increment;
     use crate::dem::vector::Vector;
 
     const DT: f64 = 1e-3;
@@ -67,7 +66,9 @@ mod tests {
             overlap: 1e-4,
             effective_radius: 0.02,
             normal_force: 2.0,
-            increment: Increment::whole(DT),
+            loading_velocity: along * speed,
+            loading_overlap: 1e-4,
+            loading_time: DT,
         }
     }
 

@@ -34,7 +34,7 @@ impl TangentialLaw for Mindlin {
 
     #[inline(always)]
     fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction {
-        let stiffness = self.stiffness(touch.overlap, touch.effective_radius);
+        let stiffness = self.stiffness(touch.loading_overlap, touch.effective_radius);
         let limit = self.coefficient * touch.normal_force;
         spring.load(touch, stiffness, 0.0, limit)
     }

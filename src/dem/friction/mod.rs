@@ -39,44 +39,19 @@ pub struct Touch {
     /// Normal force (N), zero where partners attract each other or part faster than their elasticity
     /// recovers: no tangential force acts then.
     pub normal_force: f64,
-    /// The time that the contact's memory moves on by.
-    pub increment: Increment,
-}
-
-/// The time that a contact's memory moves on by when its traction is asked for.
-#[derive(Clone, Copy, Debug)]
-pub struct Increment {
-    /// How long it is (s).
-    pub duration: f64,
-    /// The share of it that is over at the moment of the traction: all of it, or half where places and
-    /// velocities are those of its middle.
-    pub share: f64,
-}
-
-impl Increment {
-    /// All of a time (s), for traction at its end.
-    pub fn whole(duration: f64) -> Self {
-        Self {
-            duration,
-            share: 1.0,
-        }
-    }
-
-    /// A time (s), for traction in its middle.
-    pub fn around(duration: f64) -> Self {
-        Self {
-            duration,
-            share: 0.5,
-        }
-    }
+    /// The mean sliding velocity since the contact's latest evaluation (m/s), by which springs are loaded.
+    pub loading_velocity: Vector,
+    /// The mean overlap since then (m).
+    pub loading_overlap: f64,
+    /// The time since then (s).
+    pub loading_time: f64,
 }
 
 impl Touch {
     /// Velocity of this surface relative to the other at the contact point (m/s), tangential part.
     #[inline(always)]
     pub fn sliding_velocity(&self) -> Vector {
-        let surface = self.spin[0] * self.lever[0] + self.spin[1] * self.lever[1];
-        self.velocity.perpendicular_to(self.normal) - surface.cross(self.normal)
+        sliding_velocity(self.normal, self.velocity, self.spin, self.lever)
     }
 
     /// The traction of a tangential force on this partner at the contact point: by reaction
@@ -89,6 +64,19 @@ impl Touch {
             torque: [arm * self.lever[0], arm * self.lever[1]],
         }
     }
+}
+
+/// Velocity of one surface relative to the other at the contact point (m/s), tangential part, from that
+/// of the centres.
+#[inline(always)]
+pub(super) fn sliding_velocity(
+    normal: Vector,
+    velocity: Vector,
+    spin: [Vector; 2],
+    lever: [f64; 2],
+) -> Vector {
+    let surface = spin[0] * lever[0] + spin[1] * lever[1];
+    velocity.perpendicular_to(normal) - surface.cross(normal)
 }
 
 /// What a tangential law answers.

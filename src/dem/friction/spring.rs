@@ -13,8 +13,8 @@ pub struct Spring {
 
 impl Spring {
     /// The traction of the spring, of a stiffness (N/m), and of a dashpot beside it (N s/m), together
-    /// capped at `limit` (N). It is loaded by the sliding of the increment, df = -k du; one that slides
-    /// keeps the length with which it would go on sticking from there (Luding, Granular Matter 10, 235
+    /// capped at `limit` (N). It is loaded by the sliding since the latest evaluation, df = -k du; one that
+    /// slides keeps the length with which it would go on sticking from there (Luding, Granular Matter 10, 235
     /// (2008), section 2.3).
     #[inline(always)]
     pub(super) fn load(
@@ -24,12 +24,11 @@ impl Spring {
         damping: f64,
         limit: f64,
     ) -> Traction {
-        let sliding = touch.sliding_velocity();
-        let drag = sliding * damping;
-        let before = self.turned(touch.normal);
-        let loading = sliding * (stiffness * touch.increment.duration);
-        let mut force = before - loading * touch.increment.share - drag;
-        self.force = before - loading;
+        let drag = touch.sliding_velocity() * damping;
+        let loading = touch.loading_velocity * (stiffness * touch.loading_time);
+        let elastic = self.turned(touch.normal) - loading;
+        let mut force = elastic - drag;
+        self.force = elastic;
         let norm = force.norm();
         if norm > limit {
             force = force * (limit / norm);

@@ -1,11 +1,11 @@
 //! Velocity Verlet with sub-steps where spheres touch.
 
-use super::contacts::Among;
+use super::contacts::{Among, Loading};
 use super::islands::{Island, Islands};
 use super::{Engine, System};
 use crate::dem::block::Load;
 use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{Increment, TangentialLaw};
+use crate::dem::friction::TangentialLaw;
 use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
@@ -15,9 +15,6 @@ use crate::record::Instability;
 /// What a sub-step may take of an island's fastest oscillation, h (w + g) with angular frequency w and
 /// damping rate g: an impact then lasts 27 sub-steps or more.
 const RESOLUTION: f64 = 0.15;
-
-/// The same for friction that grows with the sliding speed, which need not be resolved, only stable.
-const FRICTION_RESOLUTION: f64 = 0.5;
 
 /// What a step of the scheme works with; nothing of it is needed from step to step.
 #[derive(Default)]
@@ -88,6 +85,12 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.check_speeds(true)?;
         let dt = self.parts.dt;
         work.start.keep(&self.parts.particles);
+        if Self::REMEMBERS {
+            // Of fixed spheres it stays zero.
+            self.earlier.clear();
+            self.earlier
+                .resize(self.parts.particles.len(), Default::default());
+        }
         self.slow_forces(work)?;
         self.keep_histories(&mut work.start);
         let books = self.work();
@@ -225,7 +228,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         work.islands.join(i as u32, j as u32, *fixed);
         let rates = self.rates(
             (sum - squared.sqrt()).max(0.0),
-            (velocity[i] - velocity[j]).norm() + work.gain[i] + work.gain[j],
+            (velocity[i] - velocity[j]).norm(),
+            work.gain[i] + work.gain[j],
             radius[i] * radius[j] / sum,
             inverse_mass[i] + inverse_mass[j],
             self.turning(i) + self.turning(j),
@@ -256,7 +260,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 } else {
                     0.0
                 },
-                particles.velocity[i].norm() + work.gain[i],
+                particles.velocity[i].norm(),
+                work.gain[i],
                 radius,
                 particles.inverse_mass[i],
                 self.turning(i),
@@ -273,28 +278,29 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         radius * radius * inverse
     }
 
-    /// Squared frequency (1/s2) and damping rate (1/s) of an impact of that overlap (m) and speed (m/s)
-    /// at its deepest. `yielding` is 1 / m_eff and `turning` what rotation adds to it (1/kg).
+    /// Squared frequency (1/s2) and damping rate (1/s) of an impact of that overlap (m) and speed (m/s) at
+    /// its deepest, if it may gain so much speed (m/s). `yielding` is 1 / m_eff and `turning` what rotation adds to it (1/kg).
     fn rates(
         &self,
         overlap: f64,
         speed: f64,
+        gain: f64,
         effective_radius: f64,
         yielding: f64,
         turning: f64,
     ) -> [f64; 2] {
         let (normal, tangential) = (&self.normal, &self.tangential);
-        let overlap = normal.deepest_overlap(overlap, speed, effective_radius, 1.0 / yielding);
+        let overlap =
+            normal.deepest_overlap(overlap, speed + gain, effective_radius, 1.0 / yielding);
         let force = normal.force(overlap, 0.0, effective_radius);
         let along = yielding + turning;
         let squared = (normal.stiffness(overlap, effective_radius) * yielding)
             .max(tangential.stiffness(overlap, effective_radius) * along);
-        let friction = tangential.damping(force, speed) * along;
+        // Sliding that stops faster than the contact swings is not resolved: it trembles, within what
+        // friction can carry.
+        let friction = (tangential.damping(force, speed) * along).min(squared.sqrt());
         let damping = normal.damping(overlap, effective_radius) * yielding;
-        [
-            squared,
-            damping.max(friction * (RESOLUTION / FRICTION_RESOLUTION)),
-        ]
+        [squared, damping.max(friction)]
     }
 
     fn move_free_spheres(&mut self, work: &Adaptive<T::History>) {
@@ -325,7 +331,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     ) -> Result<(), Instability> {
         let time = self.parts.dt / sub_steps as f64;
         let half = 0.5 * time;
-        self.increment = Increment::around(time);
         self.moves += sub_steps * island.spheres.len() as u64;
         for &i in &island.spheres {
             let (i, particles) = (i as usize, &mut self.parts.particles);
@@ -334,7 +339,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 particles.torque[i] = work.start.torque[i];
             }
         }
-        for _ in 0..sub_steps {
+        for sub_step in 0..sub_steps {
+            // From one middle to the next, at first from the start to the middle.
+            let duration = if sub_step == 0 { half } else { time };
+            self.loading = Loading::earlier(duration, half);
             for &i in &island.spheres {
                 self.foretell(i as usize, half);
             }
@@ -349,7 +357,21 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 self.complete(i as usize, time, work);
             }
         }
+        if Self::REMEMBERS {
+            self.load_springs(island, half);
+        }
         Ok(())
+    }
+
+    /// Loads the springs of an island over the last `time` (s) of its step.
+    fn load_springs(&mut self, island: &Island, time: f64) {
+        self.loading = Loading::present(time);
+        for &i in &island.spheres {
+            self.put_in_row(i as usize, 0.0);
+        }
+        self.forces_among(&island.among, false);
+        // The next step finds it deeper still, if it matters.
+        self.too_deep = None;
     }
 
     /// Moves a sphere to the middle of a sub-step, and puts it there with the velocity and spin that the
@@ -357,15 +379,26 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     fn foretell(&mut self, i: usize, half: f64) {
         let particles = &mut self.parts.particles;
         particles.position[i] += particles.velocity[i] * half;
-        let Vector { x, y, z } = particles.position[i];
+        if Self::REMEMBERS {
+            let row = |it: Vector| [it.x, it.y, it.z, 0.0];
+            self.earlier[i] = [row(particles.velocity[i]), row(particles.spin[i])];
+        }
+        self.put_in_row(i, half);
+    }
+
+    /// Puts a sphere into its row, with the velocity and spin that the latest forces foretell for a `time`
+    /// (s) from now.
+    fn put_in_row(&mut self, i: usize, time: f64) {
+        let particles = &self.parts.particles;
         let body = &mut self.bodies[i];
+        let Vector { x, y, z } = particles.position[i];
         body.place[..3].copy_from_slice(&[x, y, z]);
         let Vector { x, y, z } =
-            particles.velocity[i] + particles.force[i] * (particles.inverse_mass[i] * half);
+            particles.velocity[i] + particles.force[i] * (particles.inverse_mass[i] * time);
         body.motion[..3].copy_from_slice(&[x, y, z]);
         if particles.rotate() {
             let Vector { x, y, z } =
-                particles.spin[i] + particles.torque[i] * (particles.inverse_inertia[i] * half);
+                particles.spin[i] + particles.torque[i] * (particles.inverse_inertia[i] * time);
             body.turning[..3].copy_from_slice(&[x, y, z]);
         }
         self.loads[i] = Load::default();

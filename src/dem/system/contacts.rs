@@ -8,7 +8,7 @@
 use super::System;
 use crate::dem::block::{BLOCK, Body, Column, Columns, Load, Row};
 use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{Increment, TangentialLaw, Touch};
+use crate::dem::friction::{TangentialLaw, Touch, sliding_velocity};
 use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
@@ -29,12 +29,38 @@ pub(super) struct Among {
     pub(super) cylinder: Vec<u32>,
 }
 
+/// The time that springs are loaded over until an evaluation of forces, with the mean velocities of that
+/// time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Loading {
+    /// How long it is (s).
+    pub(super) duration: f64,
+    /// How long before the evaluation the spheres had the velocities that load springs (s): these are
+    /// then kept in rows of their own. Zero if they are those of the evaluation.
+    pub(super) age: f64,
+}
+
+impl Loading {
+    /// Over a time (s), by the velocities of the evaluation.
+    pub(super) fn present(duration: f64) -> Self {
+        Self { duration, age: 0.0 }
+    }
+
+    /// Over a time (s), by velocities that are that old (s).
+    pub(super) fn earlier(duration: f64, age: f64) -> Self {
+        Self { duration, age }
+    }
+}
+
+/// Velocity and spin of a sphere before an evaluation of forces, in rows.
+pub(super) type Earlier = [Row; 2];
+
 /// The laws of a step's contacts.
 #[derive(Clone, Copy)]
 pub(super) struct Laws<N, T> {
     normal: N,
     tangential: T,
-    increment: Increment,
+    loading: Loading,
     overlap_limit: f64,
 }
 
@@ -60,6 +86,8 @@ pub(super) struct PairBlock<H> {
     place: [Columns; 2],
     motion: [Columns; 2],
     turning: [Columns; 2],
+    /// Velocities and spins of before, if springs are loaded by those.
+    earlier: [[Columns; 2]; 2],
     history: [H; BLOCK],
     force: Columns,
     torque: [Columns; 2],
@@ -89,6 +117,7 @@ impl<H: Copy + Default> PairBlock<H> {
             place: pair(),
             motion: pair(),
             turning: pair(),
+            earlier: [pair(), pair()],
             history: [H::default(); BLOCK],
             force: Columns::ZERO,
             torque: pair(),
@@ -163,8 +192,24 @@ impl<H: Copy + Default> PairBlock<H> {
         }
     }
 
+    /// Fetches the velocities and spins of before, of both sides, if there are any.
+    #[inline(always)]
+    fn gather_earlier(&mut self, earlier: &[Earlier]) {
+        if !Self::REMEMBERS || earlier.is_empty() {
+            return;
+        }
+        for side in 0..2 {
+            for (k, &i) in self.index[side].iter().enumerate() {
+                let [velocity, spin] = earlier[i as usize];
+                self.earlier[0][side].set(k, velocity);
+                self.earlier[1][side].set(k, spin);
+            }
+        }
+    }
+
     /// Fetches the spheres of both sides, where speed does not matter.
-    pub(super) fn gather_slowly(&mut self, bodies: &[Body]) {
+    pub(super) fn gather_slowly(&mut self, bodies: &[Body], earlier: &[Earlier]) {
+        self.gather_earlier(earlier);
         for side in 0..2 {
             for (k, &i) in self.index[side].iter().enumerate() {
                 let body = &bodies[i as usize];
@@ -214,7 +259,7 @@ impl<H: Copy + Default> PairBlock<H> {
         let Laws {
             normal: normal_law,
             tangential: tangential_law,
-            increment,
+            loading,
             overlap_limit,
         } = *laws;
         for k in 0..BLOCK {
@@ -252,17 +297,34 @@ impl<H: Copy + Default> PairBlock<H> {
                 // keeps its angular momentum.
                 let lever = distance * inverse_sum;
                 let mass = [motion[0].0[3][k], motion[1].0[3][k]];
+                let lever = radius.map(|radius| radius * lever);
+                let spin = [Self::vector(&turning[0], k), Self::vector(&turning[1], k)];
+                let mut loading_velocity = sliding_velocity(normal, velocity, spin, lever);
+                let mut loading_overlap = overlap;
+                if Self::REMEMBERS && loading.age > 0.0 {
+                    let [velocities, spins] = &self.earlier;
+                    let velocity =
+                        Self::vector(&velocities[0], k) - Self::vector(&velocities[1], k);
+                    let offset = offset - velocity * loading.age;
+                    let distance = offset.norm();
+                    let normal = offset * (1.0 / distance);
+                    let spin = [Self::vector(&spins[0], k), Self::vector(&spins[1], k)];
+                    loading_velocity = sliding_velocity(normal, velocity, spin, lever);
+                    loading_overlap = positive(sum - distance);
+                }
                 let touch = Touch {
                     normal,
                     velocity,
-                    spin: [Self::vector(&turning[0], k), Self::vector(&turning[1], k)],
-                    lever: radius.map(|radius| radius * lever),
+                    spin,
+                    lever,
                     inertia: [turning[0].0[3][k], turning[1].0[3][k]],
                     lesser_mass: if mass[0] < mass[1] { mass[0] } else { mass[1] },
                     overlap,
                     effective_radius,
                     normal_force: pressing::<N>(normal_force),
-                    increment,
+                    loading_velocity,
+                    loading_overlap,
+                    loading_time: loading.duration,
                 };
                 let mut history = self.history[k];
                 let traction = tangential_law.traction(&touch, &mut history);
@@ -286,7 +348,7 @@ impl<H: Copy + Default> PairBlock<H> {
         let Laws {
             normal: normal_law,
             tangential: tangential_law,
-            increment,
+            loading,
             overlap_limit,
         } = *laws;
         for k in 0..BLOCK {
@@ -311,17 +373,31 @@ impl<H: Copy + Default> PairBlock<H> {
                 force -= (velocity + normal * approach) * normal_law.sideways_drag();
             }
             if T::ROTATES {
+                let (lever, spin) = ([radius, 0.0], [Self::vector(turning, k), Vector::ZERO]);
+                let mut loading_velocity = sliding_velocity(normal, velocity, spin, lever);
+                let mut loading_overlap = overlap;
+                if Self::REMEMBERS && loading.age > 0.0 {
+                    let [velocities, spins] = &self.earlier;
+                    let velocity = Self::vector(&velocities[0], k);
+                    let centre = Self::vector(place, k) - velocity * loading.age;
+                    let contact = wall.contact(centre, radius);
+                    let spin = [Self::vector(&spins[0], k), Vector::ZERO];
+                    loading_velocity = sliding_velocity(contact.normal, velocity, spin, lever);
+                    loading_overlap = positive(contact.overlap);
+                }
                 let touch = Touch {
                     normal,
                     velocity,
-                    spin: [Self::vector(turning, k), Vector::ZERO],
-                    lever: [radius, 0.0],
+                    spin,
+                    lever,
                     inertia: [turning.0[3][k], 0.0],
                     lesser_mass: motion.0[3][k],
                     overlap,
                     effective_radius: radius,
                     normal_force: pressing::<N>(normal_force),
-                    increment,
+                    loading_velocity,
+                    loading_overlap,
+                    loading_time: loading.duration,
                 };
                 let mut history = self.history[k];
                 let traction = tangential_law.traction(&touch, &mut history);
@@ -416,6 +492,12 @@ fn pressing<N: NormalLaw>(normal_force: f64) -> f64 {
     }
 }
 
+/// The overlap of a contact, none before it began.
+#[inline(always)]
+fn positive(overlap: f64) -> f64 {
+    if overlap > 0.0 { overlap } else { 0.0 }
+}
+
 /// Stores what acts on a touching pair.
 #[inline(always)]
 fn store(columns: &mut Columns, k: usize, touches: bool, vector: Vector) {
@@ -466,7 +548,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Laws {
             normal: self.normal,
             tangential: self.tangential,
-            increment: self.increment,
+            loading: self.loading,
             overlap_limit: self.parts.limits.overlap,
         }
     }
@@ -479,6 +561,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             block.take_pairs(pairs, &self.pair_history);
             block.gather::<S, T>(simd, 0, &self.bodies);
             block.gather::<S, T>(simd, 1, &self.bodies);
+            block.gather_earlier(&self.earlier);
             block.interact(&laws);
             if Self::REMEMBERS {
                 for (history, pair) in block.history.iter().zip(pairs) {
@@ -508,6 +591,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         for spheres in near.chunks(BLOCK) {
             block.take_spheres(spheres, histories);
             block.gather::<S, T>(simd, 0, &self.bodies);
+            block.gather_earlier(&self.earlier);
             block.interact_with_wall(wall, &laws);
             if Self::REMEMBERS {
                 for (history, &i) in block.history.iter().zip(spheres) {

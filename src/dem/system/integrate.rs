@@ -1,8 +1,9 @@
 //! Integration schemes: one function each, from kicks and drifts.
 
+use super::contacts::{Earlier, Loading};
 use super::{Parts, System};
 use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{Increment, TangentialLaw};
+use crate::dem::friction::TangentialLaw;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use crate::record::Instability;
@@ -19,6 +20,14 @@ impl Before {
     fn keep(&mut self, particles: &Particles) {
         self.velocity.clone_from(&particles.velocity);
         self.spin.clone_from(&particles.spin);
+    }
+
+    /// Writes them in rows, of spheres that turn.
+    fn to_rows(&self, rows: &mut Vec<Earlier>) {
+        let row = |it: &Vector| [it.x, it.y, it.z, 0.0];
+        rows.clear();
+        let spheres = self.velocity.iter().zip(&self.spin);
+        rows.extend(spheres.map(|(velocity, spin)| [row(velocity), row(spin)]));
     }
 
     fn put_back(&self, particles: &mut Particles) {
@@ -145,9 +154,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Forces at the start, where no scheme has a latest one. No time goes by, so that contacts do not
     /// load their springs.
     fn evaluate_start(&mut self) -> Result<(), Instability> {
-        let increment = std::mem::replace(&mut self.increment, Increment::whole(0.0));
+        let loading = std::mem::replace(&mut self.loading, Loading::present(0.0));
         let result = self.evaluate();
-        self.increment = increment;
+        self.loading = loading;
         result
     }
 
@@ -194,8 +203,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.evaluate_start()?;
         }
         let (dt, half) = (self.parts.dt, 0.5 * self.parts.dt);
+        // From one middle to the next springs are loaded by the velocity between them.
+        let duration = if self.step == 1 { half } else { dt };
+        self.loading = Loading::earlier(duration, half);
         self.drift(half);
         self.before.keep(&self.parts.particles);
+        if Self::REMEMBERS {
+            self.before.to_rows(&mut self.earlier);
+        }
         self.kick(half);
         self.evaluate()?;
         self.before.put_back(&mut self.parts.particles);

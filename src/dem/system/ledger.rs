@@ -226,7 +226,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         for pairs in among.pairs.chunks(BLOCK) {
             let block = &mut ledger.block;
             block.take_pairs(pairs, &self.pair_history);
-            block.gather_slowly(&self.bodies);
+            block.gather_slowly(&self.bodies, &self.earlier);
             block.interact(&self.laws());
             for (k, pair) in pairs.iter().enumerate() {
                 let Some(meeting) = ledger.block.meeting(k) else {
@@ -250,7 +250,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         for spheres in near.chunks(BLOCK) {
             let block = &mut ledger.block;
             block.take_spheres(spheres, histories);
-            block.gather_slowly(&self.bodies);
+            block.gather_slowly(&self.bodies, &self.earlier);
             block.interact_with_wall(wall, &self.laws());
             for (k, &sphere) in spheres.iter().enumerate() {
                 let Some(meeting) = ledger.block.meeting_with_wall(wall, k) else {
@@ -272,10 +272,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             force,
             ..
         } = *meeting;
-        let along = force.dot(normal);
         let elastic = self
             .normal
             .force(meeting.overlap, 0.0, meeting.effective_radius);
+        if !T::ROTATES {
+            return [force - normal * elastic, Vector::ZERO];
+        }
+        let along = force.dot(normal);
         let sideways = velocity.perpendicular_to(normal) * -self.normal.sideways_drag();
         let damping = normal * (along - elastic) + sideways;
         [damping, force - normal * along - sideways]

@@ -8,7 +8,7 @@ mod ledger;
 mod state;
 
 use self::adaptive::Adaptive;
-use self::contacts::{Among, PairBlock};
+use self::contacts::{Among, Earlier, Loading, PairBlock};
 use self::integrate::Before;
 use self::ledger::Ledger;
 pub(in crate::dem) use self::ledger::Work;
@@ -16,7 +16,7 @@ pub(in crate::dem) use self::state::EngineState;
 use super::block::{Body, Load};
 use super::contact::NormalLaw;
 use super::effects::Effect;
-use super::friction::{Increment, TangentialLaw};
+use super::friction::TangentialLaw;
 use super::guard::Limits;
 use super::neighbours::{Near, Reach, VerletList};
 use super::particles::{Particles, Sphere, retain};
@@ -94,8 +94,10 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     age: Age,
     /// Since the near pairs were looked for.
     near_age: Age,
-    /// The time that histories move on by at every evaluation.
-    increment: Increment,
+    /// How springs are loaded until the next evaluation.
+    loading: Loading,
+    /// The velocities and spins that load them, if these are not those of the evaluation.
+    earlier: Vec<Earlier>,
     before: Before,
     adaptive: Adaptive<T::History>,
     ledger: Option<Ledger<T::History>>,
@@ -146,14 +148,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             near: Near::new(N::ACTS, parts.shielded, 0.3 * parts.skin),
             age: Age::default(),
             near_age: Age::default(),
-            increment: match parts.integrator {
-                Integrator::SymplecticEuler | Integrator::VelocityVerlet => {
-                    Increment::whole(parts.dt)
-                }
-                Integrator::SynchronisedVerlet | Integrator::AdaptiveVerlet => {
-                    Increment::around(parts.dt)
-                }
-            },
+            loading: Loading::present(parts.dt),
+            earlier: Vec::new(),
             before: Before::default(),
             adaptive: Adaptive::default(),
             ledger: None,

@@ -1,5 +1,6 @@
 //! Limits of the Hertz contact.
 
+use super::overlap::deepest_at_start;
 use super::{Limit, Scheme};
 use crate::dem::contact::restitution::{dissipation_time_from_restitution, time_scale};
 use crate::scene::{Contact, Friction, Scene, Shape};
@@ -39,6 +40,16 @@ impl Impact {
     /// T = (m_eff / K)^(2/5) v^(-1/5) (s).
     pub fn time_scale(&self) -> f64 {
         time_scale(self.effective_mass, self.stiffness, self.speed)
+    }
+
+    /// The impact that ends like the release of such a pair at rest from an overlap (m): that is where
+    /// it is deepest.
+    pub fn from_overlap(self, overlap: f64) -> Self {
+        let speed_squared = 0.8 * self.stiffness * overlap * overlap * overlap.sqrt();
+        Self {
+            speed: (speed_squared / self.effective_mass).sqrt(),
+            ..self
+        }
     }
 
     /// Duration of the contact, 3.218065460 T (s).
@@ -102,8 +113,9 @@ pub fn dissipation_time(scene: &Scene) -> f64 {
     }
 }
 
-/// The impact of the two smallest spheres at the fastest speed. A wall or a larger partner is
-/// softer: w^2 falls with the effective mass faster than it grows with the effective radius.
+/// The impact of the two smallest spheres at the fastest speed, or from the deepest overlap at the
+/// start. A wall or a larger partner is softer: w^2 falls with the effective mass faster than it grows
+/// with the effective radius.
 pub(super) fn stiffest_impact(scene: &Scene) -> Option<Impact> {
     let Contact::Hertz {
         young_modulus,
@@ -113,16 +125,20 @@ pub(super) fn stiffest_impact(scene: &Scene) -> Option<Impact> {
     else {
         return None;
     };
-    let speed = super::fastest_impact(scene);
-    (speed > 0.0).then(|| {
-        Impact::of_equal_spheres(
-            scene.smallest_radius(),
-            scene.spheres.density,
-            *young_modulus,
-            *poisson_ratio,
-            speed,
-        )
-    })
+    let impact = Impact::of_equal_spheres(
+        scene.smallest_radius(),
+        scene.spheres.density,
+        *young_modulus,
+        *poisson_ratio,
+        super::fastest_impact(scene),
+    );
+    let release = impact.from_overlap(deepest_at_start(scene));
+    let fastest = if release.speed > impact.speed {
+        release
+    } else {
+        impact
+    };
+    (fastest.speed > 0.0).then_some(fastest)
 }
 
 /// Limits of the contact and of the friction at it; none without a Hertz contact.
@@ -140,16 +156,19 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
         return Vec::new();
     };
     let radius = scene.smallest_radius();
+    let scheme = Scheme::of(scene);
     let frequency = impact.angular_frequency();
+    // The law's damping at overlap xi: g = K c A sqrt(xi) / m_eff.
+    let rate = 2.0 / 3.0 * dissipation_factor * dissipation_time(scene) * frequency * frequency;
     let mut limits = vec![
         Limit {
             name: "contact",
             seconds: 2.0 / frequency,
             decisive: true,
-            explanation: "2/w of the two smallest spheres at their deepest overlap in the fastest \
-                          impact, w^2 = (3/2) K sqrt(xi) / m_eff",
+            explanation: "2/w of the two smallest spheres at their deepest overlap, at the start or in \
+                          the fastest impact, w^2 = (3/2) K sqrt(xi) / m_eff",
         },
-        super::twelve_contacts(frequency),
+        super::twelve_contacts(scheme, frequency, rate),
         Limit {
             name: "Rayleigh time",
             seconds: rayleigh_time(
@@ -169,25 +188,17 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
             explanation: "the fastest sphere stays below the displacement guard",
         },
     ];
-    limits.extend(damping_limit(
-        Scheme::of(scene),
-        frequency,
-        dissipation_factor * dissipation_time(scene),
-    ));
+    if rate > 0.0 {
+        limits.push(Limit {
+            name: "damped contact",
+            seconds: scheme.oscillator(frequency, rate),
+            decisive: true,
+            explanation: "(w dt)^2 + 2 q g dt < 4 with the w of the contact limit and the damping rate \
+                          g = (2/3) c A w^2; q = 2 for synchronised-verlet, else 1",
+        });
+    }
     limits.extend(friction_limit(scene, &impact, *poisson_ratio));
     limits
-}
-
-/// The contact law's damping rate at overlap xi is g = K c A sqrt(xi) / m_eff = (2/3) c A w^2.
-fn damping_limit(scheme: Scheme, frequency: f64, dissipation: f64) -> Option<Limit> {
-    let rate = 2.0 / 3.0 * dissipation * frequency * frequency;
-    (rate > 0.0).then(|| Limit {
-        name: "damped contact",
-        seconds: scheme.oscillator(frequency, rate),
-        decisive: true,
-        explanation: "(w dt)^2 + 2 q g dt < 4 with the w of the contact limit and the damping rate \
-                      g = (2/3) c A w^2; q = 2 for synchronised-verlet, else 1",
-    })
 }
 
 fn friction_limit(scene: &Scene, impact: &Impact, poisson_ratio: f64) -> Option<Limit> {
@@ -216,13 +227,13 @@ fn friction_limit(scene: &Scene, impact: &Impact, poisson_ratio: f64) -> Option<
             let stiffness_ratio = 2.0 * (1.0 - poisson_ratio) / (2.0 - poisson_ratio);
             Some(Limit {
                 name: "sticking contact",
-                seconds: Scheme::of(scene).loaded_spring(
+                seconds: Scheme::of(scene).oscillator(
                     (3.5 * stiffness_ratio).sqrt() * impact.angular_frequency(),
                     0.0,
                 ),
                 decisive: true,
-                explanation: "2/w of the tangential spring, w^2 = 3.5 q k_t / m_eff with \
-                              k_t / k_n = 2 (1 - nu) / (2 - nu); q = 2 for synchronised-verlet, else 1",
+                explanation: "2/w of the tangential spring, w^2 = 3.5 k_t / m_eff with \
+                              k_t / k_n = 2 (1 - nu) / (2 - nu)",
             })
         }
     }

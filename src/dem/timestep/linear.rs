@@ -77,7 +77,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
             decisive: true,
             explanation: "2/w of the two smallest spheres, w^2 = k / m_eff",
         },
-        super::twelve_contacts(frequency),
+        super::twelve_contacts(scheme, frequency, impact.damping_rate()),
         Limit {
             name: super::DISPLACEMENT,
             seconds: scene.guards.displacement * scene.smallest_radius() / speed,
@@ -102,9 +102,9 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
         let moved = (1.0 + 1.0 / scene.spheres.shape.inertia_factor()) / impact.effective_mass;
         limits.push(Limit {
             name: "sticking contact",
-            seconds: scheme.loaded_spring((stiffness * moved).sqrt(), damping * moved),
+            seconds: scheme.oscillator((stiffness * moved).sqrt(), damping * moved),
             decisive: true,
-            explanation: "q (w dt)^2 + 2 q g dt < 4 with w^2 = k_t / m_t and g = b_t / m_t, \
+            explanation: "(w dt)^2 + 2 q g dt < 4 with w^2 = k_t / m_t and g = b_t / m_t, \
                           m_t = m_eff / (1 + m r^2 / I); q = 2 for synchronised-verlet, else 1",
         });
     }

@@ -4,15 +4,20 @@
 //! the positions. A linear oscillator x'' = -w^2 x - g x' then stays bounded while
 //! (w dt)^2 + 2 g dt < 4, which is dt < 2/w without damping and dt < 2/g without a spring.
 //! Synchronised Verlet foretells the velocities from the latest forces, for which its bound is
-//! (w dt)^2 + 4 g dt < 4, and 2 (w dt)^2 + 4 g dt < 4 for a spring that is loaded by increments.
-//! Adaptive Verlet cuts its steps itself where spheres touch; what is left is that no sphere moves by
+//! (w dt)^2 + 4 g dt < 4. Adaptive Verlet cuts its steps itself where spheres touch; what is left is that no sphere moves by
 //! more than the displacement guard allows, and the drag, with g dt < 2 as for the first two. Every
-//! limit here is that criterion for one effect, at the fastest impact the scene lets expect; the
-//! smallest spheres decide, since all of these times grow with the radius.
+//! limit here is that criterion for one effect, at the fastest impact the scene lets expect or the
+//! deepest overlap it starts with; the smallest spheres decide, since all of these times grow with the
+//! radius.
+//!
+//! Bounded is not accurate: an elastic impact at the limit takes two steps and ends with 0.6 to 2.4
+//! times its speed, at half the limit within 4 %, at a tenth within 0.03 %. Nor do the decisive limits
+//! know of several contacts of one sphere, which need that of twelve (tests/stability measures both).
 
 mod air;
 mod hertz;
 mod linear;
+mod overlap;
 mod standing;
 
 pub use hertz::{Impact, dissipation_time, rayleigh_time};
@@ -109,31 +114,24 @@ pub fn shortest_contact(scene: &Scene) -> Option<f64> {
 /// decides.
 const DISPLACEMENT: &str = "displacement";
 
-/// What an integrator makes of an oscillator: it stays bounded as one would for which symplectic Euler
-/// stays bounded, with other constants.
+/// What an integrator makes of an oscillator: it stays bounded as one would of which symplectic Euler
+/// makes the same, with another damping.
 #[derive(Clone, Copy)]
 struct Scheme {
     /// Factor on damping rates.
     damping: f64,
-    /// Factor on w^2 of springs that are loaded by increments.
-    increments: f64,
 }
 
 impl Scheme {
     fn of(scene: &Scene) -> Self {
-        match scene.time.integrator {
+        let damping = match scene.time.integrator {
             // Of adaptive Verlet only the drag: sub-steps take care of contacts.
             Integrator::SymplecticEuler
             | Integrator::VelocityVerlet
-            | Integrator::AdaptiveVerlet => Self {
-                damping: 1.0,
-                increments: 1.0,
-            },
-            Integrator::SynchronisedVerlet => Self {
-                damping: 2.0,
-                increments: 2.0,
-            },
-        }
+            | Integrator::AdaptiveVerlet => 1.0,
+            Integrator::SynchronisedVerlet => 2.0,
+        };
+        Self { damping }
     }
 
     /// Largest step (s) at which an oscillator of that angular frequency w (1/s) and damping rate g (1/s)
@@ -143,22 +141,17 @@ impl Scheme {
         let rate = self.damping * rate;
         4.0 / (rate + (rate * rate + 4.0 * frequency * frequency).sqrt())
     }
-
-    /// The same for a spring that is loaded by increments.
-    fn loaded_spring(self, frequency: f64, rate: f64) -> f64 {
-        self.oscillator(self.increments.sqrt() * frequency, rate)
-    }
 }
 
-/// The limit of a sphere with twelve contacts, each of which has that angular frequency w (1/s) in a
-/// pair alone.
-fn twelve_contacts(frequency: f64) -> Limit {
+/// The limit of a sphere with twelve contacts, each of which has that angular frequency w (1/s) and
+/// damping rate g (1/s) in a pair alone.
+fn twelve_contacts(scheme: Scheme, frequency: f64, rate: f64) -> Limit {
     Limit {
         name: "twelve contacts",
-        seconds: 2.0 / (6.0_f64.sqrt() * frequency),
+        seconds: scheme.oscillator(6.0_f64.sqrt() * frequency, 6.0 * rate),
         decisive: false,
-        explanation: "2/w of a sphere with twelve such contacts, w^2 = 12 k / m, all of them taken \
-                      to act along one line",
+        explanation: "(w dt)^2 + 2 g dt < 4 of a sphere with twelve such contacts, w and g^(1/2) \
+                      sqrt(6) times those of a pair: all of them are taken to act along one line",
     }
 }
 
@@ -297,6 +290,15 @@ mod tests {
         );
         close(largest_stable(&elastic).unwrap().seconds, 3.370e-3, 5e-4);
         let damped = pair(&hertz("dissipation_time = 1e-3"));
+        // Six times as stiff and as damped as the pair.
+        let [one, twelve] = ["contact", "twelve contacts"].map(|name| {
+            let all = limits(&damped);
+            let found = all.iter().find(|limit| limit.name == name);
+            found.unwrap().seconds
+        });
+        let frequency = 2.0 / one;
+        let sum = 6.0 * frequency * frequency * twelve * (twelve + 4.0 / 3.0 * 1e-3);
+        close(sum, 4.0, 1e-12);
         assert_eq!(largest_stable(&damped).unwrap().name, "damped contact");
         let mindlin = "friction = { law = 'mindlin', coefficient = 0.3 }\n";
         let sticking = pair(&(hertz("dissipation_time = 0") + mindlin));
@@ -316,6 +318,35 @@ mod tests {
             dissipation_time(&pair(&hertz("dissipation_time = 2e-4"))),
             2e-4
         );
+    }
+
+    /// Symptom: any step was accepted for spheres at rest that overlap, and gained energy. Cause: the
+    /// limit came from speeds alone.
+    #[test]
+    fn spheres_that_overlap_at_the_start_limit_the_step() {
+        let law = hertz("dissipation_time = 0");
+        let placed = |second: &str, tables: &str| {
+            let text = format!(
+                "{law}{tables}
+                spheres = {{ count = 2, radius = 0.004, density = 1e4 }}
+                start = {{ kind = 'list', spheres = [{{ position = [0, 0, 1] }}, {{ position = {second} }}] }}
+                time = {{ dt = 1e-7, duration = 1, frame_interval = 1e-3 }}"
+            );
+            from_str(&text, Path::new("pair.toml")).unwrap_or_else(|error| panic!("{error}"))
+        };
+        let apart = placed("[0.1, 0, 1]", "");
+        assert_eq!(largest_stable(&apart), None);
+        // Released from the deepest overlap of an impact, the pair parts like after it.
+        let impact = impact_at_one_metre_per_second(2e5, 1e4);
+        let distance = 0.008 - impact.deepest_overlap();
+        let pressed = placed(&format!("[0, {distance}, 1]"), "");
+        let expected = largest_stable(&pair(&law)).unwrap().seconds;
+        close(largest_stable(&pressed).unwrap().seconds, expected, 1e-9);
+        let wall = placed(
+            &format!("[0, {distance}, 3]"),
+            &format!("tank = {{ floor = {} }}\n", 1.0 - distance + 0.004),
+        );
+        close(largest_stable(&wall).unwrap().seconds, expected, 1e-9);
     }
 
     #[test]
@@ -341,7 +372,7 @@ mod tests {
     fn bounded(scheme: Integrator, loaded: bool, frequency: f64, rate: f64, dt: f64) -> bool {
         let (mut position, mut velocity, mut latest) = (1.0, 0.0, 0.0);
         let mut spring = -frequency * frequency * position;
-        for _ in 0..20_000 {
+        for step in 0..20_000 {
             let square = frequency * frequency;
             match scheme {
                 // At the half steps of velocity Verlet the same.
@@ -356,9 +387,9 @@ mod tests {
                 Integrator::SynchronisedVerlet => {
                     position += 0.5 * dt * velocity;
                     let foretold = velocity + 0.5 * dt * latest;
-                    let felt = spring - square * foretold * 0.5 * dt;
-                    spring -= square * foretold * dt;
-                    let force = if loaded { felt } else { -square * position };
+                    let time = if step == 0 { 0.5 * dt } else { dt };
+                    spring -= square * velocity * time;
+                    let force = if loaded { spring } else { -square * position };
                     latest = force - rate * foretold;
                     velocity += dt * latest;
                     position += 0.5 * dt * velocity;
@@ -377,11 +408,8 @@ mod tests {
             let scheme = Scheme::of(&scene);
             for (frequency, dissipation) in [(5.0, 0.0), (1.0, 0.1), (3.0, 1.0), (10.0, 3.0)] {
                 let rate = 2.0 / 3.0 * dissipation * frequency * frequency;
-                let limits = [
-                    (false, scheme.oscillator(frequency, rate)),
-                    (true, scheme.loaded_spring(frequency, rate)),
-                ];
-                for (loaded, limit) in limits {
+                let limit = scheme.oscillator(frequency, rate);
+                for loaded in [false, true] {
                     let name = format!("{} {loaded} {frequency}", integrator.name());
                     let bounded = |dt| bounded(integrator, loaded, frequency, rate, dt);
                     assert!(bounded(0.99 * limit), "{name}");

@@ -13,7 +13,7 @@ use crate::record::RunRecord;
 use plotters::drawing::IntoDrawingArea;
 use plotters::element::{Circle, PathElement, Polygon};
 use plotters::style::text_anchor::{HPos, VPos};
-use plotters::style::{BLACK, Color, FontTransform, RGBColor, WHITE};
+use plotters::style::{BLACK, Color, FontTransform, WHITE};
 use view::{Sight, View};
 
 /// Greatest height of the panel.
@@ -35,16 +35,6 @@ const LINE: i32 = px(19);
 
 /// Room right of the panel, for half of the last number.
 const RIGHT: i32 = px(12);
-
-/// Colours of the spheres, in turn; told apart by every kind of colour vision (Okabe and Ito, 2008).
-const COLORS: [RGBColor; 6] = [
-    RGBColor(0x00, 0x72, 0xb2),
-    RGBColor(0xd5, 0x5e, 0x00),
-    RGBColor(0x00, 0x9e, 0x73),
-    RGBColor(0xcc, 0x79, 0xa7),
-    RGBColor(0xe6, 0x9f, 0x00),
-    RGBColor(0x56, 0xb4, 0xe9),
-];
 
 /// Draws the tracks of a run.
 ///
@@ -150,7 +140,7 @@ impl Tracks<'_> {
     }
 
     fn draw_sphere(&self, sheet: &Sheet<'_>, layout: &Layout, sphere: usize) -> Drawn {
-        let color = COLORS[sphere % COLORS.len()];
+        let color = palette::DISTINCT[sphere % palette::DISTINCT.len()];
         let last = self.record.trajectory.len() - 1;
         let radius = 1e3 * self.record.radius[sphere];
         let path = thinned((0..=last).map(|frame| layout.at(self.place(frame, sphere))));
