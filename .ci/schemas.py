@@ -15,7 +15,7 @@ radius-of-wrong-kind radius-share-misspelt several-problems start-position-incom
 start-sphere-misspelt""".split()
 
 validators = {}
-for kind in "scene", "sweep":
+for kind in "scene", "sweep", "stability":
     schema = json.loads(Path(f"docs/schema/{kind}.json").read_text())
     jsonschema.Draft7Validator.check_schema(schema)
     validators[kind] = jsonschema.Draft7Validator(schema)
@@ -23,7 +23,9 @@ for kind in "scene", "sweep":
 
 def complaints(path):
     content = tomllib.loads(path.read_text())
-    kind = "sweep" if content.keys() & {"axis", "scene", "seeds", "sieves", "plot"} else "scene"
+    is_study = path.parent.name == "stability" or path.name.startswith("stability-")
+    is_sweep = bool(content.keys() & {"axis", "scene", "seeds", "sieves", "plot"})
+    kind = "stability" if is_study else "sweep" if is_sweep else "scene"
     return [error.message for error in validators[kind].iter_errors(content)]
 
 

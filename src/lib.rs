@@ -13,6 +13,7 @@
 //! | a run that is interrupted and goes on from its checkpoint | [`resume`] |
 //! | the label of a record | [`classify`](mod@classify) |
 //! | many scenes at once, their labels, and figures of them | [`sweep`], [`plot`] |
+//! | where an integrator is stable: a phase diagram of the numerics | [`stability`] |
 //! | records and tables as files | [`store`] |
 //! | laws that results are compared with | [`theory`], [`beverloo`] |
 //!
@@ -88,6 +89,7 @@ pub mod replay;
 pub mod resume;
 pub mod run;
 pub mod scene;
+pub mod stability;
 pub mod statistics;
 pub mod store;
 pub mod sweep;

@@ -176,6 +176,7 @@ pub const OTHER_UNITS: &[(&str, &str)] = &[
     ("sieves.emptied.share", ""),
     ("sieves.arching.window", "s"),
     ("sieves.flowing.window", "s"),
+    ("energy_gain", ""),
 ];
 
 /// The unit of a number in a scene or sweep file, if it is known; empty for a pure number. That of

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use support::{TinySweep, Workplace, scene_file};
 
 /// The commands that answer in JSON are tested below; these are all.
-const COMMANDS: [&str; 15] = [
+const COMMANDS: [&str; 16] = [
     "sweep",
     "classify",
     "plot",
@@ -19,6 +19,7 @@ const COMMANDS: [&str; 15] = [
     "view",
     "check",
     "neighbours",
+    "stability",
     "verify",
     "status",
     "new",
@@ -34,6 +35,7 @@ fn documents_are_what_the_program_prints() {
     for (arguments, path) in [
         (["schema", "scene"], "docs/schema/scene.json"),
         (["schema", "sweep"], "docs/schema/sweep.json"),
+        (["schema", "stability"], "docs/schema/stability.json"),
         (["reference", "keys"], "docs/reference.md"),
         (["reference", "notation"], "docs/notation.md"),
     ] {
@@ -84,10 +86,14 @@ fn shipped_files_name_their_schema_in_the_first_line() {
     assert!(files.len() >= 9);
     for path in files {
         let text = std::fs::read_to_string(&path).unwrap();
-        let is_sweep = toml::from_str::<toml::Table>(&text)
+        let has_scene = toml::from_str::<toml::Table>(&text)
             .unwrap()
             .contains_key("scene");
-        let kind = if is_sweep { "sweep" } else { "scene" };
+        let kind = match path.starts_with("sweeps/stability") {
+            true => "stability",
+            false if has_scene => "sweep",
+            false => "scene",
+        };
         let up = "../".repeat(path.components().count() - 1);
         assert_eq!(
             text.lines().next(),
@@ -318,6 +324,34 @@ fn a_run_answers_in_json() {
     let run = answer(&place, &["run", "scene.toml"], 0);
     assert_eq!(run["outcome"], "unstable");
     assert_eq!(run["instability"]["guard"], "displacement");
+}
+
+#[test]
+fn a_study_of_stability_answers_in_json() {
+    let place = Workplace::new();
+    let axes = "[[axis]]\nkey = \"time.dt\"\nvalues = [1e-4, 2e-2]\n\
+                [[axis]]\nkey = \"contact.young_modulus\"\nvalues = [1e5, 1e6]\n";
+    place.write("scene.toml", &scene_file());
+    place.write("study.toml", &format!("scene = \"scene.toml\"\n{axes}"));
+    let study = answer(&place, &["stability", "study.toml"], 0);
+    assert_eq!(study["folder"], "results/study");
+    assert_eq!(
+        (&study["runs"], &study["run_now"]),
+        (&16.into(), &16.into())
+    );
+    let euler = &study["integrators"][0];
+    assert_eq!(euler["integrator"], "symplectic-euler");
+    let runs = euler["labels"].as_object().unwrap().values();
+    assert_eq!(runs.map(|runs| runs.as_u64().unwrap()).sum::<u64>(), 4);
+    assert!(
+        euler["none_stable_above"].as_f64().unwrap() > 0.1,
+        "{euler}"
+    );
+    let files = study["files"].as_array().unwrap();
+    assert!(
+        files.contains(&"results/study/stability.png".into()),
+        "{study}"
+    );
 }
 
 #[test]

@@ -195,7 +195,7 @@ fn the_residual_has_the_order_of_the_integrator() {
             );
             largest(&with_ledger(&scene(&text, integrator)).residual)
         };
-        let order = (residual(2e-5) / residual(1e-5)).log2();
+        let order = libm::log2(residual(2e-5) / residual(1e-5));
         let expected = match integrator {
             Integrator::SymplecticEuler => 1.0,
             _ => 2.0,

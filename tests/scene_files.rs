@@ -5,6 +5,7 @@
 
 use phase::document::LoadError;
 use phase::scene::{self, Radii, Scene, Start};
+use phase::stability;
 use phase::sweep::{self, Sweep};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
@@ -24,9 +25,17 @@ fn is_sweep(path: &Path) -> bool {
     name.starts_with("sweep-")
 }
 
+/// Whether a file is a study of stability.
+fn is_study(path: &Path) -> bool {
+    let name = path.file_name().unwrap().to_str().unwrap();
+    name.starts_with("stability-")
+}
+
 fn refusal(path: &Path) -> LoadError {
     let refused = if is_sweep(path) {
         sweep::load(path).err()
+    } else if is_study(path) {
+        stability::load(path).err()
     } else {
         scene::load(path).err()
     };
@@ -57,6 +66,8 @@ fn every_good_file_loads() {
     for path in files("tests/good") {
         let loaded = if is_sweep(&path) {
             sweep::load(&path).map(|_| ())
+        } else if is_study(&path) {
+            stability::load(&path).map(|_| ())
         } else {
             scene::load(&path).map(|_| ())
         };
@@ -236,7 +247,8 @@ fn sweeps_survive_json_exactly() {
 
 #[test]
 fn scenes_survive_json_and_toml_exactly() {
-    for path in files("tests/good").iter().filter(|path| !is_sweep(path)) {
+    let is_scene = |path: &&PathBuf| !is_sweep(path) && !is_study(path);
+    for path in files("tests/good").iter().filter(is_scene) {
         let scene = load_scene(path);
         let json = serde_json::to_string(&scene).unwrap();
         assert_eq!(serde_json::from_str::<Scene>(&json).unwrap(), scene);

@@ -19,6 +19,7 @@ mod progress;
 mod reference;
 mod run;
 mod schema;
+mod stability;
 mod status;
 mod sweep;
 mod time_step;
@@ -78,6 +79,7 @@ enum Command {
     View(view::Arguments),
     Check(check::Arguments),
     Neighbours(neighbours::Arguments),
+    Stability(stability::Arguments),
     Status(status::Arguments),
     Verify(verify::Arguments),
     New(new::Arguments),
@@ -99,6 +101,7 @@ impl Command {
             Self::View(arguments) => arguments.json,
             Self::Check(arguments) => arguments.json,
             Self::Neighbours(arguments) => arguments.json,
+            Self::Stability(arguments) => arguments.json,
             Self::Status(arguments) => arguments.json,
             Self::Verify(arguments) => arguments.json,
             _ => false,
@@ -119,6 +122,7 @@ pub(crate) fn main() -> ExitCode {
         Command::View(arguments) => view::main(&arguments, &console),
         Command::Check(arguments) => check::main(&arguments, &console),
         Command::Neighbours(arguments) => neighbours::main(&arguments, &console),
+        Command::Stability(arguments) => stability::main(&arguments, &console),
         Command::Status(arguments) => status::main(&arguments, &console),
         Command::Verify(arguments) => verify::main(&arguments, &console),
         Command::New(arguments) => new::main(&arguments, &console),

@@ -22,12 +22,15 @@ enum Kind {
     Scene,
     /// A scene, and what is varied in it.
     Sweep,
+    /// A study of stability: a scene, and the two keys over which integrators are tried.
+    Stability,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let file = match arguments.file {
         Kind::Scene => File::Scene,
         Kind::Sweep => File::Sweep,
+        Kind::Stability => File::Stability,
     };
     console.result(format_args!("{:#}", reference::schema(file)))?;
     Ok(Exit::Done)

@@ -162,7 +162,7 @@ fn distinct(seeds: &[u64]) -> Result<Vec<u64>, Failure> {
 }
 
 /// `results/<stem of the sweep file>`.
-fn default_folder(file: &Path) -> PathBuf {
+pub(super) fn default_folder(file: &Path) -> PathBuf {
     Path::new("results").join(file.file_stem().unwrap_or("sweep".as_ref()))
 }
 

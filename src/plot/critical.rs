@@ -1,6 +1,6 @@
 //! The curve of the critical rotation, drawn over a figure.
 
-use super::grid::{Grid, GridAxis, Panel};
+use super::grid::{Grid, Panel};
 use crate::scene::{Radii, Scene};
 use crate::theory::critical_rotation;
 
@@ -27,7 +27,7 @@ pub(super) fn curve(scene: &Scene, grid: &Grid, panel: &Panel) -> Vec<Piece> {
     };
     let points = (0..=SAMPLES).filter_map(|sample| {
         let fraction = sample as f64 / SAMPLES as f64;
-        let place = other.map_or(fraction, |axis| along(axis, fraction));
+        let place = other.map_or(fraction, |axis| axis.along(fraction));
         let value = |key: &str| match other {
             Some(axis) if axis.key == key => Some(place / axis.factor),
             _ => fixed(key, grid, panel).or_else(|| of_scene(key, scene)),
@@ -52,17 +52,6 @@ pub(super) fn curve(scene: &Scene, grid: &Grid, panel: &Panel) -> Vec<Piece> {
         points.for_each(|(place, omega)| std::mem::swap(place, omega));
     }
     pieces
-}
-
-/// The shown value at a fraction of an axis.
-fn along(axis: &GridAxis, fraction: f64) -> f64 {
-    let edges = axis.edges();
-    let (low, high) = (edges[0], edges[edges.len() - 1]);
-    if axis.logarithmic() {
-        low * libm::pow(high / low, fraction)
-    } else {
-        low + (high - low) * fraction
-    }
 }
 
 /// Value of a key that the panel stands for.

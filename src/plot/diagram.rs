@@ -25,13 +25,21 @@ pub(super) struct Look {
     pub(super) group: usize,
 }
 
+/// A curve over a panel: pieces in shown values.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Curve {
+    pub(super) pieces: Vec<critical::Piece>,
+    /// Whether it is a thin dashed one.
+    pub(super) dashed: bool,
+}
+
 /// A diagram: what differs between the figures that are one.
-pub(super) struct Diagram<'a> {
+pub(super) struct Diagram<'a, P = Point> {
     /// Name of the figure.
     pub(super) name: &'a str,
-    pub(super) grid: &'a Grid,
+    pub(super) grid: &'a Grid<P>,
     /// How a point looks; `None` where it has no value.
-    pub(super) look: &'a dyn Fn(&Point) -> Option<Look>,
+    pub(super) look: &'a dyn Fn(&P) -> Option<Look>,
     /// What a cell without a value is called.
     pub(super) empty: String,
     /// Entries of the legend, before those of the curve and of empty cells.
@@ -40,17 +48,41 @@ pub(super) struct Diagram<'a> {
 }
 
 impl Diagram<'_> {
-    /// Draws it.
+    /// Draws it with the curve of the critical rotation.
     pub(super) fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
         let scene = &source.sweep.scene;
-        let curves: Vec<Vec<critical::Piece>> = self
+        let curve = |panel| Curve {
+            pieces: critical::curve(scene, self.grid, panel),
+            dashed: false,
+        };
+        let curves: Vec<Vec<Curve>> = self
             .grid
             .panels
             .iter()
-            .map(|panel| critical::curve(scene, self.grid, panel))
+            .map(|panel| vec![curve(panel)])
             .collect();
-        let entries = self.entries(curves.iter().any(|curve| !curve.is_empty()));
+        let is_there = |curve: &Curve| !curve.pieces.is_empty();
+        let entry = curves.iter().flatten().any(is_there).then(|| Entry {
+            key: Key::Curve,
+            text: critical::NAME.to_owned(),
+        });
         let title = source.sweep.title.as_deref();
+        let (size, body) = self.body(title, &curves, entry)?;
+        Ok(Svg::new(self.name, source, size, &body))
+    }
+}
+
+impl<P> Diagram<'_, P> {
+    /// Size of the canvas, and what is drawn on it: below a title the panels, each with curves, of which
+    /// the last entries of the legend tell.
+    pub(super) fn body(
+        &self,
+        title: Option<&str>,
+        curves: &[Vec<Curve>],
+        of_curves: impl IntoIterator<Item = Entry>,
+    ) -> Result<((u32, u32), String), PlotError> {
+        let mut entries = self.entries();
+        entries.extend(of_curves);
         let mut layout = Layout::new(title, self.grid, self.bar.clone(), entries);
         layout.legend.0.cell = self.smallest_cell(&layout);
         let size = (layout.size.0 as u32, layout.size.1 as u32);
@@ -67,27 +99,22 @@ impl Diagram<'_> {
                 bar.draw(&sheet, *corner, *height)?;
             }
         }
-        Ok(Svg::new(self.name, source, size, &body))
+        Ok((size, body))
     }
 
-    fn looks(&self, panel: &Panel) -> Vec<Option<Look>> {
-        let look = |cell: &Option<Point>| cell.as_ref().and_then(self.look);
+    fn looks(&self, panel: &Panel<P>) -> Vec<Option<Look>> {
+        let look = |cell: &Option<P>| cell.as_ref().and_then(self.look);
         panel.cells.iter().map(look).collect()
     }
 
-    fn entries(&self, with_curve: bool) -> Vec<Entry> {
+    /// Entries of the legend but for curves.
+    fn entries(&self) -> Vec<Entry> {
         let mut entries = self.legend.clone();
-        let empty = |panel: &Panel| self.looks(panel).contains(&None);
+        let empty = |panel: &Panel<P>| self.looks(panel).contains(&None);
         if self.grid.panels.iter().any(empty) {
             entries.push(Entry {
                 key: Key::Fill(Fill::Hatch),
                 text: self.empty.clone(),
-            });
-        }
-        if with_curve {
-            entries.push(Entry {
-                key: Key::Curve,
-                text: critical::NAME.to_owned(),
             });
         }
         entries
@@ -98,8 +125,8 @@ impl Diagram<'_> {
         sheet: &Sheet<'_>,
         layout: &Layout,
         index: usize,
-        panel: &Panel,
-        curves: &[critical::Piece],
+        panel: &Panel<P>,
+        curves: &[Curve],
     ) -> Drawn {
         let (left, top) = layout.corner(index);
         let (first, last) = layout.outer(index);
@@ -118,12 +145,12 @@ impl Diagram<'_> {
         let looks = self.looks(panel);
         self.draw_cells(sheet, plot, &looks)?;
         self.draw_borders(sheet, plot, &looks)?;
-        for piece in curves {
-            let pixels: Vec<(i32, i32)> = piece
-                .iter()
-                .map(|point| plot.map_coordinate(point))
-                .collect();
-            style::curve(sheet, &pixels)?;
+        for Curve { pieces, dashed } in curves {
+            let draw = if *dashed { style::dashes } else { style::curve };
+            for piece in pieces {
+                let pixels = piece.iter().map(|point| plot.map_coordinate(point));
+                draw(sheet, &pixels.collect::<Vec<_>>())?;
+            }
         }
         self.draw_marks(sheet, plot, &looks, layout.legend.0.cell)?;
         axes.draw()
@@ -244,12 +271,12 @@ impl Diagram<'_> {
         for (index, panel) in self.grid.panels.iter().enumerate() {
             let (left, top) = layout.corner(index);
             let first_row = index < layout.shape.columns;
-            if let (Some(axis), Some(value)) = (&self.grid.columns, panel.column)
+            if let Some(head) = &panel.head
                 && (first_row || self.grid.rows.is_none())
             {
                 let style = letters(SMALL, HPos::Center, VPos::Bottom);
                 let place = (left + layout.panel.0 / 2, top - px(3));
-                sheet.draw_text(&axis.at(value), &style, place)?;
+                sheet.draw_text(head, &style, place)?;
             }
             let last_column = (index + 1).is_multiple_of(layout.shape.columns);
             if let (Some(axis), Some(value), true) = (&self.grid.rows, panel.row, last_column) {

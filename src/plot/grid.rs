@@ -2,6 +2,7 @@
 
 use super::{PlotError, Source};
 use crate::notation::notation;
+use crate::scene::Scene;
 use crate::sweep::{Axis, LabelTable, Point, Sweep};
 
 /// An axis of a figure.
@@ -23,18 +24,29 @@ pub(super) struct GridAxis {
 impl GridAxis {
     /// The axis of that index among those of the sweep.
     pub(super) fn new(index: usize, sweep: &Sweep, table: &LabelTable) -> Self {
-        let axis = &sweep.axes[index];
+        let values = table.rows.iter().map(|row| row.values[index]);
+        Self::over(index, &sweep.axes, &sweep.scene, values)
+    }
+
+    /// The axis of that index among `axes` over keys of a scene, with more values than its own.
+    pub(super) fn over(
+        index: usize,
+        axes: &[Axis],
+        scene: &Scene,
+        more: impl Iterator<Item = f64>,
+    ) -> Self {
+        let axis = &axes[index];
         let mut values: Vec<f64> = axis.values.clone();
-        values.extend(table.rows.iter().map(|row| row.values[index]));
+        values.extend(more);
         values.sort_by(f64::total_cmp);
         values.dedup();
         let (symbol, unit) = match notation(&axis.key) {
             Some(notation) => (
                 format!("${}$", notation.symbol),
-                notation.unit_in(&sweep.scene).to_owned(),
+                notation.unit_in(scene).to_owned(),
             ),
             None => {
-                let share = share_of(axis, sweep);
+                let share = share_of(axis, scene);
                 (share.unwrap_or_else(|| axis.name.clone()), String::new())
             }
         };
@@ -46,7 +58,7 @@ impl GridAxis {
             unit,
             index,
         };
-        if let Some((scale, symbol)) = scale(&axis.key, sweep) {
+        if let Some((scale, symbol)) = scale(&axis.key, axes, scene) {
             shown.factor = 1.0 / scale;
             shown.symbol = symbol.to_owned();
             shown.unit = String::new();
@@ -120,8 +132,20 @@ impl GridAxis {
         edges.into_iter().map(back).collect()
     }
 
-    fn position(&self, point: &Point) -> Option<usize> {
-        let value = point.values[self.index];
+    /// The value at a fraction of the axis, as shown.
+    pub(super) fn along(&self, fraction: f64) -> f64 {
+        let edges = self.edges();
+        let (low, high) = (edges[0], edges[edges.len() - 1]);
+        if self.logarithmic() {
+            low * libm::pow(high / low, fraction)
+        } else {
+            low + (high - low) * fraction
+        }
+    }
+
+    /// Which of the values is that of a point of the grid.
+    pub(super) fn position(&self, values: &[f64]) -> Option<usize> {
+        let value = values[self.index];
         self.values.iter().position(|&other| other == value)
     }
 }
@@ -129,15 +153,15 @@ impl GridAxis {
 /// The length (m) that values of a key are shown over, and the symbol of the ratio: radii over that of
 /// the tank, openings over the mean diameter of the grains, unless what they are shown over is swept
 /// too.
-fn scale(key: &str, sweep: &Sweep) -> Option<(f64, &'static str)> {
-    let swept = |name: &str| sweep.axes.iter().any(|axis| axis.key.starts_with(name));
+fn scale(key: &str, axes: &[Axis], scene: &Scene) -> Option<(f64, &'static str)> {
+    let swept = |name: &str| axes.iter().any(|axis| axis.key.starts_with(name));
     match key {
         "spheres.radius" if !swept("tank.radius") => {
-            let radius = sweep.scene.tank.as_ref()?.radius?;
+            let radius = scene.tank.as_ref()?.radius?;
             Some((radius, "$r$ / $R$"))
         }
         "geometry.opening" if !swept("spheres.radius") => {
-            let diameter = 2.0 * sweep.scene.spheres.radius.mean();
+            let diameter = 2.0 * scene.spheres.radius.mean();
             Some((diameter, "$D$ / $d$"))
         }
         _ => None,
@@ -145,27 +169,29 @@ fn scale(key: &str, sweep: &Sweep) -> Option<(f64, &'static str)> {
 }
 
 /// What an axis over the share of one of several radii is called.
-fn share_of(axis: &Axis, sweep: &Sweep) -> Option<String> {
+fn share_of(axis: &Axis, scene: &Scene) -> Option<String> {
     let index = axis.key.strip_prefix("spheres.radius[")?;
     let index: usize = index.strip_suffix("].share")?.parse().ok()?;
-    let radius = sweep.scene.spheres.radius.shares().get(index)?.radius;
+    let radius = scene.spheres.radius.shares().get(index)?.radius;
     let radius = super::scale::number(radius * 1e3);
     Some(format!("relative share of grains of $r$ = {radius} mm"))
 }
 
-/// One of the small multiples.
+/// One of the small multiples; its cells hold points of a sweep, or of something else.
 #[derive(Clone, Debug)]
-pub(super) struct Panel {
+pub(super) struct Panel<P = Point> {
+    /// What stands above it.
+    pub(super) head: Option<String>,
     /// Values of the axes it is for, on `columns` and `rows` of the grid.
     pub(super) column: Option<f64>,
     pub(super) row: Option<f64>,
     /// Its points; cell (x, y) is at `x + y * number of x values`.
-    pub(super) cells: Vec<Option<Point>>,
+    pub(super) cells: Vec<Option<P>>,
 }
 
 /// The axes of a figure and the points in its cells.
 #[derive(Clone, Debug)]
-pub(super) struct Grid {
+pub(super) struct Grid<P = Point> {
     pub(super) x: GridAxis,
     pub(super) y: Option<GridAxis>,
     /// Axis of the small multiples.
@@ -173,7 +199,7 @@ pub(super) struct Grid {
     /// A second such axis.
     pub(super) rows: Option<GridAxis>,
     /// Panels, row by row.
-    pub(super) panels: Vec<Panel>,
+    pub(super) panels: Vec<Panel<P>>,
 }
 
 impl Grid {
@@ -194,12 +220,6 @@ impl Grid {
         Ok(grid)
     }
 
-    /// Number of cells of a panel, horizontally and vertically.
-    pub(super) fn cells(&self) -> (usize, usize) {
-        let vertical = self.y.as_ref().map_or(1, |axis| axis.values.len());
-        (self.x.values.len(), vertical)
-    }
-
     fn fill(&mut self, points: Vec<Point>) {
         let (horizontal, vertical) = self.cells();
         let values = |axis: &Option<GridAxis>| match axis {
@@ -208,19 +228,26 @@ impl Grid {
         };
         let columns: Vec<Option<f64>> = values(&self.columns);
         for row in values(&self.rows) {
-            self.panels.extend(columns.iter().map(|&column| Panel {
-                column,
-                row,
-                cells: vec![None; horizontal * vertical],
+            self.panels.extend(columns.iter().map(|&column| {
+                Panel {
+                    head: self
+                        .columns
+                        .as_ref()
+                        .zip(column)
+                        .map(|(axis, value)| axis.at(value)),
+                    column,
+                    row,
+                    cells: vec![None; horizontal * vertical],
+                }
             }));
         }
         for point in points {
             let place = |axis: &Option<GridAxis>| match axis {
-                Some(axis) => axis.position(&point),
+                Some(axis) => axis.position(&point.values),
                 None => Some(0),
             };
             let places = (
-                self.x.position(&point),
+                self.x.position(&point.values),
                 place(&self.y),
                 place(&self.columns),
                 place(&self.rows),
@@ -229,6 +256,19 @@ impl Grid {
                 self.panels[column + row * columns.len()].cells[x + y * horizontal] = Some(point);
             }
         }
+    }
+}
+
+impl<P> Grid<P> {
+    /// Number of cells of a panel, horizontally and vertically.
+    pub(super) fn cells(&self) -> (usize, usize) {
+        let vertical = self.y.as_ref().map_or(1, |axis| axis.values.len());
+        (self.x.values.len(), vertical)
+    }
+
+    /// Whether something stands above panels.
+    pub(super) fn has_heads(&self) -> bool {
+        self.panels.iter().any(|panel| panel.head.is_some())
     }
 }
 

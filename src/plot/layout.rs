@@ -54,15 +54,18 @@ pub(super) struct Layout {
 
 impl Layout {
     /// Places the parts of a diagram: the legend beside a single panel, else below all.
-    pub(super) fn new(
+    pub(super) fn new<P>(
         title: Option<&str>,
-        grid: &Grid,
+        grid: &Grid<P>,
         bar: Option<ColorBar>,
         entries: Vec<Entry>,
     ) -> Self {
         let shape = Shape::new(grid, bar.is_some());
         let beside = shape.columns == 1 && bar.is_none() && !shape.strip;
-        let legend = Legend::new(entries, if beside { 0 } else { WIDTH - 2 * MARGIN });
+        let (left, ticks_left) = shape.left(grid);
+        // Below the panels it begins where they do.
+        let room = WIDTH - 2 * MARGIN - left;
+        let legend = Legend::new(entries, if beside { 0 } else { room });
         let bar = bar.map(|bar| bar.fitted(shape.rough_height()));
 
         let row_heads = if grid.rows.is_some() { SIDE_HEAD } else { 0 };
@@ -72,9 +75,8 @@ impl Layout {
                 None if beside && legend.size().0 > 0 => ASIDE + legend.size().0,
                 None => 0,
             };
-        let (left, ticks_left) = shape.left(grid);
         let title = title_lines(title);
-        let column_heads = if grid.columns.is_some() { HEAD } else { 0 };
+        let column_heads = if grid.has_heads() { HEAD } else { 0 };
         let origin = (MARGIN + left, title_height(&title) + column_heads);
         let panel = shape.panel(WIDTH - 2 * MARGIN - left - right);
         let heads_between = if grid.rows.is_some() { 0 } else { column_heads };
@@ -88,7 +90,10 @@ impl Layout {
             ticks: (ticks_left, TICKS_BELOW),
             bar: None,
             legend: (legend, (0, 0)),
-            scales: (x_scale(grid, panel.0), y_scale(grid, panel.1)),
+            scales: (
+                x_scale(grid, panel.0, shape.columns),
+                y_scale(grid, panel.1),
+            ),
         };
 
         let end = layout.end();
@@ -173,7 +178,7 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    fn new(grid: &Grid, with_bar: bool) -> Self {
+    fn new<P>(grid: &Grid<P>, with_bar: bool) -> Self {
         let panels = grid.panels.len();
         let columns = match &grid.columns {
             Some(axis) if grid.rows.is_some() => axis.values.len(),
@@ -211,7 +216,7 @@ impl Shape {
     }
 
     /// Room left of the panels, and that of the tick labels therein.
-    fn left(self, grid: &Grid) -> (i32, i32) {
+    fn left<P>(self, grid: &Grid<P>) -> (i32, i32) {
         if self.strip {
             return (px(8), 0);
         }
@@ -221,12 +226,18 @@ impl Shape {
     }
 }
 
-fn x_scale(grid: &Grid, length: i32) -> Scale {
-    scale(&grid.x, length, Direction::Horizontal)
+/// The horizontal scale of panels of a length, of which so many stand side by side.
+fn x_scale<P>(grid: &Grid<P>, length: i32, columns: usize) -> Scale {
+    let scale = scale(&grid.x, length, Direction::Horizontal);
+    if columns == 1 {
+        return scale;
+    }
+    // The room between panels is shared with the next one.
+    scale.with_labels_within(room(length, Direction::Horizontal), f64::from(GAP / 3))
 }
 
 /// The vertical scale; that of a strip goes from 0 to 1 without ticks.
-fn y_scale(grid: &Grid, length: i32) -> Scale {
+fn y_scale<P>(grid: &Grid<P>, length: i32) -> Scale {
     match &grid.y {
         Some(axis) => scale(axis, length, Direction::Vertical),
         None => Scale::bare(0.0, 1.0),
@@ -235,11 +246,15 @@ fn y_scale(grid: &Grid, length: i32) -> Scale {
 
 fn scale(axis: &super::grid::GridAxis, length: i32, direction: Direction) -> Scale {
     let edges = axis.edges();
-    let room = Room {
+    let room = room(length, direction);
+    let (low, high) = (edges[0], edges[edges.len() - 1]);
+    Scale::new(low, high, axis.logarithmic(), &axis.shown(), room)
+}
+
+fn room(length: i32, direction: Direction) -> Room {
+    Room {
         length: f64::from(length),
         size: f64::from(SMALL),
         direction,
-    };
-    let (low, high) = (edges[0], edges[edges.len() - 1]);
-    Scale::new(low, high, axis.logarithmic(), &axis.shown(), room)
+    }
 }

@@ -22,6 +22,8 @@ pub(super) enum Key {
     Agreement(f64),
     /// The curve of a theory.
     Curve,
+    /// The curve of an advice.
+    Dashes,
     /// A line of a chart.
     Line(RGBColor),
     /// A dot.
@@ -96,6 +98,7 @@ fn draw_key(sheet: &Sheet<'_>, key: Key, (left, middle): (i32, i32), cell: i32) 
             style::disagreement(sheet, corners, agreement, cell)?;
         }
         Key::Curve => return style::curve(sheet, &[(left, middle), (right, middle)]),
+        Key::Dashes => return style::dashes(sheet, &[(left, middle), (right, middle)]),
         Key::Dot(color) => {
             let middle = (left.midpoint(right), middle);
             return sheet.draw(&Circle::new(middle, px(3), color.filled()));

@@ -5,6 +5,7 @@
 
 use crate::classify::Label;
 use crate::color::{self, ColorMap};
+use crate::stability;
 use plotters::style::RGBColor;
 
 /// Colour of a state.
@@ -20,6 +21,16 @@ pub(super) fn state(label: Label) -> RGBColor {
         Label::Flowing => rgb(0x3f_92_d2),
         Label::Arching => rgb(0x7a_1f_4d),
         Label::Unstable => rgb(0x00_00_00),
+    }
+}
+
+/// Colour of what became of a run numerically: the darker the worse.
+pub(super) fn stability(label: stability::Label) -> RGBColor {
+    match label {
+        stability::Label::Stable => rgb(0xe6_e2_f7),
+        stability::Label::EnergyGain => rgb(0xe2_a8_3c),
+        stability::Label::LostSphere => rgb(0x98_2c_74),
+        stability::Label::NotANumber => rgb(0x00_00_00),
     }
 }
 
@@ -206,6 +217,22 @@ mod tests {
                 let step = lightness(state(pair[0])) - lightness(state(pair[1]));
                 assert!(step >= LEAST_STEP, "{pair:?}: {step:.1}");
             }
+        }
+    }
+
+    #[test]
+    fn numerical_labels_stay_apart_for_every_vision_and_in_grey() {
+        let colors = stability::Label::ALL.map(super::stability);
+        for (name, vision) in &VISIONS {
+            for pair in colors.windows(2) {
+                let (a, b) = (lab(pair[0], vision), lab(pair[1], vision));
+                let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
+                assert!(square.sqrt() >= LEAST_DISTANCE, "{name}: {pair:?}");
+            }
+        }
+        for pair in colors.windows(2) {
+            let step = lightness(pair[0]) - lightness(pair[1]);
+            assert!(step >= LEAST_STEP, "{pair:?}: {step:.1}");
         }
     }
 

@@ -65,6 +65,19 @@ impl Scale {
         scale
     }
 
+    /// The scale without the ticks whose labels reach further than `overhang` (units of the canvas)
+    /// beyond its ends.
+    pub(super) fn with_labels_within(mut self, room: Room, overhang: f64) -> Self {
+        let mut ticks = std::mem::take(&mut self.ticks);
+        ticks.retain(|(value, label)| {
+            let half = 0.5 * text::width(label, room.size);
+            let place = self.fraction(*value) * room.length;
+            place - half >= -overhang && place + half <= room.length + overhang
+        });
+        self.ticks = ticks;
+        self
+    }
+
     /// A linear scale without ticks.
     pub(super) fn bare(low: f64, high: f64) -> Self {
         Self {
@@ -316,6 +329,20 @@ mod tests {
         ] {
             assert_eq!(number(value), expected);
         }
+    }
+
+    /// Labels of powers of ten at both ends ran into those of the next panel, and off the sheet.
+    #[test]
+    fn labels_stay_within_their_panel() {
+        let room = room(2000.0, Direction::Horizontal);
+        let scale = Scale::new(1.9e-6, 2.1e-4, true, &[], room);
+        let cut = scale.clone().with_labels_within(room, 50.0);
+        assert!(
+            labels(&cut).len() < labels(&scale).len(),
+            "{:?}",
+            labels(&scale)
+        );
+        assert_eq!(labels(&cut).first(), Some(&"5×10⁻⁶"));
     }
 
     proptest! {

@@ -171,6 +171,60 @@ pub(super) fn curve(sheet: &Sheet<'_>, points: &[(i32, i32)]) -> Drawn {
     sheet.draw(&PathElement::new(points, BLACK.stroke_width(20)))
 }
 
+/// Length of a dash, and of what lies between two.
+const DASH: (f64, f64) = (px(6) as f64, px(4) as f64);
+
+/// Draws the curve of an advice: thin black dashes with a white border.
+pub(super) fn dashes(sheet: &Sheet<'_>, points: &[(i32, i32)]) -> Drawn {
+    let dashes = dashed(points);
+    for (color, width) in [(WHITE, 28), (BLACK, 12)] {
+        for dash in &dashes {
+            sheet.draw(&PathElement::new(
+                dash.as_slice(),
+                color.stroke_width(width),
+            ))?;
+        }
+    }
+    Ok(())
+}
+
+/// The dashes of a polyline.
+fn dashed(points: &[(i32, i32)]) -> Vec<Vec<(i32, i32)>> {
+    let mut ways = vec![0.0];
+    for pair in points.windows(2) {
+        let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
+        ways.push(ways[ways.len() - 1] + libm::hypot(f64::from(x1 - x0), f64::from(y1 - y0)));
+    }
+    let total = ways[ways.len() - 1];
+    let at = |way: f64| {
+        let after = ways
+            .partition_point(|end| *end < way)
+            .clamp(1, points.len() - 1);
+        let (from, to) = (points[after - 1], points[after]);
+        let share = (way - ways[after - 1]) / (ways[after] - ways[after - 1]).max(1e-9);
+        let between = |a: i32, b: i32| a + (share * f64::from(b - a)).round() as i32;
+        (between(from.0, to.0), between(from.1, to.1))
+    };
+    let count = if points.len() < 2 {
+        0
+    } else {
+        (total / (DASH.0 + DASH.1)).ceil() as usize
+    };
+    let dash = |index: usize| {
+        let start = index as f64 * (DASH.0 + DASH.1);
+        let end = (start + DASH.0).min(total);
+        let inside = ways
+            .iter()
+            .zip(points)
+            .filter(|(way, _)| (start..end).contains(*way));
+        let mut dash = vec![at(start)];
+        dash.extend(inside.map(|(_, point)| *point));
+        dash.push(at(end));
+        dash
+    };
+    (0..count).map(dash).collect()
+}
+
 /// Draws a line of a chart.
 pub(super) fn line(sheet: &Sheet<'_>, points: &[(i32, i32)], color: RGBColor) -> Drawn {
     sheet.draw(&PathElement::new(points, color.stroke_width(15)))

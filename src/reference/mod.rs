@@ -1,7 +1,7 @@
 //! What files may say, for editors and for readers.
 //!
 //! Two sources are put together, and neither is repeated here: the tables of keys by which files
-//! are checked ([`crate::scene`], [`crate::sweep`]), and the documentation of the structs that files
+//! are checked ([`crate::scene`], [`crate::sweep`], [`crate::stability`]), and the documentation of the structs that files
 //! end in. Units and symbols come from [`crate::notation`]. `docs/` holds what these functions
 //! return; a test compares.
 
@@ -16,6 +16,8 @@ pub use notation::notation;
 use crate::document::schema::Kind;
 use crate::scene::Scene;
 use crate::scene::schema::SCENE;
+use crate::stability::StudyFile;
+use crate::stability::schema::STUDY;
 use crate::sweep::SweepFile;
 use crate::sweep::schema::SWEEP;
 use docs::Docs;
@@ -28,17 +30,20 @@ pub enum File {
     Scene,
     /// A scene, and what is varied in it.
     Sweep,
+    /// A scene, and the two keys over which integrators are tried.
+    Stability,
 }
 
 impl File {
     /// All kinds of files.
-    pub const ALL: [Self; 2] = [Self::Scene, Self::Sweep];
+    pub const ALL: [Self; 3] = [Self::Scene, Self::Sweep, Self::Stability];
 
     /// Name, as on the command line and in file names.
     pub fn name(self) -> &'static str {
         match self {
             Self::Scene => "scene",
             Self::Sweep => "sweep",
+            Self::Stability => "stability",
         }
     }
 
@@ -46,6 +51,7 @@ impl File {
         match self {
             Self::Scene => SCENE,
             Self::Sweep => SWEEP,
+            Self::Stability => STUDY,
         }
     }
 
@@ -53,6 +59,7 @@ impl File {
         match self {
             Self::Scene => Docs::of::<Scene>(),
             Self::Sweep => Docs::of::<SweepFile>(),
+            Self::Stability => Docs::of::<StudyFile>(),
         }
     }
 }

@@ -24,7 +24,12 @@ pub fn load(path: &Path) -> Result<Scene, LoadError> {
 /// # Errors
 /// Those of [`load`].
 pub fn load_base(path: &Path) -> Result<Scene, LoadError> {
-    base_of_document(&Document::read(path)?)
+    load_base_with(path, Scene::problems)
+}
+
+/// Like [`load_base`], with what `check` finds for the problems of a scene whose step is given.
+pub(crate) fn load_base_with(path: &Path, check: Check) -> Result<Scene, LoadError> {
+    base_of_document(&Document::read(path)?, check)
 }
 
 /// Like [`load`], with `text` for the content of the file `path`.
@@ -36,19 +41,26 @@ pub fn from_str(text: &str, path: &Path) -> Result<Scene, LoadError> {
 }
 
 fn of_document(document: &Document) -> Result<Scene, LoadError> {
-    let mut scene = base_of_document(document)?;
+    let mut scene = base_of_document(document, Scene::problems)?;
     scene.time.safety_factor = None;
     Ok(scene)
 }
 
-fn base_of_document(document: &Document) -> Result<Scene, LoadError> {
-    let scene = base_of_tree(document.tree(), document.folder());
+fn base_of_document(document: &Document, check: Check) -> Result<Scene, LoadError> {
+    let scene = base_of_tree(document.tree(), document.folder(), check);
     scene.map_err(|problems| document.refuse(&problems))
 }
 
+/// What finds the problems of a scene whose step is given.
+pub(crate) type Check = fn(&Scene) -> Vec<Problem>;
+
 /// The scene that a tree of values describes, as [`load_base`] returns it; files it names are relative
 /// to `folder`.
-pub(crate) fn base_of_tree(tree: &Value, folder: &Path) -> Result<Scene, Vec<Problem>> {
+pub(crate) fn base_of_tree(
+    tree: &Value,
+    folder: &Path,
+    check: Check,
+) -> Result<Scene, Vec<Problem>> {
     let mut problems = Vec::new();
     SCENE.check(tree, "", &mut problems);
     if !problems.is_empty() {
@@ -72,7 +84,7 @@ pub(crate) fn base_of_tree(tree: &Value, folder: &Path) -> Result<Scene, Vec<Pro
         scene.time.safety_factor = Some(safety_factor);
         return Ok(scene);
     }
-    match scene.problems() {
+    match check(&scene) {
         problems if problems.is_empty() => Ok(scene),
         problems => Err(problems),
     }

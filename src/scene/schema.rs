@@ -234,8 +234,11 @@ const TIME: Kind = Kind::Table(&[
     optional("safety_factor", Kind::Number(Range::above(0.0, 1.0))),
     needed("duration", SECONDS),
     needed("frame_interval", SECONDS),
-    optional("integrator", Kind::Choice(&Integrator::NAMES)),
+    optional("integrator", INTEGRATOR),
 ]);
+
+/// The integrators by their names.
+pub(crate) const INTEGRATOR: Kind = Kind::Choice(&Integrator::NAMES);
 
 const GUARDS: Kind = Kind::Table(&[
     optional("overlap", POSITIVE),
@@ -279,7 +282,7 @@ mod tests {
             "neighbours": { "search": "cells", "length": 0.25 },
             "time": { "dt": 1e-4, "duration": 1.0, "frame_interval": 1e-3 },
             "guards": {},
-            "output": {},
+            "output": { "ledger": true },
         })
     }
 

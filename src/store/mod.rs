@@ -12,6 +12,7 @@ mod labels;
 mod radii;
 mod record;
 mod rows;
+mod stability;
 mod start;
 mod text;
 
@@ -31,6 +32,7 @@ pub use record::{
     write_record,
 };
 pub use rows::write_rows;
+pub use stability::{read_stability, write_stability};
 pub use start::read_start;
 
 use std::io;

@@ -19,7 +19,7 @@ pub struct Axis {
 
 /// An axis as a sweep file writes it: `values`, or `from` and `to` with `step` or `count`.
 #[derive(Deserialize, JsonSchema)]
-pub(super) struct AxisEntry {
+pub(crate) struct AxisEntry {
     /// Any numeric key of the scene, by its path, such as `spheres.radius`.
     key: String,
     /// Name in tables and figures. Default: the last part of the key, such as `radius`.
@@ -62,7 +62,7 @@ const RESERVED: [&str; 7] = [
 
 impl AxisEntry {
     /// The axis of `scene` that stands at `path` in the sweep file.
-    pub(super) fn expand(&self, scene: &Scene, path: &str) -> Result<Axis, Problem> {
+    pub(crate) fn expand(&self, scene: &Scene, path: &str) -> Result<Axis, Problem> {
         let key = scene.resolve_key(&self.key).map_err(|problem| Problem {
             path: format!("{path}.key"),
             ..problem

@@ -1,6 +1,6 @@
 //! The jobs of a sweep: every point of its grid with every seed.
 
-use super::Sweep;
+use super::{Axis, Sweep};
 use crate::document::{Problem, number};
 use crate::scene::Scene;
 
@@ -56,47 +56,66 @@ impl Sweep {
 
     /// Number of points of the grid.
     pub fn points(&self) -> usize {
-        let sizes = self.axes.iter().map(|axis| axis.values.len());
-        sizes.fold(1, usize::saturating_mul)
+        points(&self.axes)
     }
 
     /// The points of the grid, in order.
     pub(super) fn grid(&self) -> impl Iterator<Item = Vec<f64>> {
-        (0..self.points()).map(|mut index| {
-            let mut values: Vec<f64> = self
-                .axes
-                .iter()
-                .rev()
-                .map(|axis| {
-                    let value = axis.values[index % axis.values.len()];
-                    index /= axis.values.len();
-                    value
-                })
-                .collect();
-            values.reverse();
-            values
-        })
+        grid(&self.axes)
     }
 
     /// The scene of a point of the grid, checked.
     pub(crate) fn scene_at(&self, values: &[f64]) -> Result<Scene, PointError> {
-        let fail = |problems| PointError {
-            point: self.describe(values),
-            problems,
-        };
-        let keys = self.axes.iter().map(|axis| axis.key.as_str());
-        let scene = self
-            .scene
-            .with_values(keys.zip(values.iter().copied()))
-            .map_err(|problem| fail(vec![problem]))?;
+        let scene = scene_with(&self.scene, &self.axes, values)?;
+        let fail = |problems| PointError::new(&self.axes, values, problems);
         scene.with_chosen_step().map_err(fail)
     }
+}
 
-    fn describe(&self, values: &[f64]) -> String {
-        let pairs = self.axes.iter().zip(values);
+/// The points of a grid, in order: the first axis varies slowest.
+pub(crate) fn grid(axes: &[Axis]) -> impl Iterator<Item = Vec<f64>> {
+    (0..points(axes)).map(move |mut index| {
+        let mut values: Vec<f64> = axes
+            .iter()
+            .rev()
+            .map(|axis| {
+                let value = axis.values[index % axis.values.len()];
+                index /= axis.values.len();
+                value
+            })
+            .collect();
+        values.reverse();
+        values
+    })
+}
+
+/// Number of points of a grid.
+pub(crate) fn points(axes: &[Axis]) -> usize {
+    let sizes = axes.iter().map(|axis| axis.values.len());
+    sizes.fold(1, usize::saturating_mul)
+}
+
+/// A scene with the values of a point of the grid, not checked.
+pub(crate) fn scene_with(
+    scene: &Scene,
+    axes: &[Axis],
+    values: &[f64],
+) -> Result<Scene, PointError> {
+    let keys = axes.iter().map(|axis| axis.key.as_str());
+    let scene = scene.with_values(keys.zip(values.iter().copied()));
+    scene.map_err(|problem| PointError::new(axes, values, vec![problem]))
+}
+
+impl PointError {
+    /// What is wrong at the point with these values.
+    pub(crate) fn new(axes: &[Axis], values: &[f64], problems: Vec<Problem>) -> Self {
+        let pairs = axes.iter().zip(values);
         let pairs: Vec<String> = pairs
             .map(|(axis, value)| format!("{} = {}", axis.name, number(*value)))
             .collect();
-        pairs.join(", ")
+        Self {
+            point: pairs.join(", "),
+            problems,
+        }
     }
 }

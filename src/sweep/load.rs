@@ -1,11 +1,12 @@
 //! From a sweep file to a sweep.
 
 use super::axis::AxisEntry;
+use super::job::{PointError, points};
 use super::schema::SWEEP;
 use super::{Axis, PlotSettings, Sweep};
 use crate::classify::{Family, Sieves};
 use crate::document::{Document, LoadError, Problem, one_of, suggest};
-use crate::scene::{self, Scene};
+use crate::scene::{self, Check, Scene};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
@@ -73,7 +74,7 @@ fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     document.accept(&problems)?;
     let file = SweepFile::deserialize(document.tree())
         .map_err(|error| document.refuse(&[Problem::new("", format!("not a sweep: {error}"))]))?;
-    let mut scene = base_scene(&file.scene, document)?;
+    let mut scene = base_scene(&file.scene, document, Scene::problems)?;
     let axes = expand_axes(&file.axis, &scene, &mut problems);
     check_steps(&axes, &mut problems);
     if axes.iter().any(|axis| axis.key == "time.dt") {
@@ -93,6 +94,7 @@ fn of_document(document: &Document) -> Result<Sweep, LoadError> {
         let help = "add [[axis]] with `key` and `values`; a single run needs no sweep";
         problems.push(Problem::new("", "the sweep varies nothing").help(help));
     }
+    check_number_of_axes(&sweep.axes, &mut problems);
     check_axes(&sweep.axes, &mut problems);
     check_sieves(&sweep, document.tree(), &mut problems);
     document.accept(&problems)?;
@@ -102,15 +104,20 @@ fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     Ok(sweep)
 }
 
-/// The scene that the sweep starts from: in a file of its own, or in the table `scene`.
-fn base_scene(scene: &Value, document: &Document) -> Result<Scene, LoadError> {
+/// The scene that the sweep starts from: in a file of its own, or in the table `scene`. `check` finds
+/// the problems of one whose step is given.
+pub(crate) fn base_scene(
+    scene: &Value,
+    document: &Document,
+    check: Check,
+) -> Result<Scene, LoadError> {
     let Some(path) = scene.as_str() else {
-        return scene::base_of_tree(scene, document.folder()).map_err(|problems| {
+        return scene::base_of_tree(scene, document.folder(), check).map_err(|problems| {
             let within = |problem: Problem| problem.within("scene");
             document.refuse(&problems.into_iter().map(within).collect::<Vec<_>>())
         });
     };
-    match scene::load_base(&document.folder().join(path)) {
+    match scene::load_base_with(&document.folder().join(path), check) {
         Err(error @ LoadError::Read { .. }) => {
             let help = "the path is relative to the folder of this file";
             Err(document.refuse(&[Problem::new("scene", error.to_string()).help(help)]))
@@ -119,7 +126,12 @@ fn base_scene(scene: &Value, document: &Document) -> Result<Scene, LoadError> {
     }
 }
 
-fn expand_axes(entries: &[AxisEntry], scene: &Scene, problems: &mut Vec<Problem>) -> Vec<Axis> {
+/// The axes of a file, as far as they are right.
+pub(crate) fn expand_axes(
+    entries: &[AxisEntry],
+    scene: &Scene,
+    problems: &mut Vec<Problem>,
+) -> Vec<Axis> {
     let mut axes = Vec::new();
     for (index, entry) in entries.iter().enumerate() {
         match entry.expand(scene, &format!("axis[{index}]")) {
@@ -171,12 +183,16 @@ fn expand_seeds(entry: Option<&SeedsEntry>, problems: &mut Vec<Problem>) -> Vec<
     }
 }
 
-fn check_axes(axes: &[Axis], problems: &mut Vec<Problem>) {
+fn check_number_of_axes(axes: &[Axis], problems: &mut Vec<Problem>) {
     if axes.len() > MOST_AXES {
         let message = format!("{} axes are too many", axes.len());
         let problem = Problem::new(format!("axis[{MOST_AXES}]"), message);
         problems.push(problem.help(format!("{MOST_AXES} are the most")));
     }
+}
+
+/// No two axes may have the same key or name.
+pub(crate) fn check_axes(axes: &[Axis], problems: &mut Vec<Problem>) {
     for (index, axis) in axes.iter().enumerate() {
         let earlier = &axes[..index];
         if earlier.iter().any(|other| other.key == axis.key) {
@@ -193,7 +209,7 @@ fn check_axes(axes: &[Axis], problems: &mut Vec<Problem>) {
 }
 
 /// The step of a point is given or chosen, not both.
-fn check_steps(axes: &[Axis], problems: &mut Vec<Problem>) {
+pub(crate) fn check_steps(axes: &[Axis], problems: &mut Vec<Problem>) {
     let position = |key: &str| axes.iter().position(|axis| axis.key == key);
     if let (Some(_), Some(index)) = (position("time.dt"), position("time.safety_factor")) {
         let message = "`time.safety_factor` has no effect where another axis varies `time.dt`";
@@ -269,25 +285,42 @@ fn check_plot(sweep: &Sweep, problems: &mut Vec<Problem>) {
 
 fn check_grid(sweep: &Sweep, document: &Document, problems: &mut Vec<Problem>) {
     let jobs = sweep.points().saturating_mul(sweep.seeds.len());
-    if jobs > MOST_JOBS {
-        let message = format!("the sweep has {jobs} jobs");
-        let help = format!("{MOST_JOBS} are the most; use fewer values or seeds");
-        problems.push(Problem::new("axis", message).help(help));
+    if !check_jobs(jobs, "use fewer values or seeds", problems) {
         return;
     }
-    let points = sweep.points();
-    let mut errors = sweep
+    let errors = sweep
         .grid()
         .filter_map(|values| sweep.scene_at(&values).err());
+    check_points(errors, &sweep.axes, document.tree(), problems);
+}
+
+/// Whether so many jobs can be held in memory.
+pub(crate) fn check_jobs(jobs: usize, help: &str, problems: &mut Vec<Problem>) -> bool {
+    if jobs > MOST_JOBS {
+        let message = format!("the grid has {jobs} jobs");
+        let help = format!("{MOST_JOBS} are the most; {help}");
+        problems.push(Problem::new("axis", message).help(help));
+    }
+    jobs <= MOST_JOBS
+}
+
+/// Takes up what is wrong with the points of a grid: the problems of the first, and the number of the
+/// others.
+pub(crate) fn check_points(
+    mut errors: impl Iterator<Item = PointError>,
+    axes: &[Axis],
+    tree: &Value,
+    problems: &mut Vec<Problem>,
+) {
     let Some(first) = errors.next() else { return };
     let more = errors.count();
     let others = match more {
         0 => String::new(),
-        more => format!(" (and at {more} more of the {points} points)"),
+        more => format!(" (and at {more} more of the {} points)", points(axes)),
     };
     for problem in first.problems {
         let message = format!("at {}{others}: {}", first.point, problem.message);
-        let path = place(&problem.path, sweep, document.tree());
+        let path = place(&problem.path, axes, tree);
         problems.push(Problem {
             path,
             message,
@@ -297,12 +330,12 @@ fn check_grid(sweep: &Sweep, document: &Document, problems: &mut Vec<Problem>) {
 }
 
 /// Where a problem of a point shows: at the axis that sets the key, or at the scene.
-fn place(path: &str, sweep: &Sweep, tree: &Value) -> String {
+fn place(path: &str, axes: &[Axis], tree: &Value) -> String {
     let sets = |axis: &Axis| {
         let rest = path.strip_prefix(&axis.key);
         rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
     };
-    match sweep.axes.iter().position(sets) {
+    match axes.iter().position(sets) {
         Some(index) => format!("axis[{index}].key"),
         None if tree["scene"].is_object() => format!("scene.{path}"),
         None => "scene".to_owned(),

@@ -19,16 +19,21 @@ pub mod work;
 
 pub use crate::document::differing_keys;
 pub use axis::Axis;
+pub(crate) use axis::AxisEntry;
 pub use dumps::find_dumps;
 pub use failure::{Failure, describe};
 pub use folder::{Folder, FolderError, Lock};
 pub use forecast::{Forecast, ForecastError, forecast};
 pub use job::{Job, PointError};
+pub(crate) use job::{grid, points, scene_with};
 pub use label::{Labelling, changes, irreplaceable};
 pub use labels::{LabelRow, LabelTable, Point};
-pub(crate) use load::SweepFile;
+pub(crate) use load::{
+    SweepFile, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes,
+};
 pub use load::{from_str, load};
 pub use plan::{Done, ForeignRecord, Plan, Standing};
+pub(crate) use pool::panic_message;
 pub use pool::{Event, Pool, PoolError, Report};
 pub use select::{SelectError, parse_point};
 pub use status::Status;

@@ -19,7 +19,8 @@ pub(crate) const SWEEP: Kind = Kind::Table(&[
     optional("plot", PLOT),
 ]);
 
-const AXIS: Kind = Kind::Table(&[
+/// The keys of an axis.
+pub(crate) const AXIS: Kind = Kind::Table(&[
     needed("key", Kind::Text),
     optional("name", Kind::Text),
     optional("values", Kind::List(&NUMBER)),

@@ -25,7 +25,7 @@ impl Family for Convergence {
         let states = [dt, 0.5 * dt, 0.25 * dt].map(|dt| self.end(dt, bench));
         let [coarse, middle, fine] = states;
         let (coarse, middle, fine) = (coarse?, middle?, fine?);
-        let order = (distance(&coarse, &middle) / distance(&middle, &fine)).log2();
+        let order = libm::log2(distance(&coarse, &middle) / distance(&middle, &fine));
         Ok(named([("order", order)]))
     }
 }

@@ -18,14 +18,21 @@ impl Scene {
     ///
     /// Radii and starts that are still the names of files are not looked into.
     pub fn problems(&self) -> Vec<Problem> {
+        let mut problems = self.problems_but_of_limit();
+        if problems.is_empty() {
+            self.check_time_step(&mut problems);
+        }
+        problems
+    }
+
+    /// What is wrong with this scene, but that its time step may be above the limit: nothing of it keeps
+    /// the scene from being run.
+    pub(crate) fn problems_but_of_limit(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
         SCENE.check(&self.tree(), "", &mut problems);
         if problems.is_empty() {
             self.check_all_but_step(&mut problems);
             self.check_whole_steps(&mut problems);
-        }
-        if problems.is_empty() {
-            self.check_time_step(&mut problems);
         }
         problems
     }

@@ -1,0 +1,139 @@
+//! Contours: where values on a grid of nodes pass zero (marching squares).
+
+use super::critical::Piece;
+use std::collections::HashMap;
+
+/// Values at the nodes of a grid; none where there is no value.
+pub(super) struct Nodes<'a> {
+    /// Places of the nodes, ascending.
+    pub(super) x: &'a [f64],
+    pub(super) y: &'a [f64],
+    /// Value of the node at the indices of x and y.
+    pub(super) value: &'a dyn Fn(usize, usize) -> Option<f64>,
+    /// Place between two places where a value that was the first at one and is the second at the
+    /// other passes zero, along x and along y.
+    pub(super) zero: [&'a dyn Fn([f64; 2], [f64; 2]) -> f64; 2],
+}
+
+/// An edge between two nodes: from that of these indices along x (0) or y (1).
+type Edge = (usize, usize, usize);
+
+impl Nodes<'_> {
+    /// The pieces of the contour.
+    pub(super) fn contour(&self) -> Vec<Piece> {
+        let mut next: HashMap<Edge, Vec<Edge>> = HashMap::new();
+        let mut order = Vec::new();
+        for i in 1..self.x.len() {
+            for j in 1..self.y.len() {
+                let edges = [
+                    (i - 1, j - 1, 0),
+                    (i, j - 1, 1),
+                    (i - 1, j, 0),
+                    (i - 1, j - 1, 1),
+                ];
+                let corners = [(i - 1, j - 1), (i, j - 1), (i, j), (i - 1, j)];
+                if corners.iter().any(|&(i, j)| (self.value)(i, j).is_none()) {
+                    continue;
+                }
+                // Two or four; at a saddle the crossings are joined in this order.
+                let crossed: Vec<Edge> = edges
+                    .into_iter()
+                    .filter(|&edge| self.crossing(edge).is_some())
+                    .collect();
+                for pair in crossed.chunks_exact(2) {
+                    next.entry(pair[0]).or_default().push(pair[1]);
+                    next.entry(pair[1]).or_default().push(pair[0]);
+                    order.extend_from_slice(pair);
+                }
+            }
+        }
+        self.join(next, order)
+    }
+
+    /// Joins pairs of neighbouring crossings to pieces, those with an end first.
+    fn join(&self, mut next: HashMap<Edge, Vec<Edge>>, order: Vec<Edge>) -> Vec<Piece> {
+        let (ends, others): (Vec<Edge>, Vec<Edge>) =
+            order.into_iter().partition(|edge| next[edge].len() == 1);
+        let mut pieces = Vec::new();
+        for start in ends.into_iter().chain(others) {
+            let mut piece = Vec::new();
+            let mut here = start;
+            while let Some(there) = next.get_mut(&here).and_then(Vec::pop) {
+                if piece.is_empty() {
+                    piece.extend(self.crossing(here));
+                }
+                piece.extend(self.crossing(there));
+                if let Some(back) = next.get_mut(&there) {
+                    back.retain(|edge| *edge != here);
+                }
+                here = there;
+            }
+            if !piece.is_empty() {
+                pieces.push(piece);
+            }
+        }
+        pieces
+    }
+
+    /// Where the contour crosses an edge.
+    fn crossing(&self, (i, j, along): Edge) -> Option<(f64, f64)> {
+        let (places, index, other) = match along {
+            0 => (self.x, i, (i + 1, j)),
+            _ => (self.y, j, (i, j + 1)),
+        };
+        let values = [(self.value)(i, j)?, (self.value)(other.0, other.1)?];
+        if (values[0] < 0.0) == (values[1] < 0.0) {
+            return None;
+        }
+        let place = (self.zero[along])([places[index], places[index + 1]], values);
+        Some(match along {
+            0 => (place, self.y[j]),
+            _ => (self.x[i], place),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn contour(value: &dyn Fn(f64, f64) -> Option<f64>) -> Vec<Piece> {
+        let places: Vec<f64> = (-10..=10).map(|place| f64::from(place) / 5.0).collect();
+        let linear = |[a, b]: [f64; 2], [one, other]: [f64; 2]| a + (b - a) * one / (one - other);
+        Nodes {
+            x: &places,
+            y: &places,
+            value: &|i, j| value(places[i], places[j]),
+            zero: [&linear, &linear],
+        }
+        .contour()
+    }
+
+    #[test]
+    fn a_straight_contour_is_one_piece_from_edge_to_edge() {
+        let pieces = contour(&|x, y| Some(x + 2.0 * y - 0.3));
+        assert_eq!(pieces.len(), 1);
+        for (x, y) in &pieces[0] {
+            assert!((x + 2.0 * y - 0.3).abs() < 1e-12);
+        }
+        let mut ends = [pieces[0][0].0, pieces[0][pieces[0].len() - 1].0];
+        ends.sort_by(f64::total_cmp);
+        assert_eq!(ends, [-2.0, 2.0]);
+    }
+
+    #[test]
+    fn a_circle_closes() {
+        let pieces = contour(&|x, y| Some(x * x + y * y - 1.1));
+        assert_eq!(pieces.len(), 1);
+        assert_eq!(pieces[0].first(), pieces[0].last());
+        assert!(pieces[0].len() > 20);
+    }
+
+    #[test]
+    fn nothing_is_drawn_where_there_is_no_value() {
+        let pieces = contour(&|x, y| (x < 0.1).then_some(y - 0.1));
+        assert!(pieces.iter().flatten().all(|point| point.0 < 0.1));
+        assert!(!pieces.is_empty());
+        assert!(contour(&|_, _| Some(1.0)).is_empty());
+    }
+}

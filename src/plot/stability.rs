@@ -1,0 +1,197 @@
+//! The phase diagram of the numerics: what became of the runs of a study, one panel per integrator, with
+//! the theoretical limit of the time step over it.
+
+use super::contour::Nodes;
+use super::critical::Piece;
+use super::diagram::{Curve, Diagram, Look};
+use super::grid::{Grid, GridAxis, Panel};
+use super::legend::{Entry, Key};
+use super::style::Fill;
+use super::svg::Svg;
+use super::{PlotError, palette};
+use crate::dem::timestep::Limit;
+use crate::record::Program;
+use crate::scene::{Integrator, Scene};
+use crate::stability::{Label, Row, Study, Theory};
+
+/// Draws the rows of a study.
+///
+/// # Errors
+/// [`PlotError`] if the figure cannot be drawn.
+pub fn draw(study: &Study, rows: &[Row], program: &Program) -> Result<Svg, PlotError> {
+    let axis = |index| GridAxis::over(index, &study.axes, &study.scene, std::iter::empty());
+    let (x, y) = (axis(0), axis(1));
+    let panel = |&integrator: &Integrator| panel(study, rows, integrator, &x, &y);
+    let panels = study.integrators.iter().map(panel).collect();
+    let theory = |&integrator: &Integrator| curves(study, integrator, &x, &y);
+    let curves: Vec<Vec<Curve>> = study.integrators.iter().map(theory).collect();
+    let grid = Grid {
+        x: x.clone(),
+        y: Some(y.clone()),
+        columns: None,
+        rows: None,
+        panels,
+    };
+    let occurs = |label: &Label| rows.iter().any(|row| row.label == *label);
+    let legend = Label::ALL.into_iter().filter(occurs).map(|label| Entry {
+        key: Key::Fill(fill(label)),
+        text: words(label).to_owned(),
+    });
+    let diagram = Diagram {
+        name: "stability",
+        grid: &grid,
+        look: &|label: &Label| Some(look(*label)),
+        empty: "not run".to_owned(),
+        legend: legend.collect(),
+        bar: None,
+    };
+    let (size, body) = diagram.body(study.title.as_deref(), &curves, of_curves(&curves))?;
+    let scene = Scene {
+        title: study.title.clone(),
+        ..study.scene.clone()
+    };
+    Ok(Svg::of_scene(diagram.name, &scene, program, size, &body))
+}
+
+fn words(label: Label) -> &'static str {
+    match label {
+        Label::Stable => "stable",
+        Label::EnergyGain => "energy gain",
+        Label::LostSphere => "lost sphere",
+        Label::NotANumber => "not a number",
+    }
+}
+
+fn fill(label: Label) -> Fill {
+    Fill::Color(palette::stability(label))
+}
+
+fn look(label: Label) -> Look {
+    Look {
+        fill: fill(label),
+        agreement: 1.0,
+        group: label as usize,
+    }
+}
+
+fn panel(
+    study: &Study,
+    rows: &[Row],
+    integrator: Integrator,
+    x: &GridAxis,
+    y: &GridAxis,
+) -> Panel<Label> {
+    let mut cells = vec![None; x.values.len() * y.values.len()];
+    for row in rows.iter().filter(|row| row.integrator == integrator) {
+        if let (Some(column), Some(line)) = (x.position(&row.values), y.position(&row.values)) {
+            cells[column + line * x.values.len()] = Some(row.label);
+        }
+    }
+    Panel {
+        head: (study.integrators.len() > 1).then(|| integrator.name().replace('-', " ")),
+        column: None,
+        row: None,
+        cells,
+    }
+}
+
+/// The limit that decides, and that of twelve contacts.
+fn curves(study: &Study, integrator: Integrator, x: &GridAxis, y: &GridAxis) -> Vec<Curve> {
+    let (across, up) = (nodes(x), nodes(y));
+    let theories: Vec<Option<(f64, Theory)>> = across
+        .iter()
+        .flat_map(|&x_value| up.iter().map(move |&y_value| [x_value, y_value]))
+        .map(|values| {
+            let scene = study.scene_at(&values, integrator).ok()?;
+            Some((scene.time.dt, Theory::of(&scene)))
+        })
+        .collect();
+    let theory = |i: usize, j: usize| theories[j + i * up.len()];
+    let shown = |places: &[f64], axis: &GridAxis| -> Vec<f64> {
+        places.iter().map(|place| place * axis.factor).collect()
+    };
+    let of = |limit: fn(&Theory) -> Option<Limit>| -> Vec<Piece> {
+        let value = |i: usize, j: usize| {
+            let (dt, theory) = theory(i, j)?;
+            Some(dt / limit(&theory)?.seconds - 1.0)
+        };
+        let passes = |logarithmic| {
+            move |places: [f64; 2], values: [f64; 2]| zero(logarithmic, places, values)
+        };
+        Nodes {
+            x: &shown(&across, x),
+            y: &shown(&up, y),
+            value: &value,
+            zero: [&passes(x.logarithmic()), &passes(y.logarithmic())],
+        }
+        .contour()
+    };
+    vec![
+        Curve {
+            pieces: of(|theory| theory.twelve_contacts),
+            dashed: true,
+        },
+        Curve {
+            pieces: of(|theory| theory.decisive),
+            dashed: false,
+        },
+    ]
+}
+
+/// Values of an axis and its two ends, where limits are looked at.
+fn nodes(axis: &GridAxis) -> Vec<f64> {
+    let mut nodes = axis.values.clone();
+    let end = |fraction| axis.along(fraction) / axis.factor;
+    nodes.insert(0, end(0.0));
+    nodes.push(end(1.0));
+    nodes
+}
+
+/// Where a step over its limit passes 1 between two places, `values` being that ratio less 1 there. On
+/// a logarithmic axis it is taken for a power of the place, which it is for most keys.
+fn zero(logarithmic: bool, places: [f64; 2], values: [f64; 2]) -> f64 {
+    let share = |[one, other]: [f64; 2]| one / (one - other);
+    let [from, to] = places;
+    if logarithmic {
+        let share = share(values.map(libm::log1p));
+        from * libm::pow(to / from, share)
+    } else {
+        from + (to - from) * share(values)
+    }
+}
+
+/// Entries of the legend for the curves that there are.
+fn of_curves(curves: &[Vec<Curve>]) -> Vec<Entry> {
+    let is_there = |dashed: bool| {
+        let mut curves = curves.iter().flatten();
+        curves.any(|curve| curve.dashed == dashed && !curve.pieces.is_empty())
+    };
+    let mut entries = Vec::new();
+    if is_there(false) {
+        entries.push(Entry {
+            key: Key::Curve,
+            text: "limit of the time step".to_owned(),
+        });
+    }
+    if is_there(true) {
+        entries.push(Entry {
+            key: Key::Dashes,
+            text: "advised limit of twelve contacts".to_owned(),
+        });
+    }
+    entries
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_pass_their_limit_where_they_are_one() {
+        // (x / 3)^0.4 between 1 and 10.
+        let ratio = |x: f64| libm::pow(x / 3.0, 0.4) - 1.0;
+        let found = zero(true, [1.0, 10.0], [ratio(1.0), ratio(10.0)]);
+        assert!((found - 3.0).abs() < 1e-9, "{found}");
+        assert_eq!(zero(false, [1.0, 3.0], [-0.5, 0.5]), 2.0);
+    }
+}

@@ -1,0 +1,172 @@
+//! From a study file to a study.
+
+use super::Study;
+use super::schema::STUDY;
+use crate::document::{Document, LoadError, Problem};
+use crate::scene::{Integrator, Scene};
+use crate::sweep::{
+    Axis, AxisEntry, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes,
+    grid, points,
+};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::Value;
+use std::path::Path;
+
+/// Most frames of a run: their observables are held in memory.
+const MOST_FRAMES: u64 = 1_000_000;
+
+/// Columns of the table that axes share with other things.
+const RESERVED: [&str; 8] = [
+    "integrator",
+    "time_step",
+    "limit",
+    "step_over_limit",
+    "energy_gain",
+    "guard",
+    "step",
+    "sphere",
+];
+
+/// What a study file says.
+#[derive(Deserialize, JsonSchema)]
+pub(crate) struct StudyFile {
+    /// Free text, the title of the figure.
+    title: Option<String>,
+    /// The scene that every run starts from: the path of its file, relative to this one, or the
+    /// scene itself in the tables `[scene.spheres]` and so on. Its time step may be above the limit.
+    #[schemars(with = "Scene")]
+    scene: Value,
+    /// The two axes, any numeric keys of the scene: the horizontal one, then the vertical one.
+    axis: Vec<AxisEntry>,
+    /// The integrators, each of which runs at every point (default: all).
+    #[serde(default = "all_integrators")]
+    integrators: Vec<Integrator>,
+    /// Frames of a run, at which energies are looked at. A run lasts the scene's `duration`, rounded to
+    /// whole steps and frames, whatever its `frame_interval` says.
+    #[serde(default = "hundred")]
+    frames: u64,
+    /// Energy out of nothing above which a run is labelled "energy gain", over the largest energy in
+    /// motion and contacts so far, or over what lifts every sphere by its radius, if that is more.
+    #[serde(default = "five_percent")]
+    energy_gain: f64,
+}
+
+fn all_integrators() -> Vec<Integrator> {
+    Integrator::ALL.to_vec()
+}
+
+fn hundred() -> u64 {
+    100
+}
+
+fn five_percent() -> f64 {
+    0.05
+}
+
+/// Reads a study file and the scene file that it names, relative to itself. The scenes of all
+/// points have been checked, but for their time steps, which may be above the limit.
+///
+/// # Errors
+/// All that is wrong with either file, each with line, column and the fix.
+pub fn load(path: &Path) -> Result<Study, LoadError> {
+    of_document(&Document::read(path)?)
+}
+
+/// Like [`load`], with `text` for the content of the file `path`.
+///
+/// # Errors
+/// Those of [`load`].
+pub fn from_str(text: &str, path: &Path) -> Result<Study, LoadError> {
+    of_document(&Document::parse(text.to_owned(), path)?)
+}
+
+fn of_document(document: &Document) -> Result<Study, LoadError> {
+    let mut problems = Vec::new();
+    STUDY.check(document.tree(), "", &mut problems);
+    document.accept(&problems)?;
+    let file = StudyFile::deserialize(document.tree())
+        .map_err(|error| document.refuse(&[Problem::new("", format!("not a study: {error}"))]))?;
+    let mut scene = base_scene(&file.scene, document, Scene::problems_but_of_limit)?;
+    let axes = expand_axes(&file.axis, &scene, &mut problems);
+    check_steps(&axes, &mut problems);
+    if axes.iter().any(|axis| axis.key == "time.dt") {
+        // The axis has a number for every point.
+        scene.time.safety_factor = None;
+    }
+    check_axes(&axes, &mut problems);
+    check_study(&file, &axes, &mut problems);
+    document.accept(&problems)?;
+    let study = Study {
+        title: file.title,
+        scene,
+        axes,
+        integrators: file.integrators,
+        frames: file.frames,
+        energy_gain: file.energy_gain,
+    };
+    check_runs(&study, document, &mut problems);
+    document.accept(&problems)?;
+    Ok(study)
+}
+
+fn check_study(file: &StudyFile, axes: &[Axis], problems: &mut Vec<Problem>) {
+    if file.axis.len() != 2 {
+        let message = format!("a study has two axes, not {}", file.axis.len());
+        let problem = match file.axis.len() {
+            0 | 1 => Problem::new("axis", message).help("add [[axis]] with `key` and `values`"),
+            _ => Problem::new("axis[2]", message).help("keep two, and set the others in the scene"),
+        };
+        problems.push(problem);
+    }
+    for (index, axis) in axes.iter().enumerate() {
+        let path = format!("axis[{index}]");
+        if RESERVED.contains(&axis.name.as_str()) {
+            let message = format!("the table has a column \"{}\" of its own", axis.name);
+            let problem = Problem::new(format!("{path}.name"), message);
+            problems.push(problem.help("choose another `name`"));
+        }
+        if ["time.frame_interval", "time.duration"].contains(&axis.key.as_str()) {
+            let message = format!(
+                "`{}` follows from the study, and is no axis of it",
+                axis.key
+            );
+            let problem = Problem::new(format!("{path}.key"), message);
+            problems.push(problem.help("choose another key, such as `time.dt`"));
+        }
+    }
+    let mut seen = Vec::new();
+    for (index, integrator) in file.integrators.iter().enumerate() {
+        if seen.contains(integrator) {
+            let message = format!("\"{}\" is there twice", integrator.name());
+            let problem = Problem::new(format!("integrators[{index}]"), message);
+            problems.push(problem.help("remove one"));
+        }
+        seen.push(*integrator);
+    }
+    if file.integrators.is_empty() {
+        let problem = Problem::new("integrators", "there are no integrators");
+        problems.push(problem.help("list at least one, or remove the key for all of them"));
+    }
+    if file.frames > MOST_FRAMES {
+        let message = format!("{} frames are too many", file.frames);
+        let problem = Problem::new("frames", message);
+        problems.push(problem.help(format!("{MOST_FRAMES} are the most")));
+    }
+}
+
+fn check_runs(study: &Study, document: &Document, problems: &mut Vec<Problem>) {
+    let jobs = points(&study.axes).saturating_mul(study.integrators.len());
+    if !check_jobs(jobs, "use fewer values", problems) {
+        return;
+    }
+    // What is wrong with a scene does not depend on the integrator, but for a step that is chosen.
+    let errors = study.integrators.iter().map(|&integrator| {
+        grid(&study.axes)
+            .filter_map(|values| study.scene_at(&values, integrator).err())
+            .collect::<Vec<_>>()
+    });
+    if let Some(errors) = errors.into_iter().find(|errors| !errors.is_empty()) {
+        check_points(errors.into_iter(), &study.axes, document.tree(), problems);
+    }
+}
