@@ -174,7 +174,7 @@ fn a_step_near_its_limit_is_warned_of() {
             .code(0)
             .complains("warning: the time step is 0.")
             .complains("times the limit of")
-            .complains("warning: the time step is 1.")
+            .complains("times the advised limit of")
             .complains("(twelve contacts): a sphere that many others squeeze may gain energy");
         let quiet = place.phase(&["--quiet", command, "near.toml"]).code(0);
         assert_eq!(quiet.stderr, "");

@@ -110,13 +110,13 @@ fn the_program_prints_what_it_verified() {
         .phase(&["verify", "--case", "parabola", "--out", "verified"])
         .code(0)
         .says("ok      flight: parabola of a thrown grain (velocity-verlet), 2000 steps")
-        .says("1 run: 1 passed, 0 failed");
+        .says("3 runs: 3 passed, 0 failed");
     assert!(answer.stdout.contains("expected   -1.062000000e1"));
     let table = place.read("verified/verification.csv");
     assert!(
         table.starts_with("family,case,integrator,quantity,expected,measured,error,tolerance,")
     );
-    assert_eq!(table.lines().count(), 5);
+    assert_eq!(table.lines().count(), 13);
     let figure = place.read("verified/verification.svg");
     assert!(figure.contains("flight: parabola of a thrown grain"));
     assert!(place.path("verified/verification.png").exists());
