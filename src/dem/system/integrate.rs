@@ -1,6 +1,6 @@
 //! Integration schemes: one function each, from kicks and drifts.
 
-use super::contacts::{Earlier, Loading};
+use super::pair_block::{Earlier, Loading};
 use super::{Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;

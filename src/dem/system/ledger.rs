@@ -4,7 +4,8 @@
 //! work is summed up kick by kick, from the forces that the kicks use: what the books then miss is
 //! what the scheme makes of conservative forces, not an error of the bookkeeping.
 
-use super::contacts::{Among, Meeting, PairBlock};
+use super::contacts::Among;
+use super::pair_block::{Meeting, PairBlock};
 use super::{Engine, System};
 use crate::dem::block::BLOCK;
 use crate::dem::contact::NormalLaw;

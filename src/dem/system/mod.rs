@@ -3,15 +3,18 @@
 mod adaptive;
 mod contacts;
 mod integrate;
-mod islands;
 mod ledger;
+mod lists;
+mod measure;
+mod pair_block;
 mod state;
 
-use self::adaptive::Adaptive;
-use self::contacts::{Among, Earlier, Loading, PairBlock};
+use self::adaptive::Workspace;
+use self::contacts::Among;
 use self::integrate::Before;
 use self::ledger::Ledger;
 pub(in crate::dem) use self::ledger::Work;
+use self::pair_block::{Earlier, Loading, PairBlock};
 pub(in crate::dem) use self::state::EngineState;
 use super::block::{Body, Load};
 use super::contact::NormalLaw;
@@ -22,7 +25,7 @@ use super::neighbours::{Near, Reach, VerletList};
 use super::particles::{Particles, Sphere, retain};
 use super::state::StateError;
 use super::vector::Vector;
-use super::walls::{Cylinder, Floor, Wall};
+use super::walls::{Cylinder, Floor};
 use crate::record::Instability;
 use crate::scene::{Integrator, Neighbours};
 use fearless_simd::{Level, Simd};
@@ -99,7 +102,7 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     /// The velocities and spins that load them, if these are not those of the evaluation.
     earlier: Vec<Earlier>,
     before: Before,
-    adaptive: Adaptive<T::History>,
+    workspace: Workspace<T::History>,
     ledger: Option<Ledger<T::History>>,
     bodies: Vec<Body>,
     loads: Vec<Load>,
@@ -151,7 +154,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             loading: Loading::present(parts.dt),
             earlier: Vec::new(),
             before: Before::default(),
-            adaptive: Adaptive::default(),
+            workspace: Workspace::default(),
             ledger: None,
             bodies: if interact {
                 bodies_of(&parts.particles)
@@ -287,77 +290,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 .count_shielding(simd, &self.bodies, &mut self.shielding);
         }
     }
-
-    /// Looks for near pairs anew, in a list that holds until they must be looked for again.
-    fn refresh(&mut self) -> Result<(), Instability> {
-        let Some(list) = &self.list else {
-            return self.rebuild();
-        };
-        self.near.adapt(self.near_age.steps, list.skin());
-        self.near_age = Age::default();
-        if !list.holds(&self.parts.particles, self.age.time, self.near.margin()) {
-            self.rebuild()?;
-        }
-        self.stale = false;
-        if let Some(list) = &self.list {
-            let (near, particles) = (&mut self.near, &self.parts.particles);
-            let history = &mut self.pair_history;
-            let mut forget = |entry: u32| history[entry as usize] = T::History::default();
-            let forget: Option<&mut dyn FnMut(u32)> = match Self::REMEMBERS {
-                true => Some(&mut forget),
-                false => None,
-            };
-            near.refresh(self.level, list, particles, &self.bodies, forget);
-            let margin = near.margin();
-            if let Some(wall) = self.parts.floor {
-                let (near, history) = (&mut self.near_floor, &mut self.floor_history);
-                find_near_wall(wall, particles, margin, near, history);
-            }
-            if let Some(wall) = self.parts.cylinder {
-                let (near, history) = (&mut self.near_cylinder, &mut self.cylinder_history);
-                find_near_wall(wall, particles, margin, near, history);
-            }
-        }
-        Ok(())
-    }
-
-    /// Fits everything that has an entry per sphere to the spheres that there are now.
-    fn renumber(&mut self) {
-        if self.list.is_some() {
-            self.bodies = bodies_of(&self.parts.particles);
-            self.loads.clear();
-            self.loads.resize(self.bodies.len(), Load::default());
-        }
-        self.stale = true;
-    }
-
-    /// Builds the list anew, after making sure that every sphere is somewhere.
-    fn rebuild(&mut self) -> Result<(), Instability> {
-        let Parts {
-            particles,
-            limits,
-            dt,
-            ..
-        } = &self.parts;
-        limits.check_positions(particles, self.step, *dt)?;
-        self.stale = false;
-        let age = std::mem::take(&mut self.age);
-        let Some(list) = &mut self.list else {
-            return Ok(());
-        };
-        list.adapt(age.steps);
-        if !Self::REMEMBERS {
-            list.build(particles);
-            self.pair_history
-                .resize(list.pairs(), T::History::default());
-            return Ok(());
-        }
-        let (start, neighbour) = (list.start().to_vec(), list.neighbour().to_vec());
-        list.build(particles);
-        let old = std::mem::take(&mut self.pair_history);
-        self.pair_history = carry_over(&start, &neighbour, &old, list.start(), list.neighbour());
-        Ok(())
-    }
 }
 
 impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
@@ -454,76 +386,8 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.take_up(state)
     }
 
-    /// Reads positions alone, and builds the list at most earlier than a step would: bits of
-    /// the motion do not depend on when the list is built.
     fn contacts(&mut self) -> Contacts {
-        let mut contacts = Contacts::default();
-        if !N::ACTS {
-            return contacts;
-        }
-        if self.stale {
-            self.gather();
-            if self.refresh().is_err() {
-                return contacts;
-            }
-        }
-        let Particles {
-            position,
-            radius,
-            fixed,
-            ..
-        } = &self.parts.particles;
-        let (mut energy, mut springs) = (0.0, 0.0);
-        let with_springs = Self::REMEMBERS && self.ledger.is_some();
-        let spring = |history: &[T::History], at: usize, overlap: f64, effective_radius: f64| {
-            match with_springs {
-                true => self
-                    .tangential
-                    .energy(&history[at], overlap, effective_radius),
-                false => 0.0,
-            }
-        };
-        let count = &mut contacts.of_moving_spheres;
-        let mut pairs = self.near.pairs().iter().peekable();
-        for i in 0..radius.len() {
-            let (centre, ri) = (position[i], radius[i]);
-            while let Some(pair) = pairs.next_if(|pair| pair.i as usize == i) {
-                let j = pair.j as usize;
-                let rj = radius[j];
-                let distance_squared = (centre - position[j]).norm_squared();
-                if distance_squared < (ri + rj) * (ri + rj) {
-                    let overlap = ri + rj - distance_squared.sqrt();
-                    let effective_radius = ri * rj / (ri + rj);
-                    energy += self.normal.elastic_energy(overlap, effective_radius);
-                    let entry = pair.entry as usize;
-                    springs += spring(&self.pair_history, entry, overlap, effective_radius);
-                    *count += usize::from(i >= *fixed) + usize::from(j >= *fixed);
-                }
-            }
-            let Parts {
-                floor, cylinder, ..
-            } = &self.parts;
-            let walls = [
-                (
-                    floor.map(|wall| wall.contact(centre, ri)),
-                    &self.floor_history,
-                ),
-                (
-                    cylinder.map(|wall| wall.contact(centre, ri)),
-                    &self.cylinder_history,
-                ),
-            ];
-            for (contact, history) in walls {
-                if let Some(contact) = contact.filter(|contact| contact.touches) {
-                    energy += self.normal.elastic_energy(contact.overlap, ri);
-                    springs += spring(history, i, contact.overlap, ri);
-                    *count += 1;
-                }
-            }
-        }
-        contacts.elastic_energy = energy;
-        contacts.spring_energy = springs;
-        contacts
+        self.measure_contacts()
     }
 }
 
@@ -536,49 +400,4 @@ fn bodies_of(particles: &Particles) -> Vec<Body> {
         turning: [0.0, 0.0, 0.0, inertia(i)],
     };
     (0..particles.len()).map(body).collect()
-}
-
-/// Finds the spheres near a wall, and forgets the histories of the others.
-fn find_near_wall<W: Wall, H: Default>(
-    wall: W,
-    particles: &Particles,
-    margin: f64,
-    near: &mut Vec<u32>,
-    histories: &mut [H],
-) {
-    near.clear();
-    for (i, (&centre, &radius)) in particles.position.iter().zip(&particles.radius).enumerate() {
-        if wall.is_near(centre, radius, margin) {
-            near.push(i as u32);
-        } else {
-            histories[i] = H::default();
-        }
-    }
-}
-
-/// Histories in the order of a new list; both lists are sorted, so one pass over each suffices.
-fn carry_over<H: Copy + Default>(
-    old_start: &[u32],
-    old_neighbour: &[u32],
-    old: &[H],
-    start: &[u32],
-    neighbour: &[u32],
-) -> Vec<H> {
-    let mut histories = vec![H::default(); neighbour.len()];
-    if old.is_empty() {
-        return histories;
-    }
-    for i in 0..start.len() - 1 {
-        let mut from = old_start[i] as usize;
-        let end = old_start[i + 1] as usize;
-        for entry in start[i] as usize..start[i + 1] as usize {
-            while from < end && old_neighbour[from] < neighbour[entry] {
-                from += 1;
-            }
-            if from < end && old_neighbour[from] == neighbour[entry] {
-                histories[entry] = old[from];
-            }
-        }
-    }
-    histories
 }

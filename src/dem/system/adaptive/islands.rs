@@ -1,7 +1,7 @@
 //! Which spheres may touch one another within a step.
 
-use super::contacts::Among;
 use crate::dem::neighbours::NearPair;
+use crate::dem::system::contacts::Among;
 
 /// Spheres that may touch one another within a step, directly or through others, and all that they
 /// may touch.

@@ -1,7 +1,14 @@
 //! Velocity Verlet with sub-steps where spheres touch.
 
-use super::contacts::{Among, Loading};
-use super::islands::{Island, Islands};
+mod islands;
+mod workspace;
+
+pub(super) use self::workspace::Workspace;
+
+use self::islands::Island;
+use self::workspace::Start;
+use super::contacts::Among;
+use super::pair_block::Loading;
 use super::{Engine, System};
 use crate::dem::block::Load;
 use crate::dem::contact::NormalLaw;
@@ -12,59 +19,6 @@ use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;
 use crate::record::Instability;
 
-/// What a sub-step may take of an island's fastest oscillation, h (w + g) with angular frequency w and
-/// damping rate g: an impact then lasts 27 sub-steps or more.
-const RESOLUTION: f64 = 0.15;
-
-/// What a step of the scheme works with; nothing of it is needed from step to step.
-#[derive(Default)]
-pub(super) struct Adaptive<H> {
-    start: Start<H>,
-    /// Forces and torques of all but contacts in the middle of the step.
-    force: Vec<Vector>,
-    torque: Vec<Vector>,
-    /// What the forces at the start of the step may add to the speed of each sphere, were they twice as
-    /// large (m/s), and how far it may get (m).
-    gain: Vec<f64>,
-    reach: Vec<f64>,
-    /// Contacts that a step found at its end without having looked for them.
-    missed_pairs: Vec<[u32; 2]>,
-    missed_spheres: Vec<u32>,
-    islands: Islands,
-    /// Squared frequency (1/s2) and damping rate (1/s) of each sphere at its contacts.
-    stiffness: Vec<f64>,
-    damping: Vec<f64>,
-}
-
-/// The spheres at the start of a step.
-#[derive(Default)]
-struct Start<H> {
-    position: Vec<Vector>,
-    velocity: Vec<Vector>,
-    spin: Vec<Vector>,
-    /// Latest forces and torques.
-    force: Vec<Vector>,
-    torque: Vec<Vector>,
-    pair_history: Vec<H>,
-    wall_history: [Vec<H>; 2],
-}
-
-impl<H: Copy> Start<H> {
-    fn keep(&mut self, particles: &Particles) {
-        self.position.clone_from(&particles.position);
-        self.velocity.clone_from(&particles.velocity);
-        self.spin.clone_from(&particles.spin);
-        self.force.clone_from(&particles.force);
-        self.torque.clone_from(&particles.torque);
-    }
-
-    fn put_back(&self, particles: &mut Particles) {
-        particles.position.copy_from_slice(&self.position);
-        particles.velocity.copy_from_slice(&self.velocity);
-        particles.spin.copy_from_slice(&self.spin);
-    }
-}
-
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// One step of synchronised Verlet, cut into as many sub-steps as the contacts need, for each group
     /// of touching spheres by itself: the others move in one go. What acts besides contacts is taken
@@ -74,13 +28,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// spheres meet all the same because a third one knocked them, the step is done again with them in
     /// one group. So no contact begins unseen.
     pub(super) fn adaptive_verlet(&mut self) -> Result<(), Instability> {
-        let mut work = std::mem::take(&mut self.adaptive);
+        let mut work = std::mem::take(&mut self.workspace);
         let result = self.adaptive_step(&mut work);
-        self.adaptive = work;
+        self.workspace = work;
         result
     }
 
-    fn adaptive_step(&mut self, work: &mut Adaptive<T::History>) -> Result<(), Instability> {
+    fn adaptive_step(&mut self, work: &mut Workspace<T::History>) -> Result<(), Instability> {
         self.begin_step();
         self.check_speeds(true)?;
         let dt = self.parts.dt;
@@ -120,7 +74,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Forces and torques of all but contacts, in the middle of the step as they foretell it, and how
     /// far the spheres may get in the step. Leaves the spheres where they were.
-    fn slow_forces(&mut self, work: &mut Adaptive<T::History>) -> Result<(), Instability> {
+    fn slow_forces(&mut self, work: &mut Workspace<T::History>) -> Result<(), Instability> {
         let dt = self.parts.dt;
         if self.stale {
             match self.list {
@@ -184,7 +138,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Finds the islands, and how stiff the contacts of their spheres may become.
-    fn group(&self, work: &mut Adaptive<T::History>) {
+    fn group(&self, work: &mut Workspace<T::History>) {
         let particles = &self.parts.particles;
         let (count, fixed) = (particles.len(), particles.fixed);
         work.islands.reset(count);
@@ -210,7 +164,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         work.islands.collect(self.near.pairs(), walls, fixed);
     }
 
-    fn look_at_pair(&self, i: usize, j: usize, work: &mut Adaptive<T::History>) {
+    fn look_at_pair(&self, i: usize, j: usize, work: &mut Workspace<T::History>) {
         let Particles {
             position,
             velocity,
@@ -242,7 +196,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         &self,
         wall: Option<W>,
         near: &[u32],
-        work: &mut Adaptive<T::History>,
+        work: &mut Workspace<T::History>,
     ) {
         let Some(wall) = wall else { return };
         let particles = &self.parts.particles;
@@ -303,7 +257,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         [squared, damping.max(friction)]
     }
 
-    fn move_free_spheres(&mut self, work: &Adaptive<T::History>) {
+    fn move_free_spheres(&mut self, work: &Workspace<T::History>) {
         let dt = self.parts.dt;
         let particles = &mut self.parts.particles;
         particles.force.copy_from_slice(&work.force);
@@ -327,7 +281,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         &mut self,
         island: &Island,
         sub_steps: u64,
-        work: &Adaptive<T::History>,
+        work: &Workspace<T::History>,
     ) -> Result<(), Instability> {
         let time = self.parts.dt / sub_steps as f64;
         let half = 0.5 * time;
@@ -405,7 +359,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Moves a sphere from the middle to the end of a sub-step.
-    fn complete(&mut self, i: usize, time: f64, work: &Adaptive<T::History>) {
+    fn complete(&mut self, i: usize, time: f64, work: &Workspace<T::History>) {
         let particles = &mut self.parts.particles;
         let [x, y, z, _] = self.loads[i].force;
         particles.force[i] = Vector::new(x, y, z) + work.force[i];
@@ -421,7 +375,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Whether spheres touch now that were in different islands; notes which.
-    fn has_missed(&self, work: &mut Adaptive<T::History>) -> bool {
+    fn has_missed(&self, work: &mut Workspace<T::History>) -> bool {
         let before = work.missed_pairs.len() + work.missed_spheres.len();
         let particles = &self.parts.particles;
         for &NearPair { i, j, .. } in self.near.pairs() {
@@ -443,43 +397,5 @@ fn kick(particles: &mut Particles, i: usize, dt: f64) {
     particles.velocity[i] += particles.force[i] * (particles.inverse_mass[i] * dt);
     if particles.rotate() {
         particles.spin[i] += particles.torque[i] * (particles.inverse_inertia[i] * dt);
-    }
-}
-
-impl<H> Adaptive<H> {
-    /// Finds how far each sphere may get in a step. The largest of these ways (m).
-    fn find_reach(&mut self, particles: &Particles, dt: f64) -> f64 {
-        let forces = particles.force.iter().zip(&particles.inverse_mass);
-        self.gain.clear();
-        self.gain
-            .extend(forces.map(|(force, inverse)| 2.0 * force.norm() * (inverse * dt)));
-        let speeds = particles.velocity.iter().zip(&self.gain);
-        self.reach.clear();
-        self.reach
-            .extend(speeds.map(|(velocity, gain)| (velocity.norm() + gain) * dt));
-        self.reach.iter().copied().fold(0.0, f64::max)
-    }
-
-    fn add(&mut self, i: usize, [squared, damping]: [f64; 2]) {
-        self.stiffness[i] += squared;
-        self.damping[i] += damping;
-    }
-
-    /// How many sub-steps of a step the contacts of an island need.
-    fn sub_steps(&self, island: &Island, dt: f64) -> u64 {
-        let rate = |&i: &u32| self.stiffness[i as usize].sqrt() + self.damping[i as usize];
-        let fastest = island.spheres.iter().map(rate).fold(0.0, f64::max);
-        ((dt * fastest / RESOLUTION).ceil() as u64).max(1)
-    }
-
-    fn miss_at_wall<W: Wall>(&mut self, wall: Option<W>, near: &[u32], particles: &Particles) {
-        let Some(wall) = wall else { return };
-        for &sphere in near {
-            let i = sphere as usize;
-            let contact = wall.contact(particles.position[i], particles.radius[i]);
-            if i >= particles.fixed && contact.touches && self.islands.is_free(i) {
-                self.missed_spheres.push(sphere);
-            }
-        }
     }
 }

@@ -1,0 +1,81 @@
+//! What the contacts hold.
+
+use super::{Contacts, Parts, System};
+use crate::dem::contact::NormalLaw;
+use crate::dem::friction::TangentialLaw;
+use crate::dem::particles::Particles;
+use crate::dem::walls::Wall;
+
+impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
+    /// Reads positions alone, and builds the list at most earlier than a step would: bits of
+    /// the motion do not depend on when the list is built.
+    pub(super) fn measure_contacts(&mut self) -> Contacts {
+        let mut contacts = Contacts::default();
+        if !N::ACTS {
+            return contacts;
+        }
+        if self.stale {
+            self.gather();
+            if self.refresh().is_err() {
+                return contacts;
+            }
+        }
+        let Particles {
+            position,
+            radius,
+            fixed,
+            ..
+        } = &self.parts.particles;
+        let (mut energy, mut springs) = (0.0, 0.0);
+        let with_springs = Self::REMEMBERS && self.ledger.is_some();
+        let spring = |history: &[T::History], at: usize, overlap: f64, effective_radius: f64| {
+            match with_springs {
+                true => self
+                    .tangential
+                    .energy(&history[at], overlap, effective_radius),
+                false => 0.0,
+            }
+        };
+        let count = &mut contacts.of_moving_spheres;
+        let mut pairs = self.near.pairs().iter().peekable();
+        for i in 0..radius.len() {
+            let (centre, ri) = (position[i], radius[i]);
+            while let Some(pair) = pairs.next_if(|pair| pair.i as usize == i) {
+                let j = pair.j as usize;
+                let rj = radius[j];
+                let distance_squared = (centre - position[j]).norm_squared();
+                if distance_squared < (ri + rj) * (ri + rj) {
+                    let overlap = ri + rj - distance_squared.sqrt();
+                    let effective_radius = ri * rj / (ri + rj);
+                    energy += self.normal.elastic_energy(overlap, effective_radius);
+                    let entry = pair.entry as usize;
+                    springs += spring(&self.pair_history, entry, overlap, effective_radius);
+                    *count += usize::from(i >= *fixed) + usize::from(j >= *fixed);
+                }
+            }
+            let Parts {
+                floor, cylinder, ..
+            } = &self.parts;
+            let walls = [
+                (
+                    floor.map(|wall| wall.contact(centre, ri)),
+                    &self.floor_history,
+                ),
+                (
+                    cylinder.map(|wall| wall.contact(centre, ri)),
+                    &self.cylinder_history,
+                ),
+            ];
+            for (contact, history) in walls {
+                if let Some(contact) = contact.filter(|contact| contact.touches) {
+                    energy += self.normal.elastic_energy(contact.overlap, ri);
+                    springs += spring(history, i, contact.overlap, ri);
+                    *count += 1;
+                }
+            }
+        }
+        contacts.elastic_energy = energy;
+        contacts.spring_energy = springs;
+        contacts
+    }
+}
