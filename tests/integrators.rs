@@ -211,3 +211,19 @@ fn adaptive_bits_depend_on_the_scene_alone() {
         assert_eq!(state(skin, cuts), expected, "{skin} {cuts}");
     }
 }
+
+/// Symptom: a run without a contact law never ended and took all memory. Cause: what it saw beyond the
+/// walls were contacts that it had missed, so that the step was done again and again.
+#[test]
+fn without_a_contact_law_spheres_pass_through_walls() {
+    let mut scene = steel(vec![sphere(0.0, 0.5), sphere(0.1, -0.5)], 0.0, 1e-3);
+    scene.contact = None;
+    scene.tank = Some(phase::scene::Tank {
+        radius: Some(0.05),
+        floor: Some(0.1),
+    });
+    let mut simulation = Simulation::new(&scene).unwrap();
+    simulation.advance(150).unwrap();
+    assert_eq!(speeds(&simulation), [0.5, -0.5]);
+    assert!((simulation.particles().position[0].x - 0.075).abs() < 1e-12);
+}

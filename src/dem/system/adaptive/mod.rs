@@ -376,6 +376,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Whether spheres touch now that were in different islands; notes which.
     fn has_missed(&self, work: &mut Workspace<T::History>) -> bool {
+        if !N::ACTS {
+            return false;
+        }
         let before = work.missed_pairs.len() + work.missed_spheres.len();
         let particles = &self.parts.particles;
         for &NearPair { i, j, .. } in self.near.pairs() {
