@@ -63,6 +63,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     })?;
     store::remove_leftovers(&root).map_err(Failure::failed)?;
     let table = root.join("stability.csv");
+    folders::refuse_to_replace(&table, "a table of stability", b"integrator,")?;
     let known = if arguments.force {
         Vec::new()
     } else {
@@ -176,7 +177,7 @@ impl Tried {
         match (self.all_stable_below, self.none_stable_above) {
             (Some(below), Some(above)) => {
                 text += &format!(
-                    "; all stable below {below:.3} of the limit, none above {above:.3} of it"
+                    "; the first that is not stable is at {below:.3} of the limit, the last that is at {above:.3}"
                 );
             }
             (None, Some(above)) => text += &format!(", up to {above:.3} of the limit"),

@@ -88,7 +88,7 @@ fn panel(
         }
     }
     Panel {
-        head: (study.integrators.len() > 1).then(|| integrator.name().replace('-', " ")),
+        head: (study.integrators.len() > 1).then(|| integrator.name().to_owned()),
         column: None,
         row: None,
         cells,

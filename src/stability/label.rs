@@ -43,6 +43,7 @@ impl Label {
             Some(Guard::OutOfBounds | Guard::Overlap | Guard::Displacement | Guard::WallPassed) => {
                 Self::LostSphere
             }
+            None if !gain.is_finite() => Self::NotANumber,
             None if gain <= threshold => Self::Stable,
             None => Self::EnergyGain,
         }

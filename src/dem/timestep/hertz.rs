@@ -181,12 +181,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
             explanation: "pi r sqrt(rho/G) / (0.1631 nu + 0.8766) of the smallest sphere; a \
                           fifth of it is customary",
         },
-        Limit {
-            name: super::DISPLACEMENT,
-            seconds: scene.guards.displacement * radius / impact.speed,
-            decisive: false,
-            explanation: "the fastest sphere stays below the displacement guard",
-        },
+        super::displacement(scene, impact.speed),
     ];
     if rate > 0.0 {
         limits.push(Limit {

@@ -78,12 +78,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
             explanation: "2/w of the two smallest spheres, w^2 = k / m_eff",
         },
         super::twelve_contacts(scheme, frequency, impact.damping_rate()),
-        Limit {
-            name: super::DISPLACEMENT,
-            seconds: scene.guards.displacement * scene.smallest_radius() / speed,
-            decisive: false,
-            explanation: "the fastest sphere stays below the displacement guard",
-        },
+        super::displacement(scene, speed),
     ];
     if impact.damping > 0.0 {
         limits.push(Limit {

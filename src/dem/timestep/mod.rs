@@ -114,6 +114,20 @@ pub fn shortest_contact(scene: &Scene) -> Option<f64> {
 /// decides.
 const DISPLACEMENT: &str = "displacement";
 
+/// The limit at which the fastest sphere reaches the displacement guard: the smallest one, that the
+/// largest one has knocked on.
+fn displacement(scene: &Scene, speed: f64) -> Limit {
+    let (light, heavy) = (scene.smallest_mass(), scene.largest_mass());
+    let knocked_on = 2.0 * heavy / (heavy + light);
+    Limit {
+        name: DISPLACEMENT,
+        seconds: scene.guards.displacement * scene.smallest_radius() / (speed * knocked_on),
+        decisive: false,
+        explanation: "the fastest sphere stays below the displacement guard: the smallest at the speed \
+                      of the fastest impact, times 2 M / (M + m), at which the largest knocks it on",
+    }
+}
+
 /// What an integrator makes of an oscillator: it stays bounded as one would of which symplectic Euler
 /// makes the same, with another damping.
 #[derive(Clone, Copy)]

@@ -205,6 +205,12 @@ impl Scene {
         shape.mass(density, self.smallest_radius())
     }
 
+    /// Mass of the largest sphere (kg).
+    pub fn largest_mass(&self) -> f64 {
+        let Spheres { shape, density, .. } = self.spheres;
+        shape.mass(density, self.radius_range().1)
+    }
+
     /// Height (m) of the lowest thing that can hold a sphere: the floor or a fixed sphere.
     pub(crate) fn lowest_support(&self) -> Option<f64> {
         let floor = self.tank.as_ref().and_then(|tank| tank.floor);

@@ -19,14 +19,17 @@ use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;
 use crate::record::Instability;
 
+/// How often a step is tried, each time with more room. One that needs more is on its way to a guard.
+const ATTEMPTS: u32 = 20;
+
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// One step of synchronised Verlet, cut into as many sub-steps as the contacts need, for each group
     /// of touching spheres by itself: the others move in one go. What acts besides contacts is taken
     /// from the middle of the whole step.
     ///
-    /// A sphere belongs to a group if it touches another one or might within the step; should
-    /// spheres meet all the same because a third one knocked them, the step is done again with them in
-    /// one group. So no contact begins unseen.
+    /// A sphere belongs to a group if it touches another one or might within the step, as far as it may
+    /// get. One that gets farther, because another one knocked it or its contacts threw it, has the step
+    /// done again with as much room as it takes. So no contact begins unseen.
     pub(super) fn adaptive_verlet(&mut self) -> Result<(), Instability> {
         let mut work = std::mem::take(&mut self.workspace);
         let result = self.adaptive_step(&mut work);
@@ -48,28 +51,38 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.slow_forces(work)?;
         self.keep_histories(&mut work.start);
         let books = self.work();
-        work.missed_pairs.clear();
-        work.missed_spheres.clear();
-        loop {
-            self.group(work);
-            self.gather();
-            self.move_free_spheres(work);
-            for island in work.islands.all() {
-                let sub_steps = work.sub_steps(island, dt);
-                self.move_island(island, sub_steps, work)?;
-            }
-            if !self.has_missed(work) {
+        for attempt in 1.. {
+            let outcome = self.attempt(work);
+            let Some(reach) = work.widen(dt).filter(|_| attempt < ATTEMPTS) else {
+                outcome?;
                 break;
-            }
+            };
             work.start.put_back(&mut self.parts.particles);
             self.put_back_histories(&work.start);
-            if let (Some(ledger), Some(work)) = (&mut self.ledger, books) {
-                ledger.books.work = work;
+            if let (Some(ledger), Some(books)) = (&mut self.ledger, books) {
+                ledger.books.work = books;
             }
+            // The lists may be made anew, and histories with them.
+            self.hold_for(reach)?;
+            self.keep_histories(&mut work.start);
         }
         self.age.time += dt;
         self.near_age.time += dt;
         self.check_speeds(true)
+    }
+
+    /// Moves all spheres by a step.
+    fn attempt(&mut self, work: &mut Workspace<T::History>) -> Result<(), Instability> {
+        self.group(work);
+        self.gather();
+        self.move_free_spheres(work);
+        let islands = std::mem::take(&mut work.islands);
+        let outcome = islands.all().iter().try_for_each(|island| {
+            let sub_steps = work.sub_steps(island, self.parts.dt);
+            self.move_island(island, sub_steps, work)
+        });
+        work.islands = islands;
+        outcome
     }
 
     /// Forces and torques of all but contacts, in the middle of the step as they foretell it, and how
@@ -154,12 +167,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         self.look_at_wall(self.parts.floor, &self.near_floor, work);
         self.look_at_wall(self.parts.cylinder, &self.near_cylinder, work);
-        for &[i, j] in &work.missed_pairs {
-            work.islands.join(i, j, fixed);
-        }
-        for &i in &work.missed_spheres {
-            work.islands.touch(i);
-        }
         let walls = [&self.near_floor[..], &self.near_cylinder[..]];
         work.islands.collect(self.near.pairs(), walls, fixed);
     }
@@ -257,7 +264,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         [squared, damping.max(friction)]
     }
 
-    fn move_free_spheres(&mut self, work: &Workspace<T::History>) {
+    fn move_free_spheres(&mut self, work: &mut Workspace<T::History>) {
         let dt = self.parts.dt;
         let particles = &mut self.parts.particles;
         particles.force.copy_from_slice(&work.force);
@@ -272,6 +279,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     ledger.books.note_kick(i, particles, dt);
                 }
                 particles.position[i] += particles.velocity[i] * (0.5 * dt);
+                work.note_way(i, particles);
             }
         }
     }
@@ -281,7 +289,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         &mut self,
         island: &Island,
         sub_steps: u64,
-        work: &Workspace<T::History>,
+        work: &mut Workspace<T::History>,
     ) -> Result<(), Instability> {
         let time = self.parts.dt / sub_steps as f64;
         let half = 0.5 * time;
@@ -359,7 +367,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Moves a sphere from the middle to the end of a sub-step.
-    fn complete(&mut self, i: usize, time: f64, work: &Workspace<T::History>) {
+    fn complete(&mut self, i: usize, time: f64, work: &mut Workspace<T::History>) {
         let particles = &mut self.parts.particles;
         let [x, y, z, _] = self.loads[i].force;
         particles.force[i] = Vector::new(x, y, z) + work.force[i];
@@ -372,26 +380,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             ledger.books.note_kick(i, particles, time);
         }
         particles.position[i] += particles.velocity[i] * (0.5 * time);
-    }
-
-    /// Whether spheres touch now that were in different islands; notes which.
-    fn has_missed(&self, work: &mut Workspace<T::History>) -> bool {
-        if !N::ACTS {
-            return false;
-        }
-        let before = work.missed_pairs.len() + work.missed_spheres.len();
-        let particles = &self.parts.particles;
-        for &NearPair { i, j, .. } in self.near.pairs() {
-            let (a, b) = (i as usize, j as usize);
-            let sum = particles.radius[a] + particles.radius[b];
-            let squared = (particles.position[a] - particles.position[b]).norm_squared();
-            if squared < sum * sum && !work.islands.holds_pair(i, j, particles.fixed) {
-                work.missed_pairs.push([i, j]);
-            }
-        }
-        work.miss_at_wall(self.parts.floor, &self.near_floor, particles);
-        work.miss_at_wall(self.parts.cylinder, &self.near_cylinder, particles);
-        work.missed_pairs.len() + work.missed_spheres.len() > before
+        work.note_way(i, particles);
     }
 }
 

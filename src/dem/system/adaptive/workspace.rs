@@ -3,11 +3,14 @@
 use super::islands::{Island, Islands};
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
-use crate::dem::walls::Wall;
 
 /// What a sub-step may take of an island's fastest oscillation, h (w + g) with angular frequency w and
 /// damping rate g: an impact then lasts 27 sub-steps or more.
 const RESOLUTION: f64 = 0.15;
+
+/// What a sphere may get farther than its speed and the slow forces take it before its step is done
+/// again, in radii: what contacts move it by where the step resolves them.
+const LEEWAY: f64 = 1e-4;
 
 /// What a step of the scheme works with; nothing of it is needed from step to step.
 #[derive(Default)]
@@ -20,9 +23,8 @@ pub(in crate::dem::system) struct Workspace<H> {
     /// large (m/s), and how far it may get (m).
     pub(super) gain: Vec<f64>,
     pub(super) reach: Vec<f64>,
-    /// Contacts that a step found at its end without having looked for them.
-    pub(super) missed_pairs: Vec<[u32; 2]>,
-    pub(super) missed_spheres: Vec<u32>,
+    /// How far each sphere got at most, squared (m2).
+    way_squared: Vec<f64>,
     pub(super) islands: Islands,
     /// Squared frequency (1/s2) and damping rate (1/s) of each sphere at its contacts.
     pub(super) stiffness: Vec<f64>,
@@ -66,9 +68,13 @@ impl<H> Workspace<H> {
         self.gain
             .extend(forces.map(|(force, inverse)| 2.0 * force.norm() * (inverse * dt)));
         let speeds = particles.velocity.iter().zip(&self.gain);
+        let spheres = speeds.zip(&particles.radius);
         self.reach.clear();
-        self.reach
-            .extend(speeds.map(|(velocity, gain)| (velocity.norm() + gain) * dt));
+        self.reach.extend(spheres.map(|((velocity, gain), radius)| {
+            (1.1 * velocity.norm() + gain) * dt + LEEWAY * radius
+        }));
+        self.way_squared.clear();
+        self.way_squared.resize(particles.len(), 0.0);
         self.reach.iter().copied().fold(0.0, f64::max)
     }
 
@@ -84,19 +90,29 @@ impl<H> Workspace<H> {
         ((dt * fastest / RESOLUTION).ceil() as u64).max(1)
     }
 
-    pub(super) fn miss_at_wall<W: Wall>(
-        &mut self,
-        wall: Option<W>,
-        near: &[u32],
-        particles: &Particles,
-    ) {
-        let Some(wall) = wall else { return };
-        for &sphere in near {
-            let i = sphere as usize;
-            let contact = wall.contact(particles.position[i], particles.radius[i]);
-            if i >= particles.fixed && contact.touches && self.islands.is_free(i) {
-                self.missed_spheres.push(sphere);
+    /// Notes how far a sphere is from where it started.
+    pub(super) fn note_way(&mut self, i: usize, particles: &Particles) {
+        let squared = (particles.position[i] - self.start.position[i]).norm_squared();
+        self.way_squared[i] = self.way_squared[i].max(squared);
+    }
+
+    /// Gives spheres that got farther than they might twice the room that they took. The largest reach
+    /// (m), if there are any.
+    pub(super) fn widen(&mut self, dt: f64) -> Option<f64> {
+        let mut strayed = false;
+        for ((squared, reach), gain) in self
+            .way_squared
+            .iter_mut()
+            .zip(&mut self.reach)
+            .zip(&mut self.gain)
+        {
+            if *squared > *reach * *reach && squared.is_finite() {
+                *reach = 2.0 * squared.sqrt();
+                *gain = *reach / dt;
+                strayed = true;
             }
+            *squared = 0.0;
         }
+        strayed.then(|| self.reach.iter().copied().fold(0.0, f64::max))
     }
 }
