@@ -248,8 +248,8 @@ fn the_figure_has_a_panel_per_integrator_units_and_the_limit() {
     let figure = place.read("results/drop/stability.svg");
     for text in [
         "A drop",
-        "velocity verlet",
-        "adaptive verlet",
+        "velocity-verlet",
+        "adaptive-verlet",
         "(Pa)",
         "lost sphere",
         "limit of the time step",
