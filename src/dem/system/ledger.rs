@@ -51,8 +51,8 @@ impl Books {
         (contacts, [&mut self.air, &mut self.air_torque])
     }
 
-    /// Whether they may be those of so many spheres; before the first step they are empty.
-    pub(super) fn fit(&self, spheres: usize) -> bool {
+    /// Whether they may be those of these spheres; before the first step they are empty.
+    pub(super) fn fit(&self, particles: &Particles) -> bool {
         let parts = [
             &self.damping,
             &self.tangential,
@@ -60,7 +60,9 @@ impl Books {
             &self.air,
         ];
         let first = self.damping.len();
-        (first == spheres || first == 0) && parts.iter().all(|part| part.len() == first)
+        (first == particles.len() || first == 0)
+            && parts.iter().all(|part| part.len() == first)
+            && (self.air_torque.len() == first || !particles.rotate())
     }
 
     /// Makes room for that many spheres.

@@ -74,7 +74,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             decode(&histories).ok_or(StateError("its contacts follow another law"))?;
         self.accept(&particles, &histories)?;
         match (&mut self.ledger, books) {
-            (Some(ledger), Some(books)) if books.fit(particles.len()) => ledger.books = books,
+            (Some(ledger), Some(books)) if books.fit(&particles) => ledger.books = books,
             (None, None) => {}
             _ => return Err(StateError("its books of energy are others")),
         }
