@@ -44,7 +44,8 @@ struct Expected {
 /// and release positions. Grains move chaotically, so one run is one draw. Over the seeds 1 to 8 ours
 /// spread by 1.0 s, 0.04 m, 0.9 s and 0.6 grains/s (one standard deviation). Tolerances are 2.5 of these
 /// (for the rate 1.7): one run and the mean of four that differ by nothing but chance are farther apart
-/// in 3 % (13 %) of all cases. The seeds are fixed: the test gives the same answer every time.
+/// in 3 % (13 %) of all cases; one run and one run, at 1.26 times as much, too. The seeds are fixed: the
+/// test gives the same answer every time.
 const WHOLE_RUN: [Expected; 4] = [
     Expected {
         quantity: "time at rest (s)",
@@ -82,23 +83,25 @@ const WHOLE_RUN: [Expected; 4] = [
     },
 ];
 
-#[test]
-fn the_shipped_silo_meets_its_numbers() {
+/// Asserts that runs of the shipped silo with these seeds, or as it is shipped, empty it and meet the
+/// numbers, within so many times the tolerance of four.
+#[track_caller]
+fn assert_silo(seeds: &[Option<u64>], tolerances: f64) {
     let scene = shipped("silo.toml");
-    // The scene as it is shipped, and three seeds.
-    let seeds = [None, Some(1), Some(2), Some(3)];
     let records: Vec<RunRecord> = std::thread::scope(|scope| {
-        let start = |seed: Option<u64>| {
+        let start = |seed: &Option<u64>| {
             let mut scene = scene.clone();
             // Far below anything one could see, and enough for another course of everything.
             if let (Some(seed), phase::scene::Start::Feed { spread, .. }) = (seed, &mut scene.start)
             {
-                scene.seed = seed;
+                scene.seed = *seed;
                 *spread = 1e-6;
             }
             scope.spawn(move || record(&scene))
         };
-        seeds.map(start).map(|thread| thread.join().unwrap()).into()
+        let threads: Vec<_> = seeds.iter().map(start).collect();
+        let ended = threads.into_iter().map(|thread| thread.join().unwrap());
+        ended.collect()
     });
     for record in &records {
         assert_eq!(record.outcome, Outcome::Completed, "no grain passes a wall");
@@ -113,10 +116,21 @@ fn the_shipped_silo_meets_its_numbers() {
     {
         let mean = records.iter().map(measure).sum::<f64>() / records.len() as f64;
         assert!(
-            (mean - value).abs() < tolerance,
+            (mean - value).abs() < tolerances * tolerance,
             "{quantity}: {mean}, not {value}"
         );
     }
+}
+
+#[test]
+fn the_shipped_silo_meets_its_numbers() {
+    assert_silo(&[None], 1.26);
+}
+
+#[test]
+#[ignore = "takes twenty seconds"]
+fn four_runs_of_the_shipped_silo_meet_its_numbers() {
+    assert_silo(&[None, Some(1), Some(2), Some(3)], 1.0);
 }
 
 #[test]

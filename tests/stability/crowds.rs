@@ -114,8 +114,8 @@ fn a_thousandfold_mass_rests_on_a_light_sphere() {
     }
 }
 
-/// Twenty spheres that lean on one another and on the wall by turns.
-fn leaning(friction: Friction) -> Scene {
+/// Spheres that lean on one another and on the wall by turns.
+pub(crate) fn leaning(count: u32, friction: Friction) -> Scene {
     let mut scene = column(&[RADIUS], Some(friction));
     let place = |i: u32| {
         let side = if i.is_multiple_of(2) { 0.4 } else { -0.4 };
@@ -123,9 +123,9 @@ fn leaning(friction: Friction) -> Scene {
         StartSphere::at([side * RADIUS, 0.0, height])
     };
     scene.start = Start::List {
-        spheres: (0..20).map(place).collect(),
+        spheres: (0..count).map(place).collect(),
     };
-    scene.spheres.count = 20;
+    scene.spheres.count = count as usize;
     scene.tank = Some(Tank {
         radius: Some(1.41 * RADIUS),
         floor: Some(0.0),
@@ -134,18 +134,19 @@ fn leaning(friction: Friction) -> Scene {
 }
 
 /// Largest way (radii) of a sphere within so many steps, after as many times `rest`.
-fn creep(scene: &Scene, rest: u64, steps: u64) -> f64 {
+pub(crate) fn creep(scene: &Scene, rest: u64, steps: u64) -> f64 {
     let mut simulation = Simulation::new(scene).unwrap();
     simulation.advance(fair(scene, rest * steps)).unwrap();
     largest_way(&mut simulation, fair(scene, steps))
 }
 
-/// Measured: 1e-11 radii.
+/// The lower the column, the sooner it is at rest: twenty spheres are among the long cases. Measured:
+/// below 1e-11 radii.
 #[test]
 fn a_leaning_column_with_static_friction_does_not_creep() {
     for integrator in Integrator::ALL {
-        let scene = crowded(&leaning(MINDLIN), integrator, LIMIT);
-        let way = creep(&scene, 9, 50_000);
+        let scene = crowded(&leaning(6, MINDLIN), integrator, LIMIT);
+        let way = creep(&scene, 9, 7_500);
         assert!(way < 1e-8, "{way} radii, {integrator:?}");
     }
 }
@@ -162,7 +163,7 @@ fn a_leaning_column_with_regularised_friction_trembles_where_the_step_is_coarse(
     for integrator in Integrator::ALL {
         let way = |part, rest, steps| {
             creep(
-                &crowded(&leaning(friction.clone()), integrator, part),
+                &crowded(&leaning(20, friction.clone()), integrator, part),
                 rest,
                 steps,
             )
