@@ -123,6 +123,11 @@ pub struct RunState<'a> {
 }
 
 impl RunState<'_> {
+    /// Frames done, the start not counted.
+    pub fn frame(&self) -> u64 {
+        self.frame
+    }
+
     /// The same, on its own.
     pub fn into_owned(self) -> RunState<'static> {
         RunState {

@@ -16,6 +16,7 @@ use std::fs;
 use std::io::{BufRead, BufReader};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::process::Child;
 use std::time::Duration;
 use support::{Answer, TinySweep, Workplace, damage, end, signal, silo_file, wait_until};
 
@@ -480,6 +481,64 @@ fn a_job_that_is_run_again_goes_on_too() {
         .says("same bits as in the sweep");
 }
 
+/// A run under way with a checkpoint at every frame, and its first one.
+fn under_way(place: &Workplace, out: &str) -> Child {
+    place.write("scene.toml", &slow_scene());
+    let arguments = ["run", "scene.toml", "--checkpoint-interval", "0", "--out"];
+    let child = place.start(&[&arguments[..], &[out]].concat());
+    wait_until(|| place.path(out).with_extension("checkpoint").exists());
+    child
+}
+
+/// Symptom: two runs of one record at once wrote each other's checkpoint, and the later one's record
+/// replaced the other's. Cause: no lock.
+#[test]
+fn two_runs_do_not_share_a_record() {
+    let place = Workplace::new();
+    let mut first = under_way(&place, "run.h5");
+    let second = ["run", "scene.toml", "--out", "run.h5"];
+    place.phase(&second).code(2).complains(
+        "run.h5: another `phase run` is making this record; wait until it ends, or choose",
+    );
+    place
+        .phase(&["run", "scene.toml", "--out", "else.h5"])
+        .code(0);
+    first.kill().unwrap();
+    first.wait().unwrap();
+    // The system gives the right of a killed run back.
+    place.phase(&second).code(0);
+    let names = fs::read_dir(place.path(".")).unwrap();
+    let mut names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    assert!(names.all(|name| !name.ends_with(".lock")));
+}
+
+/// Symptom: a run whose record could not be written had come to its end for nothing, or so it said.
+#[test]
+fn a_record_that_cannot_be_written_leaves_the_checkpoint() {
+    let place = Workplace::new();
+    let run = under_way(&place, "run.h5");
+    fs::create_dir(place.path("run.h5")).unwrap();
+    end(run)
+        .code(1)
+        .complains("cannot write run.h5")
+        .complains("stays: the same command with --resume goes on from there (run.checkpoint)");
+    fs::remove_dir(place.path("run.h5")).unwrap();
+    resume(&place, &[]).code(0).complains("going on at ");
+    let expected = whole(&phase::scene::load(&place.path("scene.toml")).unwrap());
+    let found = digest(&place.path("run.h5"));
+    assert_eq!(found, content_digest(&expected).unwrap());
+}
+
+/// Symptom: a record was lost whose folder somebody had removed meanwhile.
+#[test]
+fn a_folder_that_was_removed_is_made_again_for_the_record() {
+    let place = Workplace::new();
+    let run = under_way(&place, "out/run.h5");
+    fs::rename(place.path("out"), place.path("away")).unwrap();
+    end(run).code(0);
+    assert!(place.path("out/run.h5").exists());
+}
+
 /// Checkpoints of the jobs in `results`.
 fn checkpoints(place: &Workplace) -> Vec<PathBuf> {
     let Ok(entries) = fs::read_dir(place.path("results/records")) else {
@@ -522,6 +581,21 @@ fn killed_sweep() -> Workplace {
 #[test]
 fn a_killed_sweep_goes_on_in_the_middle_of_a_job() {
     let place = killed_sweep();
+    // How far that job is, is told meanwhile.
+    let status = place.phase(&["status", "results", "--json"]).code(0);
+    let status: serde_json::Value = serde_json::from_str(&status.stdout).unwrap();
+    let under_way = &status["folders"][0]["under_way"];
+    let (step, steps) = (
+        under_way[0]["step"].as_u64(),
+        under_way[0]["steps"].as_u64(),
+    );
+    let (step, steps) = (step.unwrap(), steps.unwrap());
+    assert!(0 < step && step < steps, "{step} of {steps}");
+    place
+        .phase(&["status", "results"])
+        .code(0)
+        .says("under way  omega = ")
+        .says(&format!("checkpoint at step {step} of {steps}, "));
     let answer = place
         .phase(&[
             "sweep",

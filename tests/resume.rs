@@ -335,3 +335,21 @@ fn a_full_disk_is_a_clear_error_and_loses_nothing() {
         .says(&format!("{done} done before"));
     assert_eq!(place.digests("results").len(), many.jobs());
 }
+
+/// Symptom: records of any build were taken over without a word.
+#[test]
+fn records_of_another_build_are_told_of() {
+    let place = Workplace::new();
+    sweep(&place, &TinySweep::default()).code(0);
+    for name in &place.records("results")[..2] {
+        let path = place.path("results/records").join(name);
+        let mut record = phase::store::read_record(&path).unwrap();
+        record.program.commit = "abc123".to_owned();
+        phase::store::write_record(&record, &path).unwrap();
+    }
+    let answer = sweep(&place, &TinySweep::default()).code(0);
+    let version = env!("CARGO_PKG_VERSION");
+    answer.complains(&format!(
+        "2 records were made by version {version} (commit abc123); --force makes them anew"
+    ));
+}

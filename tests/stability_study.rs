@@ -305,3 +305,87 @@ fn published_studies_are_those_that_are_shipped() {
         );
     }
 }
+
+/// Symptom: a study was refused for keys of frames and output that it does not use, and the message
+/// pointed at the scene as a whole. Cause: its scene was checked like one to be run.
+#[test]
+fn keys_that_a_study_does_not_use_do_not_refuse_it() {
+    let own = study(TINY);
+    for (from, to) in [
+        ("frame_interval = 1e-2", "frame_interval = 1.234e-2"),
+        ("frame_interval = 1e-2", "frame_interval = 2.0"),
+        (
+            "[scene]",
+            "[scene]\noutput = { snapshot_interval = 0.012345 }",
+        ),
+    ] {
+        let text = TINY.replace(from, to);
+        assert_ne!(text, TINY);
+        assert_eq!(study(&text).jobs().unwrap(), own.jobs().unwrap(), "{to}");
+    }
+}
+
+/// Symptom: a run of half a second with steps of 7 s lasted 7 s and was labelled.
+#[test]
+fn a_step_longer_than_the_run_is_refused() {
+    let text = TINY.replace("1e-2]", "7.0]");
+    let error = stability::from_str(&text, Path::new("study.toml")).unwrap_err();
+    let error = error.to_string();
+    for part in [
+        "study.toml:6:",
+        "`time.dt` = 7 s is longer than the run, `time.duration` = 0.5 s",
+        "help: use a smaller step",
+    ] {
+        assert!(error.contains(part), "no `{part}` in {error}");
+    }
+}
+
+/// Symptom: rows of any build were taken over without a word.
+#[test]
+fn rows_of_another_build_are_told_of_until_they_are_made_anew() {
+    let place = Workplace::new();
+    place.write("drop.toml", TINY);
+    let again = ["stability", "drop.toml", "--no-plot"];
+    let quiet = |answer: support::Answer| assert!(!answer.stderr.contains("made by"), "{answer:?}");
+    place.phase(&again).code(0);
+    quiet(place.phase(&again).code(0));
+
+    let path = "results/drop/stability.makers.csv";
+    let mut makers: Vec<String> = place.read(path).lines().map(str::to_owned).collect();
+    for row in &mut makers[1..4] {
+        let id = row.split(',').next().unwrap();
+        *row = format!("{id},0.0.9,abc123");
+    }
+    makers.remove(4);
+    place.write(path, &(makers.join("\n") + "\n"));
+    for _ in 0..2 {
+        place
+            .phase(&again)
+            .code(0)
+            .complains("3 rows were made by version 0.0.9 (commit abc123); --force makes them anew")
+            .complains("1 row was made by a version that was not noted; --force makes it anew");
+    }
+    place.phase(&[&again[..], &["--force"]].concat()).code(0);
+    quiet(place.phase(&again).code(0));
+}
+
+#[test]
+fn check_says_what_a_study_would_run() {
+    let place = Workplace::new();
+    place.write("drop.toml", TINY);
+    place
+        .phase(&["check", "drop.toml"])
+        .code(0)
+        .says("A drop: a study of stability, 12 runs")
+        .says("of the limit in 6 runs (adaptive-verlet)")
+        .says("at most about");
+    // One with no key that a sweep has not, but steps above the limit.
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/sweeps/stability/cradle.toml");
+    let answer = place
+        .phase(&["check", file, "--no-trial", "--json"])
+        .code(0);
+    let answer: serde_json::Value = serde_json::from_str(&answer.stdout).unwrap();
+    assert_eq!(answer["kind"], "study");
+    assert_eq!(answer["jobs"], 4 * 31 * 13);
+    assert!(answer["integrators"][0]["largest_ratio"].as_f64().unwrap() > 1.0);
+}

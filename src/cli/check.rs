@@ -1,5 +1,6 @@
 //! `phase check`: validates a file and says what would run.
 
+mod study;
 mod walls;
 
 use super::console::Console;
@@ -15,7 +16,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Check a scene or sweep file and say what it would run, without running it.
+/// Check a scene, sweep or study file and say what it would run, without running it.
 ///
 /// A short trial of a few jobs tells how long it will take and how much memory and disk it needs.
 ///
@@ -27,7 +28,7 @@ use std::time::Duration;
 Example: what will the full diagram cost on 16 cores?
   phase check sweeps/theoretical.toml -j 16")]
 pub(crate) struct Arguments {
-    /// The scene or sweep file (TOML).
+    /// The scene, sweep or study file (TOML).
     file: PathBuf,
     /// Simulations at the same time [default: all cores].
     #[arg(short, long, value_name = "N", value_parser = super::sweep::at_least_one)]
@@ -42,6 +43,9 @@ pub(crate) struct Arguments {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
+    if kind::is_study(&arguments.file) {
+        return study::main(arguments, workers, console);
+    }
     let is_sweep = kind::is_sweep(&arguments.file);
     let sweep = if is_sweep {
         phase::sweep::load(&arguments.file).map_err(Failure::refused)?
@@ -69,7 +73,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     let mut forecast = None;
     if !arguments.no_trial {
-        forecast = Some(print_forecast(&jobs, workers, console)?);
+        // A silo ends its run when it is empty.
+        let may_end = jobs.iter().any(|job| job.scene.has_flow());
+        let found = print_forecast(&jobs, workers, may_end, console)?;
+        console.result(line(
+            "  disk",
+            format_args!("about {}", format::bytes(found.disk)),
+        ))?;
+        forecast = Some(found);
     }
     let scene = &sweep.scene;
     let (steps_per_frame, frames) = phase::run::frames(scene);
@@ -114,21 +125,28 @@ fn line(name: &str, text: impl std::fmt::Display) -> String {
 }
 
 fn describe_sweep(sweep: &Sweep, jobs: usize) -> String {
-    let mut lines = vec![match sweep.title.as_ref().or(sweep.scene.title.as_ref()) {
-        Some(title) => format!("{title}: {}", format::count(jobs, "job")),
-        None => format::count(jobs, "job"),
+    let title = sweep.title.as_ref().or(sweep.scene.title.as_ref());
+    let mut lines = describe_grid(title, &format::count(jobs, "job"), &sweep.axes);
+    let seeds: Vec<String> = sweep.seeds.iter().map(u64::to_string).collect();
+    lines.push(line("seeds", seeds.join(", ")));
+    lines.push(line("spheres", sweep.scene.spheres.count));
+    lines.join("\n")
+}
+
+/// Title and number of what is run, and the axes.
+fn describe_grid(title: Option<&String>, runs: &str, axes: &[Axis]) -> Vec<String> {
+    let mut lines = vec![match title {
+        Some(title) => format!("{title}: {runs}"),
+        None => runs.to_owned(),
     }];
-    for axis in &sweep.axes {
+    for axis in axes {
         let ends = match axis.values.as_slice() {
             [first, .., last] => format!("{first} to {last}, {} values", axis.values.len()),
             values => format!("{values:?}"),
         };
         lines.push(line(&axis.name, format_args!("{ends} ({})", axis.key)));
     }
-    let seeds: Vec<String> = sweep.seeds.iter().map(u64::to_string).collect();
-    lines.push(line("seeds", seeds.join(", ")));
-    lines.push(line("spheres", sweep.scene.spheres.count));
-    lines.join("\n")
+    lines
 }
 
 /// The effects that the scene names; no other costs anything.
@@ -201,7 +219,13 @@ fn describe_limit(tightest: &Tightest<'_>, axes: &[Axis], explain: bool) -> Stri
     text
 }
 
-fn print_forecast(jobs: &[Job], workers: usize, console: &Console) -> Result<Forecast, Failure> {
+/// Prints time and memory; `may_end` if runs may end before their time.
+fn print_forecast(
+    jobs: &[Job],
+    workers: usize,
+    may_end: bool,
+    console: &Console,
+) -> Result<Forecast, Failure> {
     console.note("running the first part of a few jobs ...");
     let forecast = forecast(jobs, workers, TRIAL_TIME).map_err(Failure::failed)?;
     console.result(line(
@@ -214,8 +238,7 @@ fn print_forecast(jobs: &[Job], workers: usize, console: &Console) -> Result<For
     ))?;
     let time = format::duration(forecast.seconds);
     let workers = format::count(workers.min(jobs.len()), "worker");
-    // A silo ends its run when it is empty.
-    let about = match jobs.iter().any(|job| job.scene.has_flow()) {
+    let about = match may_end {
         true => "at most about",
         false => "about",
     };
@@ -226,10 +249,6 @@ fn print_forecast(jobs: &[Job], workers: usize, console: &Console) -> Result<For
     console.result(line(
         "  memory",
         format_args!("about {}", format::bytes(forecast.memory)),
-    ))?;
-    console.result(line(
-        "  disk",
-        format_args!("about {}", format::bytes(forecast.disk)),
     ))?;
     Ok(forecast)
 }

@@ -1,4 +1,4 @@
-//! Whether a file is a scene or a sweep.
+//! Whether a file is a scene, a sweep or a study of stability.
 
 use super::exit::Failure;
 use phase::scene::Scene;
@@ -47,6 +47,21 @@ pub(super) fn is_sweep(file: &Path) -> bool {
         .iter()
         .any(|key| table.contains_key(*key))
 }
+
+/// Whether a file is a study of stability rather than a sweep: it has keys of its own, or it could be
+/// both and its steps are too long for a sweep.
+pub(super) fn is_study(file: &Path) -> bool {
+    let table = keys(file);
+    let has = |names: &[&str]| names.iter().any(|key| table.contains_key(*key));
+    has(&STUDY_KEYS)
+        || has(&["axis"])
+            && !has(&["sieves", "plot", "seeds"])
+            && phase::sweep::load(file).is_err()
+            && phase::stability::load(file).is_ok()
+}
+
+/// Keys that of these files only studies have.
+const STUDY_KEYS: [&str; 3] = ["integrators", "frames", "energy_gain"];
 
 fn keys(file: &Path) -> toml::Table {
     let text = std::fs::read_to_string(file).unwrap_or_default();

@@ -1,5 +1,6 @@
 //! The command line: one file per subcommand.
 
+mod builds;
 mod check;
 mod classify;
 mod completions;

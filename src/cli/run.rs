@@ -13,8 +13,9 @@ use phase::dem::timestep::Standing;
 use phase::document::Problem;
 use phase::record::{Milestone, MilestoneKind, Outcome, RunRecord};
 use phase::resume::{Checkpoints, DEFAULT_INTERVAL};
+use phase::run;
 use phase::scene::{Scene, Start};
-use phase::store;
+use phase::store::{self, Lock};
 use phase::sweep::work;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -106,6 +107,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         folders::refuse_to_replace(table, "a table of observables", b"time,kinetic,")?;
     }
     folders::make_for(&path)?;
+    let _lock = lock(&path)?;
     time_step::tell_of_scene(&scene, console);
     let interval = arguments.checkpoint_interval.unwrap_or(DEFAULT_INTERVAL);
     let checkpoints = Checkpoints::beside(&path, interval);
@@ -122,7 +124,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     else {
         return Ok(Exit::Interrupted);
     };
-    store::write_record(&record, &path).map_err(Failure::failed)?;
+    write(&record, &path, &checkpoints)?;
     console.result(summary(&record, seconds))?;
     console.file(&path)?;
     if let Some(table) = &table {
@@ -140,6 +142,39 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         ..Answer::new(&record, seconds, &path)
     })?;
     Ok(Exit::Done)
+}
+
+/// Takes the right to write a record and what goes beside it.
+fn lock(record: &Path) -> Result<Lock, Failure> {
+    let file = record.display();
+    let lock = Lock::take_beside(record).map_err(|error| {
+        Failure::failed(format_args!("{file}: {error}{}", store::advice(&error)))
+    })?;
+    lock.ok_or_else(|| {
+        Failure::refused(format_args!(
+            "{file}: another `phase run` is making this record; wait until it ends, or choose another \
+             name with --out"
+        ))
+    })
+}
+
+/// Writes the record, into its folder made anew if somebody removed it. Where that fails, what is left
+/// of the run is its latest checkpoint.
+fn write(record: &RunRecord, path: &Path, checkpoints: &Checkpoints) -> Result<(), Failure> {
+    folders::make_for(path)?;
+    store::write_record(record, path).map_err(|error| {
+        let left = match store::read_checkpoint(checkpoints.path(), &record.scene) {
+            Ok(Some(state)) => format!(
+                "the checkpoint of frame {} of {} stays: the same command with --resume goes on from \
+                 there ({})",
+                state.frame(),
+                run::frames(&record.scene).1,
+                checkpoints.path().display()
+            ),
+            _ => "the run had left no checkpoint yet, and must be made again".to_owned(),
+        };
+        Failure::failed(format_args!("{error}; {left}"))
+    })
 }
 
 /// The table of observables beside a record.

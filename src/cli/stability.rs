@@ -3,7 +3,7 @@
 use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
 use super::progress::{Progress, Work};
-use super::{folders, format, interrupt, plot, sweep};
+use super::{builds, folders, format, interrupt, plot, sweep};
 use phase::plot::stability as figure;
 use phase::record::Program;
 use phase::scene::Integrator;
@@ -26,7 +26,8 @@ use std::sync::atomic::Ordering;
 Example: Newton's cradle, all integrators, time step against stiffness
   phase stability sweeps/stability/cradle.toml
 
-The results folder holds stability.csv (one row per run) and the figure as SVG and PNG.")]
+The results folder holds stability.csv (one row per run), stability.makers.csv (which build made each row)
+and the figure as SVG and PNG.")]
 pub(crate) struct Arguments {
     /// The study file (TOML).
     file: PathBuf,
@@ -200,6 +201,9 @@ fn run(trials: &Trials<'_>, known: Vec<Row>, console: &Console) -> Result<(Repor
     if jobs_done > 0 {
         let runs = format::count(trials.jobs.len(), "run");
         console.note(format_args!("{jobs_done} of {runs} are done already"));
+        let makers = store::read_makers(trials.table).map_err(Failure::refused)?;
+        let done = trials.jobs.iter().filter(is_known);
+        builds::tell_of_others("row", done.map(|job| makers.get(&job.id)), console);
     }
     let progress = Progress::new(
         console,

@@ -3,12 +3,14 @@
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::format;
-use super::job::NamedJob;
-use phase::sweep::{Axis, Folder, Plan, Status, describe, work};
+use super::job::{self, NamedJob};
+use phase::sweep::{Axis, Folder, Plan, Status, UnderWay, describe, work};
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// Say how far a sweep is: jobs done, failed and left, and the time left.
+/// Say how far a sweep is: jobs done, failed and left, how far runs with a checkpoint are, and the time
+/// left.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: all sweeps in ./results
@@ -45,6 +47,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             failed: NamedJob::all(&sweep.axes, &status.failures),
             to_redo: status.bad,
             left: status.left,
+            under_way: UnderWayAnswer::all(&status.under_way, &sweep.axes),
             workers: workers.min(status.left.max(1)),
             seconds_left: seconds_left(&status, workers),
             running: status.running,
@@ -70,9 +73,33 @@ struct FolderAnswer {
     failed: Vec<NamedJob>,
     to_redo: usize,
     left: usize,
+    under_way: Vec<UnderWayAnswer>,
     workers: usize,
     seconds_left: Option<f64>,
     running: bool,
+}
+
+/// A run that goes on from its checkpoint.
+#[derive(Serialize)]
+struct UnderWayAnswer {
+    id: String,
+    point: BTreeMap<String, f64>,
+    seed: u64,
+    step: u64,
+    steps: u64,
+}
+
+impl UnderWayAnswer {
+    fn all(runs: &[UnderWay], axes: &[Axis]) -> Vec<Self> {
+        let answer = |run: &UnderWay| Self {
+            id: run.id.clone(),
+            point: job::point(axes, &run.values),
+            seed: run.seed,
+            step: run.step,
+            steps: run.steps,
+        };
+        runs.iter().map(answer).collect()
+    }
 }
 
 /// Time for the jobs left with that many workers (s), if any job is done to judge by.
@@ -92,6 +119,7 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
         failures,
         bad,
         left,
+        under_way,
         running,
         ..
     } = status;
@@ -125,6 +153,16 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
     } else {
         "\n  running    no"
     };
+    for run in under_way {
+        text += &format!(
+            "\n  under way  {} (job {}): checkpoint at step {} of {}, {}",
+            describe(axes, &run.values, run.seed),
+            run.id,
+            run.step,
+            run.steps,
+            format::percent(run.step as usize, run.steps as usize)
+        );
+    }
     for failure in failures {
         let name = describe(axes, &failure.values, failure.seed);
         text += &format!(

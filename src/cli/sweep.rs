@@ -4,7 +4,7 @@ use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
 use super::job::NamedJob;
 use super::progress::{Progress, Work};
-use super::{classify, format, interrupt, kind, plot, time_step};
+use super::{builds, classify, format, interrupt, kind, plot, time_step};
 use phase::record::Outcome;
 use phase::resume::DEFAULT_INTERVAL;
 use phase::sweep::{
@@ -191,6 +191,8 @@ fn tell_of_plan(plan: &Plan, console: &Console) {
             format::count(plan.jobs.len(), "job")
         ));
     }
+    let makers = plan.done().map(|(_, done)| Some(&done.program));
+    builds::tell_of_others("record", makers, console);
     for (job, standing) in &plan.jobs {
         match standing {
             Standing::Damaged(reason) => console.note(format_args!(

@@ -105,6 +105,15 @@ impl Range {
         high_enough && value <= self.high
     }
 
+    /// What to use in place of a number that is outside.
+    fn advice(self, value: f64) -> String {
+        match (value > self.high, self.low_allowed) {
+            (true, _) => format!("use {} or less", number(self.high)),
+            (false, true) => format!("use {} or more", number(self.low)),
+            (false, false) => format!("use a number above {}", number(self.low)),
+        }
+    }
+
     fn words(self) -> String {
         let low = if self.low_allowed {
             format!("of at least {}", number(self.low))
@@ -222,13 +231,17 @@ impl Kind {
                 if number.abs() > Range::HUGE {
                     problems.push(misfit().help("no number may be beyond 1e30"));
                 } else if !range.contains(number) {
-                    problems.push(misfit());
+                    problems.push(misfit().help(range.advice(number)));
                 }
             }
             (Self::Whole(least), Value::Number(number)) => {
                 if number.as_u64().is_none_or(|number| number < *least) {
-                    problems.push(misfit());
+                    problems
+                        .push(misfit().help(format!("use {least} or more, without a fraction")));
                 }
+            }
+            (Self::Number(_), Value::Null) => {
+                problems.push(misfit().help("use a finite number"));
             }
             _ if self.fits_type_of(value) => {}
             _ => problems.push(misfit()),

@@ -115,7 +115,7 @@ impl Scene {
                 Value::from(value as u64)
             } else if key.whole {
                 let message = format!("`{path}` must be a whole number, but is {}", number(value));
-                return Err(Problem::new(path, message));
+                return Err(Problem::new(path, message).help("use whole numbers, 0 or more"));
             } else {
                 Value::from(value)
             };

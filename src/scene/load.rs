@@ -24,12 +24,12 @@ pub fn load(path: &Path) -> Result<Scene, LoadError> {
 /// # Errors
 /// Those of [`load`].
 pub fn load_base(path: &Path) -> Result<Scene, LoadError> {
-    load_base_with(path, Scene::problems)
+    load_base_with(path, Reading::RUN)
 }
 
-/// Like [`load_base`], with what `check` finds for the problems of a scene whose step is given.
-pub(crate) fn load_base_with(path: &Path, check: Check) -> Result<Scene, LoadError> {
-    base_of_document(&Document::read(path)?, check)
+/// Like [`load_base`], for another purpose.
+pub(crate) fn load_base_with(path: &Path, reading: Reading) -> Result<Scene, LoadError> {
+    base_of_document(&Document::read(path)?, reading)
 }
 
 /// Like [`load`], with `text` for the content of the file `path`.
@@ -41,25 +41,39 @@ pub fn from_str(text: &str, path: &Path) -> Result<Scene, LoadError> {
 }
 
 fn of_document(document: &Document) -> Result<Scene, LoadError> {
-    let mut scene = base_of_document(document, Scene::problems)?;
+    let mut scene = base_of_document(document, Reading::RUN)?;
     scene.time.safety_factor = None;
     Ok(scene)
 }
 
-fn base_of_document(document: &Document, check: Check) -> Result<Scene, LoadError> {
-    let scene = base_of_tree(document.tree(), document.folder(), check);
+fn base_of_document(document: &Document, reading: Reading) -> Result<Scene, LoadError> {
+    let scene = base_of_tree(document.tree(), document.folder(), reading);
     scene.map_err(|problems| document.refuse(&problems))
 }
 
-/// What finds the problems of a scene whose step is given.
-pub(crate) type Check = fn(&Scene) -> Vec<Problem>;
+/// What a scene is read for.
+#[derive(Clone, Copy)]
+pub(crate) struct Reading {
+    /// Puts what the purpose asks for in the place of keys that do not matter to it.
+    pub(crate) prepare: fn(&mut Scene),
+    /// Finds the problems of a scene whose step is given.
+    pub(crate) check: fn(&Scene) -> Vec<Problem>,
+}
+
+impl Reading {
+    /// To be run as it stands.
+    pub(crate) const RUN: Self = Self {
+        prepare: |_| {},
+        check: Scene::problems,
+    };
+}
 
 /// The scene that a tree of values describes, as [`load_base`] returns it; files it names are relative
 /// to `folder`.
 pub(crate) fn base_of_tree(
     tree: &Value,
     folder: &Path,
-    check: Check,
+    reading: Reading,
 ) -> Result<Scene, Vec<Problem>> {
     let mut problems = Vec::new();
     SCENE.check(tree, "", &mut problems);
@@ -78,13 +92,14 @@ pub(crate) fn base_of_tree(
     if !problems.is_empty() {
         return Err(problems);
     }
+    (reading.prepare)(&mut scene);
     if is_auto {
         let safety_factor = *scene.time.safety_factor.get_or_insert(SAFETY_FACTOR);
         scene = scene.with_chosen_step()?;
         scene.time.safety_factor = Some(safety_factor);
         return Ok(scene);
     }
-    match check(&scene) {
+    match (reading.check)(&scene) {
         problems if problems.is_empty() => Ok(scene),
         problems => Err(problems),
     }

@@ -18,7 +18,7 @@ mod validate;
 
 pub use drag::{Drag, DragForm, DragLaw};
 pub(crate) use keys::leaf;
-pub(crate) use load::{Check, base_of_tree, load_base_with};
+pub(crate) use load::{Reading, base_of_tree, load_base_with};
 pub use load::{from_str, load, load_base};
 pub use neighbours::Neighbours;
 pub use radius::{Radii, RadiusShare};

@@ -1,9 +1,9 @@
 //! From a study file to a study.
 
-use super::Study;
 use super::schema::STUDY;
+use super::{Study, fit_frames, output};
 use crate::document::{Document, LoadError, Problem};
-use crate::scene::{Integrator, Scene};
+use crate::scene::{Integrator, Reading, Scene};
 use crate::sweep::{
     Axis, AxisEntry, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes,
     grid, points,
@@ -64,6 +64,19 @@ fn five_percent() -> f64 {
     0.05
 }
 
+/// A scene is read for a study without its frames and output, which are the study's.
+const READING: Reading = Reading {
+    prepare: |scene| {
+        scene.output = output();
+        scene.time.frame_interval = scene.time.duration;
+    },
+    check: |scene| {
+        let mut scene = scene.clone();
+        fit_frames(&mut scene.time, 1);
+        scene.problems_but_of_limit()
+    },
+};
+
 /// Reads a study file and the scene file that it names, relative to itself. The scenes of all
 /// points have been checked, but for their time steps, which may be above the limit.
 ///
@@ -87,7 +100,7 @@ fn of_document(document: &Document) -> Result<Study, LoadError> {
     document.accept(&problems)?;
     let file = StudyFile::deserialize(document.tree())
         .map_err(|error| document.refuse(&[Problem::new("", format!("not a study: {error}"))]))?;
-    let mut scene = base_scene(&file.scene, document, Scene::problems_but_of_limit)?;
+    let mut scene = base_scene(&file.scene, document, READING)?;
     let axes = expand_axes(&file.axis, &scene, &mut problems);
     check_steps(&axes, &mut problems);
     if axes.iter().any(|axis| axis.key == "time.dt") {

@@ -15,6 +15,7 @@ pub use load::{from_str, load};
 pub use run::{Event, Report, Row, Trials, TrialsError};
 
 use crate::dem::timestep::{Limit, limits};
+use crate::document::{Problem, number};
 use crate::scene::{Integrator, Output, Scene, Time};
 use crate::sweep::{Axis, Job, PointError, grid, points, scene_with};
 
@@ -66,22 +67,36 @@ impl Study {
         let fail = |problems| PointError::new(&self.axes, values, problems);
         let mut scene = scene_with(&self.scene, &self.axes, values)?;
         scene.time.integrator = integrator;
-        scene.output = Output {
-            snapshot_interval: 0.0,
-            ledger: true,
-            rise_speeds: Vec::new(),
-            rise_radii: Vec::new(),
-            ..Output::default()
-        };
+        scene.output = output();
         if scene.time.safety_factor.is_some() {
             scene.time.frame_interval = scene.time.duration / self.frames as f64;
             scene = scene.with_chosen_step().map_err(fail)?;
+        }
+        if scene.time.dt > scene.time.duration {
+            let message = format!(
+                "`time.dt` = {} s is longer than the run, `time.duration` = {} s",
+                number(scene.time.dt),
+                number(scene.time.duration)
+            );
+            let help = "use a smaller step, or a longer `duration`";
+            return Err(fail(vec![Problem::new("time.dt", message).help(help)]));
         }
         fit_frames(&mut scene.time, self.frames);
         match scene.problems_but_of_limit() {
             problems if problems.is_empty() => Ok(scene),
             problems => Err(fail(problems)),
         }
+    }
+}
+
+/// What a run of a study stores: the books of energy and nothing else.
+fn output() -> Output {
+    Output {
+        snapshot_interval: 0.0,
+        ledger: true,
+        rise_speeds: Vec::new(),
+        rise_radii: Vec::new(),
+        ..Output::default()
     }
 }
 

@@ -1,12 +1,12 @@
 //! Runs what is left of a study and keeps its table.
 
 use super::{Label, Study, Theory, energy_gain};
-use crate::record::{Guard, Outcome};
+use crate::record::{Guard, Outcome, Program};
 use crate::run::{self, RunError};
 use crate::scene::Integrator;
 use crate::store::{self, StoreError};
 use crate::sweep::{Failure, Job, panic_message, work};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -90,11 +90,11 @@ pub struct Trials<'a> {
 const BETWEEN_WRITINGS: Duration = Duration::from_secs(5);
 
 impl Trials<'_> {
-    /// Makes the runs of which `known` has no row of the same identity, and keeps the table up to date.
-    /// Labels of known rows follow the study's threshold.
+    /// Makes the runs of which `known` has no row of the same identity, and keeps the table up to date,
+    /// and beside it which build made each row. Labels of known rows follow the study's threshold.
     ///
     /// # Errors
-    /// If the table cannot be written, or there are no threads.
+    /// If the files cannot be read or written, or there are no threads.
     pub fn run(&self, known: Vec<Row>) -> Result<Report, TrialsError> {
         let mut known: HashMap<String, Row> =
             known.into_iter().map(|row| (row.id.clone(), row)).collect();
@@ -104,11 +104,14 @@ impl Trials<'_> {
             .map(|job| Some(self.labelled_again(known.remove(&job.id)?)))
             .collect();
         let count = rows.iter().flatten().count();
+        let mut makers = store::read_makers(self.table)?;
+        makers.retain(|id, _| rows.iter().flatten().any(|row| row.id == *id));
         let pending: Vec<usize> = (0..rows.len())
             .filter(|&index| rows[index].is_none())
             .collect();
         let state = Mutex::new(State {
             rows,
+            makers,
             failures: Vec::new(),
             cpu_seconds: 0.0,
             written: Instant::now(),
@@ -120,7 +123,7 @@ impl Trials<'_> {
             }
         })?;
         let state = state.into_inner().unwrap_or_else(PoisonError::into_inner);
-        self.write(&state.rows)?;
+        self.write(&state)?;
         if let Some(error) = state.halted {
             return Err(error.into());
         }
@@ -153,10 +156,11 @@ impl Trials<'_> {
 
     /// Notes a row, and writes the table if that was not done for a while.
     fn keep(&self, index: usize, row: Row, cpu_seconds: f64, state: &mut State) {
+        state.makers.insert(row.id.clone(), Program::current());
         state.rows[index] = Some(row);
         state.cpu_seconds += cpu_seconds;
         if state.written.elapsed() >= BETWEEN_WRITINGS {
-            state.halted = self.write(&state.rows).err();
+            state.halted = self.write(state).err();
             state.written = Instant::now();
         }
     }
@@ -201,8 +205,10 @@ impl Trials<'_> {
         Label::of(guard, gain, self.study.energy_gain)
     }
 
-    fn write(&self, rows: &[Option<Row>]) -> Result<(), StoreError> {
-        store::write_stability(&self.study.axes, rows.iter().flatten(), self.table)
+    fn write(&self, state: &State) -> Result<(), StoreError> {
+        // First, so that no row has another maker than is noted, whenever the process is ended.
+        store::write_makers(&state.makers, self.table)?;
+        store::write_stability(&self.study.axes, state.rows.iter().flatten(), self.table)
     }
 }
 
@@ -210,6 +216,8 @@ impl Trials<'_> {
 struct State {
     /// By index of the job.
     rows: Vec<Option<Row>>,
+    /// Builds that made them, by identity, as far as known.
+    makers: BTreeMap<String, Program>,
     failures: Vec<Failure>,
     cpu_seconds: f64,
     written: Instant,

@@ -9,6 +9,7 @@ mod export;
 mod failures;
 mod geometry;
 mod labels;
+mod lock;
 mod radii;
 mod record;
 mod rows;
@@ -26,13 +27,14 @@ pub use export::{
 pub use failures::{read_failures, write_failures};
 pub use geometry::read_geometry;
 pub use labels::{read_labels, write_labels, write_points};
+pub use lock::Lock;
 pub use radii::read_radii;
 pub use record::{
     HDF5_SIGNATURE, RecordHeader, content_digest, motion_digest, read_record, read_record_header,
     write_record,
 };
 pub use rows::write_rows;
-pub use stability::{read_stability, write_stability};
+pub use stability::{read_makers, read_stability, write_makers, write_stability};
 pub use start::read_start;
 
 use std::io;

@@ -3,13 +3,17 @@
 //! Columns: `integrator`, the axes by their names, `time_step` (s), `step_over_limit` and `limit` (both
 //! empty where nothing limits the step), `label`, `energy_gain`, `guard`, `step` and `sphere` (empty
 //! where no guard was broken), `id`.
+//!
+//! `stability.makers.csv` beside it: which build made each row, in the columns `id`, `version` and `commit`.
+//! It is a file of its own because the same study gives the same table, whatever build makes it.
 
 use super::{StoreError, write_atomic};
-use crate::record::Guard;
+use crate::record::{Guard, Program};
 use crate::scene::Integrator;
 use crate::stability::{Label, Row};
 use crate::sweep::Axis;
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 /// The columns of a table over these axes.
 fn columns(axes: &[Axis]) -> Vec<&str> {
@@ -124,6 +128,48 @@ fn parse(row: &csv::StringRecord, axes: usize) -> Option<Row> {
     })
 }
 
+/// The builds that made the rows of the table `table`, by the identities of their runs, are in this file.
+fn makers_of(table: &Path) -> PathBuf {
+    table.with_extension("makers.csv")
+}
+
+/// Notes which builds made the rows of a table, by the identities of their runs.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_makers(makers: &BTreeMap<String, Program>, table: &Path) -> Result<(), StoreError> {
+    let path = makers_of(table);
+    let rows = makers.iter();
+    let rows = rows.map(|(id, by)| [id.as_str(), &by.version, &by.commit]);
+    let mut bytes = csv::Writer::from_writer(Vec::new());
+    let fail = |error: csv::Error| StoreError::content(&path, error);
+    for row in std::iter::once(["id", "version", "commit"]).chain(rows) {
+        bytes.write_record(row).map_err(fail)?;
+    }
+    let bytes = bytes
+        .into_inner()
+        .map_err(|error| StoreError::content(&path, error))?;
+    write_atomic(&path, &bytes)
+}
+
+/// Reads which builds made the rows of a table, as far as that was noted.
+///
+/// # Errors
+/// If there is a file that cannot be read.
+pub fn read_makers(table: &Path) -> Result<BTreeMap<String, Program>, StoreError> {
+    let path = makers_of(table);
+    if !path.exists() {
+        return Ok(BTreeMap::new());
+    }
+    let fail = |error: csv::Error| StoreError::reading(&path, error.into());
+    let mut rows = csv::Reader::from_path(&path).map_err(fail)?;
+    let maker = |row: Result<(String, String, String), csv::Error>| {
+        let (id, version, commit) = row.map_err(fail)?;
+        Ok((id, Program { version, commit }))
+    };
+    rows.deserialize().map(maker).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -157,6 +203,11 @@ mod tests {
         write_stability(&axes, rows.iter(), &path).unwrap();
         assert_eq!(read_stability(&axes, &path).unwrap(), rows);
         assert_eq!(read_stability(&axes[..1], &path).unwrap(), []);
+
+        let makers = BTreeMap::from([("0123456789abcdef".to_owned(), Program::current())]);
+        assert_eq!(read_makers(&path).unwrap(), BTreeMap::new());
+        write_makers(&makers, &path).unwrap();
+        assert_eq!(read_makers(&path).unwrap(), makers);
 
         let text = std::fs::read_to_string(&path).unwrap();
         std::fs::write(&path, text.replace("lost-sphere", "lost")).unwrap();

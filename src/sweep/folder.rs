@@ -3,8 +3,8 @@
 use super::Sweep;
 use crate::record::RunRecord;
 use crate::resume::Checkpoints;
-use crate::store::{self, StoreError};
-use std::fs::{self, File, TryLockError};
+use crate::store::{self, Lock, StoreError};
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -60,13 +60,6 @@ pub enum FolderError {
     /// A file of the folder cannot be read or written.
     #[error(transparent)]
     Store(#[from] store::StoreError),
-}
-
-/// The right to write to a results folder; given back when dropped, or when the process ends in
-/// whatever way.
-#[derive(Debug)]
-pub struct Lock {
-    _file: File,
 }
 
 impl Folder {
@@ -211,22 +204,13 @@ impl Folder {
             path: path.clone(),
             source,
         };
-        let file = File::create(&path).map_err(io_error)?;
-        // `is_locked` of another process holds the lock for an instant, so one look is not enough.
-        for _ in 0..10 {
-            match file.try_lock() {
-                Ok(()) => return Ok(Lock { _file: file }),
-                Err(TryLockError::WouldBlock) => std::thread::sleep(Duration::from_millis(20)),
-                Err(TryLockError::Error(source)) => return Err(io_error(source)),
-            }
-        }
-        Err(FolderError::Locked(self.root.clone()))
+        let lock = Lock::take(&path).map_err(io_error)?;
+        lock.ok_or_else(|| FolderError::Locked(self.root.clone()))
     }
 
     /// Whether another process has the right to write to the folder.
     pub fn is_locked(&self) -> bool {
-        let lock = File::open(self.root.join(".lock")).map(|file| file.try_lock_shared());
-        matches!(lock, Ok(Err(TryLockError::WouldBlock)))
+        Lock::is_taken(&self.root.join(".lock"))
     }
 
     /// Reads the resolved sweep.

@@ -6,7 +6,7 @@ use super::schema::SWEEP;
 use super::{Axis, PlotSettings, Sweep};
 use crate::classify::{Family, Sieves};
 use crate::document::{Document, LoadError, Problem, one_of, suggest};
-use crate::scene::{self, Check, Scene};
+use crate::scene::{self, Reading, Scene};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
@@ -74,7 +74,7 @@ fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     document.accept(&problems)?;
     let file = SweepFile::deserialize(document.tree())
         .map_err(|error| document.refuse(&[Problem::new("", format!("not a sweep: {error}"))]))?;
-    let mut scene = base_scene(&file.scene, document, Scene::problems)?;
+    let mut scene = base_scene(&file.scene, document, Reading::RUN)?;
     let axes = expand_axes(&file.axis, &scene, &mut problems);
     check_steps(&axes, &mut problems);
     if axes.iter().any(|axis| axis.key == "time.dt") {
@@ -104,20 +104,19 @@ fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     Ok(sweep)
 }
 
-/// The scene that the sweep starts from: in a file of its own, or in the table `scene`. `check` finds
-/// the problems of one whose step is given.
+/// The scene that the sweep starts from: in a file of its own, or in the table `scene`.
 pub(crate) fn base_scene(
     scene: &Value,
     document: &Document,
-    check: Check,
+    reading: Reading,
 ) -> Result<Scene, LoadError> {
     let Some(path) = scene.as_str() else {
-        return scene::base_of_tree(scene, document.folder(), check).map_err(|problems| {
+        return scene::base_of_tree(scene, document.folder(), reading).map_err(|problems| {
             let within = |problem: Problem| problem.within("scene");
             document.refuse(&problems.into_iter().map(within).collect::<Vec<_>>())
         });
     };
-    match scene::load_base_with(&document.folder().join(path), check) {
+    match scene::load_base_with(&document.folder().join(path), reading) {
         Err(error @ LoadError::Read { .. }) => {
             let help = "the path is relative to the folder of this file";
             Err(document.refuse(&[Problem::new("scene", error.to_string()).help(help)]))

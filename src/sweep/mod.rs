@@ -22,7 +22,7 @@ pub use axis::Axis;
 pub(crate) use axis::AxisEntry;
 pub use dumps::find_dumps;
 pub use failure::{Failure, describe};
-pub use folder::{Folder, FolderError, Lock};
+pub use folder::{Folder, FolderError};
 pub use forecast::{Forecast, ForecastError, forecast};
 pub use job::{Job, PointError};
 pub(crate) use job::{grid, points, scene_with};
@@ -36,7 +36,7 @@ pub use plan::{Done, ForeignRecord, Plan, Standing};
 pub(crate) use pool::panic_message;
 pub use pool::{Event, Pool, PoolError, Report};
 pub use select::{SelectError, parse_point};
-pub use status::Status;
+pub use status::{Status, UnderWay};
 
 use crate::classify::Sieves;
 use crate::scene::Scene;

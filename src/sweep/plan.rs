@@ -1,7 +1,7 @@
 //! What a results folder already holds of a sweep, and what is left to do.
 
 use super::{Folder, Job, differing_keys, work};
-use crate::record::Outcome;
+use crate::record::{Outcome, Program};
 use crate::scene::{Neighbours, Output, Scene};
 use crate::store::{self, StoreError};
 use std::collections::HashSet;
@@ -51,6 +51,8 @@ pub struct Done {
     pub outcome: Outcome,
     /// Processor time it took (s).
     pub cpu_seconds: f64,
+    /// The build that made it.
+    pub program: Program,
 }
 
 impl Plan {
@@ -136,6 +138,7 @@ fn standing(job: &Job, path: &Path) -> Standing {
         Standing::Done(Done {
             outcome: record.outcome,
             cpu_seconds: record.cpu_seconds,
+            program: record.program,
         })
     }
 }

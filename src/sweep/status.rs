@@ -1,9 +1,11 @@
 //! How far the sweep of a results folder is.
 
-use super::{Failure, Folder, FolderError, Plan, Standing, work};
+use super::{Failure, Folder, FolderError, Job, Plan, Standing, work};
 use crate::record::Outcome;
+use crate::run;
 use crate::store;
 use std::collections::HashSet;
+use std::time::Duration;
 
 /// How far the sweep of a results folder is.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,10 +22,43 @@ pub struct Status {
     pub bad: usize,
     /// Jobs left to run.
     pub left: usize,
+    /// Of these, runs with a checkpoint that they go on from.
+    pub under_way: Vec<UnderWay>,
     /// Processor time that the jobs left may take (s), if any job is done to judge by.
     pub cpu_seconds_left: Option<f64>,
     /// Whether a process is at work in the folder.
     pub running: bool,
+}
+
+/// A run that has a checkpoint and no record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnderWay {
+    /// Identity of the run.
+    pub id: String,
+    /// Value on each axis.
+    pub values: Vec<f64>,
+    /// Seed.
+    pub seed: u64,
+    /// Steps until the checkpoint.
+    pub step: u64,
+    /// Steps in all, if nothing ends the run before its time.
+    pub steps: u64,
+}
+
+impl UnderWay {
+    /// What the checkpoint of a job says; none if there is none that this build could go on from.
+    fn of(folder: &Folder, job: &Job) -> Option<Self> {
+        let checkpoints = folder.checkpoints(&job.id, Duration::ZERO);
+        let state = store::read_checkpoint(checkpoints.path(), &job.scene).ok()??;
+        let (steps_per_frame, frames) = run::frames(&job.scene);
+        Some(Self {
+            id: job.id.clone(),
+            values: job.values.clone(),
+            seed: job.seed,
+            step: state.frame() * steps_per_frame,
+            steps: frames * steps_per_frame,
+        })
+    }
 }
 
 impl Status {
@@ -51,6 +86,10 @@ impl Status {
                 .filter(|(_, standing)| is_bad(standing))
                 .count(),
             left: left_ids.len() - failures.len(),
+            under_way: plan
+                .pending()
+                .filter_map(|job| UnderWay::of(folder, job))
+                .collect(),
             cpu_seconds_left: cpu_seconds_left(plan),
             failures,
             running: folder.is_locked(),
