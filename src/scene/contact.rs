@@ -1,0 +1,90 @@
+//! The laws of contacts: along the line of centres, and across it.
+
+use super::one;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Normal contact law.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Contact {
+    /// Viscoelastic Hertz contact (Brilliantov et al., 1996), never attractive.
+    Hertz {
+        /// Young's modulus Y (Pa).
+        young_modulus: f64,
+        /// Poisson's ratio nu.
+        poisson_ratio: f64,
+        /// Dissipation time A (s). Give this or `restitution`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        dissipation_time: Option<f64>,
+        /// Restitution of a head-on pair at `restitution_speed`, from which A follows for
+        /// the scene's (mean) radius. Give this or `dissipation_time`.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        restitution: Option<f64>,
+        /// Relative speed at which `restitution` holds (m/s, default 1).
+        #[serde(default = "one")]
+        restitution_speed: f64,
+        /// Factor c of the dissipative term: 1 as the thesis prints it (default), 3/2 as
+        /// Brilliantov et al. derive it.
+        #[serde(default = "one")]
+        dissipation_factor: f64,
+    },
+    /// Spring and dashpot, both linear (Cundall and Strack, 1979; Remmers, 2009): F = k delta + b times
+    /// the rate of the overlap. Attractive at the end of a contact.
+    Linear {
+        /// Spring constant k (N/m).
+        stiffness: f64,
+        /// Drag constant b (N s/m).
+        damping: f64,
+        /// Which part of the relative velocity the drag acts on.
+        #[serde(default)]
+        drag: ContactDrag,
+    },
+}
+
+/// Which part of the relative velocity of two partners a contact's drag acts on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactDrag {
+    /// The part along the line of centres.
+    #[default]
+    Normal,
+    /// All of it (Remmers, 2009), which also slows spheres that slide along each other. Spins do not
+    /// count.
+    Whole,
+}
+
+/// Tangential contact law.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Friction {
+    /// The thesis's rule (Rice, 2012, eqs. 10 to 14): from spins alone, an impulse per step.
+    /// Depends on the time step, knows no sliding, does not conserve angular momentum.
+    Spin {
+        /// Coefficient mu.
+        coefficient: f64,
+    },
+    /// Sliding friction capped at mu F_n, from the velocity of the contact point.
+    Coulomb {
+        /// Coefficient mu.
+        coefficient: f64,
+        /// Sliding speed below which the force falls linearly to zero (m/s).
+        regularisation: f64,
+    },
+    /// A tangential spring and dashpot, together capped at mu F_n (Cundall and Strack, 1979); needs
+    /// the linear contact. A pile holds still, and grains can arch.
+    CundallStrack {
+        /// Coefficient mu.
+        coefficient: f64,
+        /// Tangential spring constant k_t (N/m).
+        stiffness: f64,
+        /// Tangential drag constant b_t (N s/m).
+        #[serde(default)]
+        damping: f64,
+    },
+    /// Mindlin's history spring by increments, capped at mu F_n; needs the Hertz contact.
+    Mindlin {
+        /// Coefficient mu.
+        coefficient: f64,
+    },
+}

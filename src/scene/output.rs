@@ -1,0 +1,67 @@
+//! What is watched and what is stored on the way.
+
+use super::is_default;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Limits beyond which a run is ended and reported as unstable.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Guards {
+    /// Largest overlap, in radii of the smaller partner.
+    pub overlap: f64,
+    /// Largest displacement in one step, in radii of the sphere.
+    pub displacement: f64,
+    /// Largest |x| and |y| of a centre (m). Default: twice the tank's radius, if there is a tank.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub horizontal: Option<f64>,
+    /// Largest |z| of a centre (m). Default, if there is a floor: ten times the largest of the
+    /// floor's depth, the start height, and the tank's radius (1 m without one).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub vertical: Option<f64>,
+}
+
+impl Default for Guards {
+    fn default() -> Self {
+        Self {
+            overlap: 1.5,
+            displacement: 1.0,
+            horizontal: None,
+            vertical: None,
+        }
+    }
+}
+
+/// What is stored besides the observables of every frame. Never changes the motion.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Output {
+    /// Time between snapshots of all spheres (s); 0 for none but the last.
+    pub snapshot_interval: f64,
+    /// Store position, velocity and spin of every sphere at every frame.
+    pub trajectory: bool,
+    /// Keep the books of energy: what damping and friction dissipate, what the air does, and what the
+    /// integrator gets wrong.
+    #[serde(skip_serializing_if = "is_default")]
+    pub ledger: bool,
+    /// Radial bins of the surface profile. Default: round(R / 2r).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub profile_bins: Option<usize>,
+    /// Rise speeds, in radii per second above the mean, for which rising spheres are counted.
+    pub rise_speeds: Vec<f64>,
+    /// Distances from the axis, over R, within which rising spheres are counted.
+    pub rise_radii: Vec<f64>,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self {
+            snapshot_interval: 1.0,
+            trajectory: false,
+            ledger: false,
+            profile_bins: None,
+            rise_speeds: vec![5.0, 10.0, 20.0],
+            rise_radii: vec![0.5, 0.75, 1.0],
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! The spheres, and the mass of one.
+
+use super::{Radii, is_default};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The spheres: how many, how large, how heavy.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Spheres {
+    /// Number of spheres, n.
+    pub count: usize,
+    /// Radius r (m): one value, a list of `{ radius, share }`, or `{ file = "radii.txt" }`.
+    pub radius: Radii,
+    /// Density rho: of spheres that of the solid (kg/m3), of discs in kg/m2.
+    pub density: f64,
+    /// What the mass of one is.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub shape: Shape,
+}
+
+/// What the mass of a sphere is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Shape {
+    /// A sphere in space: 4/3 pi rho r^3.
+    #[default]
+    Sphere,
+    /// A disc in the plane y = 0: rho r^2 (Remmers, 2009), and a moment of inertia of half that
+    /// times r^2.
+    Disc,
+}
+
+impl Shape {
+    /// Mass (kg) of one of this density and radius (m).
+    pub fn mass(self, density: f64, radius: f64) -> f64 {
+        match self {
+            Self::Sphere => density * (4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius),
+            Self::Disc => density * radius * radius,
+        }
+    }
+
+    /// Moment of inertia about the centre, over mass times squared radius.
+    pub fn inertia_factor(self) -> f64 {
+        match self {
+            Self::Sphere => 0.4,
+            Self::Disc => 0.5,
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Where and how the spheres start.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// Where and how the spheres start.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Start {
+    /// Random positions without overlap, inside the tank's cylinder.
+    Random {
+        /// Lowest start height of a centre (m).
+        z_min: f64,
+        /// Highest start height of a centre (m).
+        z_max: f64,
+        /// Each velocity component is uniform in plus or minus this (m/s).
+        #[serde(default)]
+        speed: f64,
+        /// Each spin component is uniform in plus or minus this (rad/s); no effect
+        /// in a scene without friction.
+        #[serde(default)]
+        spin: f64,
+    },
+    /// Every sphere listed in the scene.
+    List {
+        /// One entry per sphere; their number must equal `spheres.count`.
+        spheres: Vec<StartSphere>,
+    },
+    /// One sphere after the other, all at one place and with one velocity, from time zero on.
+    Feed {
+        /// Centre of a sphere when it comes in (m).
+        position: [f64; 3],
+        /// Its velocity (m/s).
+        #[serde(default)]
+        velocity: [f64; 3],
+        /// Time between two spheres (s); a whole number of steps. One that finds its place taken
+        /// waits for the next of these times.
+        interval: f64,
+        /// The place is moved along x by a random length, uniform in plus or minus this (m).
+        #[serde(default)]
+        spread: f64,
+    },
+    /// Every sphere from a CSV file: x, y, z, then optionally vx, vy, vz, wx, wy, wz, radius,
+    /// named by its header line.
+    File {
+        /// Path of the file, relative to the scene file.
+        path: PathBuf,
+    },
+}
+
+/// One sphere of a start list.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StartSphere {
+    /// Centre (m).
+    pub position: [f64; 3],
+    /// Velocity (m/s).
+    #[serde(default)]
+    pub velocity: [f64; 3],
+    /// Spin (rad/s).
+    #[serde(default)]
+    pub spin: [f64; 3],
+    /// Radius (m), if it differs from `spheres.radius`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+}
+
+impl StartSphere {
+    /// A sphere at rest at a place (m), with the radius that the scene gives it.
+    pub fn at(position: [f64; 3]) -> Self {
+        Self {
+            position,
+            velocity: [0.0; 3],
+            spin: [0.0; 3],
+            radius: None,
+        }
+    }
+}

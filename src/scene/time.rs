@@ -1,0 +1,70 @@
+//! Time step, duration, frames, integrator.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Time step, duration, frames, integrator.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Time {
+    /// Time step dt (s); or "auto", which chooses the largest that is at most `safety_factor` times
+    /// every limit of the scene and that divides `frame_interval` and the interval of a feed.
+    pub dt: f64,
+    /// With `dt = "auto"` only: the largest step over the least limit, advised limits included
+    /// (default 0.2). A scene that runs has a number for its step, and none here.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub safety_factor: Option<f64>,
+    /// Duration of the run (s).
+    pub duration: f64,
+    /// Time between frames (s); a whole number of steps.
+    pub frame_interval: f64,
+    /// Integration scheme.
+    #[serde(default)]
+    pub integrator: Integrator,
+}
+
+/// Integration scheme.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Integrator {
+    /// Symplectic (semi-implicit) Euler, as the thesis: first order.
+    #[default]
+    SymplecticEuler,
+    /// Velocity Verlet, forces at the half-step velocity: second order without
+    /// velocity-dependent forces, first order with them.
+    VelocityVerlet,
+    /// Velocity Verlet with forces from places and velocities of one moment, the middle of the step:
+    /// second order, and no sticking between spheres of very different sizes (Vyas et al., 2025).
+    SynchronisedVerlet,
+    /// The same with sub-steps for spheres that touch, as many as their impacts need: the time step
+    /// has to resolve all but the contacts.
+    AdaptiveVerlet,
+}
+
+impl Integrator {
+    /// All schemes.
+    pub const ALL: [Self; 4] = [
+        Self::SymplecticEuler,
+        Self::VelocityVerlet,
+        Self::SynchronisedVerlet,
+        Self::AdaptiveVerlet,
+    ];
+
+    /// Names of all schemes.
+    pub(crate) const NAMES: [&str; 4] = [
+        Self::ALL[0].name(),
+        Self::ALL[1].name(),
+        Self::ALL[2].name(),
+        Self::ALL[3].name(),
+    ];
+
+    /// Name, as in a scene file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::SymplecticEuler => "symplectic-euler",
+            Self::VelocityVerlet => "velocity-verlet",
+            Self::SynchronisedVerlet => "synchronised-verlet",
+            Self::AdaptiveVerlet => "adaptive-verlet",
+        }
+    }
+}
