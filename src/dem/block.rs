@@ -69,6 +69,29 @@ impl Columns {
         }
     }
 
+    /// Fills the columns with the differences of the rows of spheres, without the fourth numbers.
+    #[inline(always)]
+    pub(in crate::dem) fn gather_differences<S: Simd>(
+        &mut self,
+        simd: S,
+        index: &[[u32; BLOCK]; 2],
+        row: impl Fn(usize) -> Row,
+    ) {
+        let [one, other] = index;
+        for at in (0..BLOCK).step_by(4) {
+            let difference = |k: usize| -> f64x4<S> {
+                let one: f64x4<S> = row(one[at + k] as usize).simd_into(simd);
+                let other: f64x4<S> = row(other[at + k] as usize).simd_into(simd);
+                one - other
+            };
+            let rows = [difference(0), difference(1), difference(2), difference(3)];
+            let [a, b, c, _] = transpose::<S>(rows);
+            a.store_slice(&mut self.0[0][at..at + 4]);
+            b.store_slice(&mut self.0[1][at..at + 4]);
+            c.store_slice(&mut self.0[2][at..at + 4]);
+        }
+    }
+
     /// Puts one row into its place.
     pub(in crate::dem) fn set(&mut self, k: usize, row: Row) {
         for (column, value) in self.0.iter_mut().zip(row) {

@@ -1,6 +1,6 @@
 //! Coulomb friction, regularised at rest.
 
-use super::{TangentialLaw, Touch, Traction};
+use super::{Spring, TangentialLaw, Touch, Traction};
 
 /// f = -mu F_n u / max(|u|, u_0), with the sliding velocity u of the contact point (translation
 /// and spin). Below the regularisation speed u_0 it is viscous, so a pile at rest creeps.
@@ -24,7 +24,7 @@ impl TangentialLaw for Coulomb {
     type History = ();
 
     #[inline(always)]
-    fn traction(&self, touch: &Touch, (): &mut ()) -> Traction {
+    fn traction(&self, touch: &Touch, _: &mut Spring) -> Traction {
         let sliding = touch.sliding_velocity();
         let speed = sliding.norm();
         let speed = if speed < self.regularisation {

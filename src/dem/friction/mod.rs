@@ -88,15 +88,47 @@ pub struct Traction {
     pub torque: [Vector; 2],
 }
 
+/// What a contact remembers: a spring, or nothing.
+pub trait History: Copy + Default + Send + Serialize + DeserializeOwned {
+    /// Its spring.
+    fn spring(self) -> Spring;
+
+    /// The history of a contact with that spring.
+    fn of_spring(spring: Spring) -> Self;
+}
+
+impl History for () {
+    #[inline(always)]
+    fn spring(self) -> Spring {
+        Spring::default()
+    }
+
+    #[inline(always)]
+    fn of_spring(_: Spring) {}
+}
+
+impl History for Spring {
+    #[inline(always)]
+    fn spring(self) -> Spring {
+        self
+    }
+
+    #[inline(always)]
+    fn of_spring(spring: Spring) -> Self {
+        spring
+    }
+}
+
 /// A tangential contact law. The engine is compiled for each law by itself.
 pub trait TangentialLaw: Copy + Send + 'static {
     /// Whether spheres rotate, which costs spins and torques.
     const ROTATES: bool = true;
     /// What a contact remembers from step to step; `()` costs nothing. A checkpoint stores it.
-    type History: Copy + Default + Send + Serialize + DeserializeOwned;
+    type History: History;
 
-    /// Traction at a contact over the coming step; none where the normal force is zero.
-    fn traction(&self, touch: &Touch, history: &mut Self::History) -> Traction;
+    /// Traction at a contact over the coming step; none where the normal force is zero. Free of branches,
+    /// for a block of contacts at once. A law without history leaves the spring alone.
+    fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction;
 
     /// Energy (J) of what a contact remembers, at an overlap and effective radius (m).
     fn energy(&self, _history: &Self::History, _overlap: f64, _effective_radius: f64) -> f64 {
@@ -123,7 +155,7 @@ impl TangentialLaw for Frictionless {
     type History = ();
 
     #[inline(always)]
-    fn traction(&self, _: &Touch, (): &mut ()) -> Traction {
+    fn traction(&self, _: &Touch, _: &mut Spring) -> Traction {
         Traction {
             force: Vector::ZERO,
             torque: [Vector::ZERO; 2],

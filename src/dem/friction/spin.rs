@@ -1,6 +1,6 @@
 //! The thesis's friction, from spins alone.
 
-use super::{TangentialLaw, Touch, Traction};
+use super::{Spring, TangentialLaw, Touch, Traction};
 
 /// Rice (2012), eqs. 10 to 14: f_i = -mu m dv_s / dt and tau_i = -mu I_i dw / dt, with dv_s the
 /// difference of the surface velocities due to spin, dw the sum of the spins perpendicular to the
@@ -27,7 +27,7 @@ impl TangentialLaw for SpinFriction {
     type History = ();
 
     #[inline(always)]
-    fn traction(&self, touch: &Touch, (): &mut ()) -> Traction {
+    fn traction(&self, touch: &Touch, _: &mut Spring) -> Traction {
         let surface = touch.spin[0] * touch.lever[0] + touch.spin[1] * touch.lever[1];
         // A select, not a branch: whether a force is clipped to zero is hard to foresee.
         let rate = if touch.normal_force > 0.0 {

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Spring {
     /// Its force (N).
-    pub(super) force: Vector,
+    pub(in crate::dem) force: Vector,
 }
 
 impl Spring {
@@ -27,14 +27,14 @@ impl Spring {
         let drag = touch.sliding_velocity() * damping;
         let loading = touch.loading_velocity * (stiffness * touch.loading_time);
         let elastic = self.turned(touch.normal) - loading;
-        let mut force = elastic - drag;
-        self.force = elastic;
+        let force = elastic - drag;
         let norm = force.norm();
-        if norm > limit {
-            force = force * (limit / norm);
-            self.force = force + drag;
-        }
-        touch.traction(force)
+        // Selects, not branches: so the loop over a block of contacts is turned into vector instructions.
+        let slides = norm > limit;
+        let scale = if slides { limit / norm } else { 1.0 };
+        let capped = force * scale;
+        self.force = select(slides, capped + drag, elastic);
+        touch.traction(select(slides, capped, force))
     }
 
     /// Its energy f^2 / (2 k) (J) at a stiffness k (N/m).
@@ -48,10 +48,21 @@ impl Spring {
     fn turned(&self, normal: Vector) -> Vector {
         let turned = self.force.perpendicular_to(normal);
         let (before, after) = (self.force.norm_squared(), turned.norm_squared());
-        if after > 0.0 {
-            turned * (before / after).sqrt()
+        let scale = if after > 0.0 {
+            (before / after).sqrt()
         } else {
-            Vector::ZERO
-        }
+            0.0
+        };
+        select(after > 0.0, turned * scale, Vector::ZERO)
     }
+}
+
+/// The first where that is so, else the second.
+#[inline(always)]
+fn select(so: bool, first: Vector, second: Vector) -> Vector {
+    Vector::new(
+        if so { first.x } else { second.x },
+        if so { first.y } else { second.y },
+        if so { first.z } else { second.z },
+    )
 }

@@ -72,15 +72,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     pub(super) fn pair_forces<S: Simd>(&mut self, simd: S, pairs: &[NearPair]) {
         let laws = self.laws();
         let block = &mut self.block;
+        block.set_alike(self.alike);
         for pairs in pairs.chunks(BLOCK) {
             block.take_pairs(pairs, &self.pair_history);
-            block.gather::<S, T>(simd, 0, &self.bodies);
-            block.gather::<S, T>(simd, 1, &self.bodies);
-            block.gather_earlier(&self.earlier);
+            block.gather_pairs::<S, T>(simd, &self.bodies, &self.earlier, self.alike.is_some());
             block.interact(&laws);
             if Self::REMEMBERS {
-                for (history, pair) in block.history.iter().zip(pairs) {
-                    self.pair_history[pair.entry as usize] = *history;
+                for (k, pair) in pairs.iter().enumerate() {
+                    self.pair_history[pair.entry as usize] = block.history(k);
                 }
             }
             block.scatter::<S, T>(simd, pairs, &mut self.loads);
@@ -103,14 +102,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     ) {
         let laws = self.laws();
         let block = &mut self.block;
+        block.set_alike(self.alike);
         for spheres in near.chunks(BLOCK) {
             block.take_spheres(spheres, histories);
-            block.gather::<S, T>(simd, 0, &self.bodies);
-            block.gather_earlier(&self.earlier);
+            block.gather_spheres::<S, T>(simd, &self.bodies, &self.earlier, self.alike.is_some());
             block.interact_with_wall(wall, &laws);
             if Self::REMEMBERS {
-                for (history, &i) in block.history.iter().zip(spheres) {
-                    histories[i as usize] = *history;
+                for (k, &i) in spheres.iter().enumerate() {
+                    histories[i as usize] = block.history(k);
                 }
             }
             block.scatter_to_spheres::<S, T>(simd, spheres, &mut self.loads);

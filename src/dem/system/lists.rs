@@ -1,5 +1,6 @@
 //! When lists of neighbours are made anew, and what becomes of the histories of their contacts.
 
+use super::pair_block::Solid;
 use super::{Age, Parts, System, bodies_of};
 use crate::dem::block::Load;
 use crate::dem::contact::NormalLaw;
@@ -46,6 +47,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     pub(super) fn renumber(&mut self) {
         if self.list.is_some() {
             self.bodies = bodies_of(&self.parts.particles);
+            self.alike = Solid::of_all(&self.parts.particles);
             self.loads.clear();
             self.loads.resize(self.bodies.len(), Load::default());
         }

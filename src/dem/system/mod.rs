@@ -14,7 +14,7 @@ use self::contacts::Among;
 use self::integrate::Before;
 use self::ledger::Ledger;
 pub(in crate::dem) use self::ledger::Work;
-use self::pair_block::{Earlier, Loading, PairBlock};
+use self::pair_block::{Earlier, Loading, PairBlock, Solid};
 pub(in crate::dem) use self::state::EngineState;
 use super::block::{Body, Load};
 use super::contact::NormalLaw;
@@ -105,6 +105,8 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     workspace: Workspace<T::History>,
     ledger: Option<Ledger<T::History>>,
     bodies: Vec<Body>,
+    /// What all spheres are like, if they are alike.
+    alike: Option<Solid<f64>>,
     loads: Vec<Load>,
     block: Box<PairBlock<T::History>>,
     shielding: Vec<u32>,
@@ -161,6 +163,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             } else {
                 Vec::new()
             },
+            alike: Solid::of_all(&parts.particles),
             loads: vec![Load::default(); if interact { count } else { 0 }],
             block: Box::new(PairBlock::new()),
             shielding: vec![0; if parts.shielded { count } else { 0 }],

@@ -6,11 +6,13 @@
 
 use crate::dem::block::{BLOCK, Body, Column, Columns, Load, Row};
 use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{TangentialLaw, Touch, sliding_velocity};
+use crate::dem::friction::{History, Spring, TangentialLaw, Touch, sliding_velocity};
 use crate::dem::neighbours::NearPair;
+use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use crate::dem::walls::{Wall, WallContact};
 use fearless_simd::{Simd, SimdBase, f64x4};
+use std::marker::PhantomData;
 
 /// Stands for an overlap within the limit; no touching pair has a negative one.
 const NOT_DEEP: f64 = -1.0;
@@ -66,45 +68,86 @@ pub(super) struct Meeting {
     pub(super) torque: [Vector; 2],
 }
 
+/// What of a sphere does not change, or of several.
+#[derive(Clone, Copy)]
+pub(super) struct Solid<V> {
+    /// Radius (m).
+    pub(super) radius: V,
+    /// Mass (kg).
+    pub(super) mass: V,
+    /// Moment of inertia (kg m2).
+    pub(super) inertia: V,
+}
+
+impl<V: Copy> Solid<V> {
+    fn all(value: V) -> Self {
+        Self {
+            radius: value,
+            mass: value,
+            inertia: value,
+        }
+    }
+}
+
+impl Solid<f64> {
+    /// What all spheres are like, if they are alike.
+    pub(super) fn of_all(particles: &Particles) -> Option<Self> {
+        let Particles {
+            radius,
+            mass,
+            inertia,
+            ..
+        } = particles;
+        let same = |values: &[f64]| values.windows(2).all(|pair| pair[0] == pair[1]);
+        let alike = same(radius) && same(mass) && same(inertia);
+        let first = |values: &[f64]| values.first().copied().unwrap_or(0.0);
+        alike.then(|| Self {
+            radius: first(radius),
+            mass: first(mass),
+            inertia: first(inertia),
+        })
+    }
+}
+
 /// Everything about the pairs of a block.
 pub(super) struct PairBlock<H> {
     index: [[u32; BLOCK]; 2],
-    place: [Columns; 2],
-    motion: [Columns; 2],
-    turning: [Columns; 2],
-    /// Velocities and spins of before, if springs are loaded by those.
-    earlier: [[Columns; 2]; 2],
-    pub(super) history: [H; BLOCK],
+    /// Centre of the first partner from that of the second, or from the origin at a wall (m).
+    offset: Columns,
+    /// Velocity of the first relative to the second (m/s).
+    velocity: Columns,
+    /// Spins of both (rad/s).
+    spin: [Columns; 2],
+    /// The same of before, if springs are loaded by those.
+    earlier_velocity: Columns,
+    earlier_spin: [Columns; 2],
+    /// What does not change from step to step, of both.
+    solid: [Solid<Column>; 2],
+    /// Forces of springs (N).
+    spring: Columns,
     force: Columns,
     torque: [Columns; 2],
     /// Overlap of a pair beyond the limit (m), else [`NOT_DEEP`].
     too_deep: Column,
+    memory: PhantomData<H>,
 }
 
-impl<H: Copy + Default> PairBlock<H> {
-    /// Whether the law has a history. Its loop is then not turned into vector instructions, and is
-    /// faster if it passes over what does not touch.
+impl<H: History> PairBlock<H> {
+    /// Whether the law has a history.
     const REMEMBERS: bool = size_of::<H>() > 0;
-
-    /// Notes that nothing acts at a contact.
-    #[inline(always)]
-    fn leave_out(&mut self, k: usize) {
-        self.history[k] = H::default();
-        self.too_deep[k] = NOT_DEEP;
-        for columns in [&mut self.force].into_iter().chain(&mut self.torque) {
-            store(columns, k, false, Vector::ZERO);
-        }
-    }
 
     pub(super) fn new() -> Self {
         let pair = || [Columns::ZERO, Columns::ZERO];
         Self {
             index: [[0; BLOCK]; 2],
-            place: pair(),
-            motion: pair(),
-            turning: pair(),
-            earlier: [pair(), pair()],
-            history: [H::default(); BLOCK],
+            offset: Columns::ZERO,
+            velocity: Columns::ZERO,
+            spin: pair(),
+            earlier_velocity: Columns::ZERO,
+            earlier_spin: pair(),
+            solid: [Solid::all([0.0; BLOCK]); 2],
+            spring: Columns::ZERO,
+            memory: PhantomData,
             force: Columns::ZERO,
             torque: pair(),
             too_deep: [NOT_DEEP; BLOCK],
@@ -122,35 +165,156 @@ impl<H: Copy + Default> PairBlock<H> {
         Vector::new(x[k], y[k], z[k])
     }
 
-    /// Fetches the spheres of one side. Lanes without a contact hold what an earlier block left.
+    /// Says what all spheres are like, if they are alike: it is then not fetched.
+    pub(super) fn set_alike(&mut self, alike: Option<Solid<f64>>) {
+        if let Some(solid) = alike {
+            let solid = Solid {
+                radius: [solid.radius; BLOCK],
+                mass: [solid.mass; BLOCK],
+                inertia: [solid.inertia; BLOCK],
+            };
+            self.solid = [solid; 2];
+        }
+    }
+
+    /// Fetches what of the spheres of one side does not change.
     #[inline(always)]
-    pub(super) fn gather<S: Simd, T: TangentialLaw<History = H>>(
+    fn gather_solid(&mut self, side: usize, bodies: &[Body]) {
+        let Solid {
+            radius,
+            mass,
+            inertia,
+        } = &mut self.solid[side];
+        for (k, &i) in self.index[side].iter().enumerate() {
+            let body = &bodies[i as usize];
+            radius[k] = body.place[3];
+            mass[k] = body.motion[3];
+            inertia[k] = body.turning[3];
+        }
+    }
+
+    /// Fetches the spheres of pairs. Lanes without a contact hold what an earlier block left.
+    #[inline(always)]
+    pub(super) fn gather_pairs<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        side: usize,
         bodies: &[Body],
+        earlier: &[Earlier],
+        alike: bool,
     ) {
-        let index = &self.index[side];
-        self.place[side].gather(
+        self.offset.gather_differences(
+            simd,
+            &self.index,
+            #[inline(always)]
+            |i| bodies[i].place,
+        );
+        self.velocity.gather_differences(
+            simd,
+            &self.index,
+            #[inline(always)]
+            |i| bodies[i].motion,
+        );
+        if T::ROTATES {
+            self.gather_spin(simd, 0, bodies);
+            self.gather_spin(simd, 1, bodies);
+        }
+        if !alike {
+            self.gather_solid(0, bodies);
+            self.gather_solid(1, bodies);
+        }
+        if Self::REMEMBERS && !earlier.is_empty() {
+            self.earlier_velocity.gather_differences(
+                simd,
+                &self.index,
+                #[inline(always)]
+                |i| earlier[i][0],
+            );
+            self.gather_earlier_spin(simd, 0, earlier);
+            self.gather_earlier_spin(simd, 1, earlier);
+        }
+    }
+
+    /// Fetches spheres near a wall.
+    #[inline(always)]
+    pub(super) fn gather_spheres<S: Simd, T: TangentialLaw<History = H>>(
+        &mut self,
+        simd: S,
+        bodies: &[Body],
+        earlier: &[Earlier],
+        alike: bool,
+    ) {
+        let index = &self.index[0];
+        self.offset.gather(
             simd,
             index,
             #[inline(always)]
             |i| bodies[i].place,
         );
-        self.motion[side].gather(
+        self.velocity.gather(
             simd,
             index,
             #[inline(always)]
             |i| bodies[i].motion,
         );
         if T::ROTATES {
-            self.turning[side].gather(
-                simd,
-                index,
-                #[inline(always)]
-                |i| bodies[i].turning,
-            );
+            self.gather_spin(simd, 0, bodies);
         }
+        if !alike {
+            self.gather_solid(0, bodies);
+        }
+        if Self::REMEMBERS && !earlier.is_empty() {
+            self.earlier_velocity.gather(
+                simd,
+                &self.index[0],
+                #[inline(always)]
+                |i| earlier[i][0],
+            );
+            self.gather_earlier_spin(simd, 0, earlier);
+        }
+    }
+
+    /// Fetches spheres, of pairs or near a wall, where speed does not matter.
+    pub(super) fn gather_slowly(&mut self, sides: usize, bodies: &[Body], earlier: &[Earlier]) {
+        let pairs = sides == 2;
+        let difference = |one: Row, other: Row| match pairs {
+            true => std::array::from_fn(|axis| one[axis] - other[axis]),
+            false => one,
+        };
+        for k in 0..BLOCK {
+            let [i, j] = [0, 1].map(|side| self.index[side][k] as usize);
+            let [one, other] = [&bodies[i], &bodies[j]];
+            self.offset.set(k, difference(one.place, other.place));
+            self.velocity.set(k, difference(one.motion, other.motion));
+            self.spin[0].set(k, one.turning);
+            self.spin[1].set(k, other.turning);
+            if Self::REMEMBERS && !earlier.is_empty() {
+                let [one, other] = [&earlier[i], &earlier[j]];
+                self.earlier_velocity.set(k, difference(one[0], other[0]));
+                self.earlier_spin[0].set(k, one[1]);
+                self.earlier_spin[1].set(k, other[1]);
+            }
+        }
+        (0..sides).for_each(|side| self.gather_solid(side, bodies));
+    }
+
+    #[inline(always)]
+    fn gather_spin<S: Simd>(&mut self, simd: S, side: usize, bodies: &[Body]) {
+        self.spin[side].gather(
+            simd,
+            &self.index[side],
+            #[inline(always)]
+            |i| bodies[i].turning,
+        );
+    }
+
+    #[inline(always)]
+    fn gather_earlier_spin<S: Simd>(&mut self, simd: S, side: usize, earlier: &[Earlier]) {
+        self.earlier_spin[side].gather(
+            simd,
+            &self.index[side],
+            #[inline(always)]
+            |i| earlier[i][1],
+        );
     }
 
     /// Takes pairs, up to a block of them, with what they remember.
@@ -161,10 +325,23 @@ impl<H: Copy + Default> PairBlock<H> {
             self.index[1][k] = pair.j;
         }
         if Self::REMEMBERS {
-            for (history, pair) in self.history.iter_mut().zip(pairs) {
-                *history = histories[pair.entry as usize];
+            for (k, pair) in pairs.iter().enumerate() {
+                self.take_spring(k, histories[pair.entry as usize]);
             }
         }
+    }
+
+    #[inline(always)]
+    fn take_spring(&mut self, k: usize, history: H) {
+        let Vector { x, y, z } = history.spring().force;
+        self.spring.set(k, [x, y, z, 0.0]);
+    }
+
+    /// What a contact of the block remembers.
+    #[inline(always)]
+    pub(super) fn history(&self, k: usize) -> H {
+        let force = Self::vector(&self.spring, k);
+        H::of_spring(Spring { force })
     }
 
     /// The same with spheres near a wall.
@@ -172,49 +349,21 @@ impl<H: Copy + Default> PairBlock<H> {
     pub(super) fn take_spheres(&mut self, spheres: &[u32], histories: &[H]) {
         self.index[0][..spheres.len()].copy_from_slice(spheres);
         if Self::REMEMBERS {
-            for (history, &i) in self.history.iter_mut().zip(spheres) {
-                *history = histories[i as usize];
-            }
-        }
-    }
-
-    /// Fetches the velocities and spins of before, of both sides, if there are any.
-    #[inline(always)]
-    pub(super) fn gather_earlier(&mut self, earlier: &[Earlier]) {
-        if !Self::REMEMBERS || earlier.is_empty() {
-            return;
-        }
-        for side in 0..2 {
-            for (k, &i) in self.index[side].iter().enumerate() {
-                let [velocity, spin] = earlier[i as usize];
-                self.earlier[0][side].set(k, velocity);
-                self.earlier[1][side].set(k, spin);
-            }
-        }
-    }
-
-    /// Fetches the spheres of both sides, where speed does not matter.
-    pub(super) fn gather_slowly(&mut self, bodies: &[Body], earlier: &[Earlier]) {
-        self.gather_earlier(earlier);
-        for side in 0..2 {
-            for (k, &i) in self.index[side].iter().enumerate() {
-                let body = &bodies[i as usize];
-                self.place[side].set(k, body.place);
-                self.motion[side].set(k, body.motion);
-                self.turning[side].set(k, body.turning);
+            for (k, &i) in spheres.iter().enumerate() {
+                self.take_spring(k, histories[i as usize]);
             }
         }
     }
 
     /// What became of a pair of the block, if it touches.
     pub(super) fn meeting(&self, k: usize) -> Option<Meeting> {
-        let [one, other] = &self.place;
-        let offset = Self::vector(one, k) - Self::vector(other, k);
-        let radius = [one.0[3][k], other.0[3][k]];
+        let offset = Self::vector(&self.offset, k);
+        let [one, other] = &self.solid;
+        let radius = [one.radius[k], other.radius[k]];
         let (sum, distance) = (radius[0] + radius[1], offset.norm());
         (distance < sum).then(|| Meeting {
             normal: offset * (1.0 / distance),
-            velocity: Self::vector(&self.motion[0], k) - Self::vector(&self.motion[1], k),
+            velocity: Self::vector(&self.velocity, k),
             overlap: sum - distance,
             effective_radius: radius[0] * radius[1] / sum,
             force: Self::vector(&self.force, k),
@@ -224,11 +373,11 @@ impl<H: Copy + Default> PairBlock<H> {
 
     /// What became of a sphere of the block near a wall, if it touches.
     pub(super) fn meeting_with_wall<W: Wall>(&self, wall: W, k: usize) -> Option<Meeting> {
-        let radius = self.place[0].0[3][k];
-        let contact = wall.contact(Self::vector(&self.place[0], k), radius);
+        let radius = self.solid[0].radius[k];
+        let contact = wall.contact(Self::vector(&self.offset, k), radius);
         contact.touches.then(|| Meeting {
             normal: contact.normal,
-            velocity: Self::vector(&self.motion[0], k),
+            velocity: Self::vector(&self.velocity, k),
             overlap: contact.overlap,
             effective_radius: radius,
             force: Self::vector(&self.force, k),
@@ -249,22 +398,18 @@ impl<H: Copy + Default> PairBlock<H> {
             overlap_limit,
         } = *laws;
         for k in 0..BLOCK {
-            let [place, motion, turning] = [&self.place, &self.motion, &self.turning];
-            let offset = Self::vector(&place[0], k) - Self::vector(&place[1], k);
-            let radius = [place[0].0[3][k], place[1].0[3][k]];
+            let offset = Self::vector(&self.offset, k);
+            let [one, other] = &self.solid;
+            let radius = [one.radius[k], other.radius[k]];
             let sum = radius[0] + radius[1];
             let distance_squared = offset.norm_squared();
             let touches = distance_squared < sum * sum;
-            if Self::REMEMBERS && !touches {
-                self.leave_out(k);
-                continue;
-            }
             let distance = distance_squared.sqrt();
             let normal = offset * (1.0 / distance);
             let overlap = sum - distance;
             let inverse_sum = 1.0 / sum;
             let effective_radius = radius[0] * radius[1] * inverse_sum;
-            let velocity = Self::vector(&motion[0], k) - Self::vector(&motion[1], k);
+            let velocity = Self::vector(&self.velocity, k);
             let approach = -velocity.dot(normal);
             let normal_force = normal_law.force(overlap, approach, effective_radius);
             let lesser = if radius[0] < radius[1] {
@@ -282,15 +427,17 @@ impl<H: Copy + Default> PairBlock<H> {
                 // Both centres turn about the point where the surfaces meet, so that the pair
                 // keeps its angular momentum.
                 let lever = distance * inverse_sum;
-                let mass = [motion[0].0[3][k], motion[1].0[3][k]];
+                let mass = [one.mass[k], other.mass[k]];
                 let lever = radius.map(|radius| radius * lever);
-                let spin = [Self::vector(&turning[0], k), Self::vector(&turning[1], k)];
+                let spin = [
+                    Self::vector(&self.spin[0], k),
+                    Self::vector(&self.spin[1], k),
+                ];
                 let mut loading_velocity = sliding_velocity(normal, velocity, spin, lever);
                 let mut loading_overlap = overlap;
                 if Self::REMEMBERS && loading.age > 0.0 {
-                    let [velocities, spins] = &self.earlier;
-                    let velocity =
-                        Self::vector(&velocities[0], k) - Self::vector(&velocities[1], k);
+                    let spins = &self.earlier_spin;
+                    let velocity = Self::vector(&self.earlier_velocity, k);
                     let offset = offset - velocity * loading.age;
                     let distance = offset.norm();
                     let normal = offset * (1.0 / distance);
@@ -303,7 +450,7 @@ impl<H: Copy + Default> PairBlock<H> {
                     velocity,
                     spin,
                     lever,
-                    inertia: [turning[0].0[3][k], turning[1].0[3][k]],
+                    inertia: [one.inertia[k], other.inertia[k]],
                     lesser_mass: if mass[0] < mass[1] { mass[0] } else { mass[1] },
                     overlap,
                     effective_radius,
@@ -312,9 +459,14 @@ impl<H: Copy + Default> PairBlock<H> {
                     loading_overlap,
                     loading_time: loading.duration,
                 };
-                let mut history = self.history[k];
-                let traction = tangential_law.traction(&touch, &mut history);
-                self.history[k] = if touches { history } else { H::default() };
+                let mut spring = Spring::default();
+                if Self::REMEMBERS {
+                    spring.force = Self::vector(&self.spring, k);
+                }
+                let traction = tangential_law.traction(&touch, &mut spring);
+                if Self::REMEMBERS {
+                    store(&mut self.spring, k, touches, spring.force);
+                }
                 force += traction.force;
                 for side in 0..2 {
                     store(&mut self.torque[side], k, touches, traction.torque[side]);
@@ -338,18 +490,15 @@ impl<H: Copy + Default> PairBlock<H> {
             overlap_limit,
         } = *laws;
         for k in 0..BLOCK {
-            let [place, motion, turning] = [&self.place[0], &self.motion[0], &self.turning[0]];
-            let radius = place.0[3][k];
+            let place = &self.offset;
+            let solid = &self.solid[0];
+            let radius = solid.radius[k];
             let WallContact {
                 touches,
                 overlap,
                 normal,
             } = wall.contact(Self::vector(place, k), radius);
-            if Self::REMEMBERS && !touches {
-                self.leave_out(k);
-                continue;
-            }
-            let velocity = Self::vector(motion, k);
+            let velocity = Self::vector(&self.velocity, k);
             let approach = -velocity.dot(normal);
             let normal_force = normal_law.force(overlap, approach, radius);
             let deep = touches & (overlap > overlap_limit * radius);
@@ -359,12 +508,15 @@ impl<H: Copy + Default> PairBlock<H> {
                 force -= (velocity + normal * approach) * normal_law.sideways_drag();
             }
             if T::ROTATES {
-                let (lever, spin) = ([radius, 0.0], [Self::vector(turning, k), Vector::ZERO]);
+                let (lever, spin) = (
+                    [radius, 0.0],
+                    [Self::vector(&self.spin[0], k), Vector::ZERO],
+                );
                 let mut loading_velocity = sliding_velocity(normal, velocity, spin, lever);
                 let mut loading_overlap = overlap;
                 if Self::REMEMBERS && loading.age > 0.0 {
-                    let [velocities, spins] = &self.earlier;
-                    let velocity = Self::vector(&velocities[0], k);
+                    let spins = &self.earlier_spin;
+                    let velocity = Self::vector(&self.earlier_velocity, k);
                     let centre = Self::vector(place, k) - velocity * loading.age;
                     let contact = wall.contact(centre, radius);
                     let spin = [Self::vector(&spins[0], k), Vector::ZERO];
@@ -376,8 +528,8 @@ impl<H: Copy + Default> PairBlock<H> {
                     velocity,
                     spin,
                     lever,
-                    inertia: [turning.0[3][k], 0.0],
-                    lesser_mass: motion.0[3][k],
+                    inertia: [solid.inertia[k], 0.0],
+                    lesser_mass: solid.mass[k],
                     overlap,
                     effective_radius: radius,
                     normal_force: pressing::<N>(normal_force),
@@ -385,9 +537,14 @@ impl<H: Copy + Default> PairBlock<H> {
                     loading_overlap,
                     loading_time: loading.duration,
                 };
-                let mut history = self.history[k];
-                let traction = tangential_law.traction(&touch, &mut history);
-                self.history[k] = if touches { history } else { H::default() };
+                let mut spring = Spring::default();
+                if Self::REMEMBERS {
+                    spring.force = Self::vector(&self.spring, k);
+                }
+                let traction = tangential_law.traction(&touch, &mut spring);
+                if Self::REMEMBERS {
+                    store(&mut self.spring, k, touches, spring.force);
+                }
                 force += traction.force;
                 store(&mut self.torque[0], k, touches, traction.torque[0]);
             }

@@ -4,6 +4,7 @@
 //! made anew. A contact without a history stands for one whose history is empty.
 
 use super::ledger::Books;
+use super::pair_block::Solid;
 use super::{Age, Load, Near, Parts, System, bodies_of};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
@@ -129,6 +130,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         };
         let particles = &self.parts.particles;
         self.bodies = bodies_of(particles);
+        self.alike = Solid::of_all(particles);
         self.loads = vec![Load::default(); self.bodies.len()];
         self.near = Near::new(N::ACTS, self.parts.shielded, 0.3 * self.parts.skin);
         self.block.forget();
