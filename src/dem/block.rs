@@ -1,7 +1,7 @@
 //! Blocks of pairs, one array per quantity.
 //!
-//! Spheres lie in memory in rows of four numbers, so that a pair finds all it needs of a partner
-//! in three places; contact laws are computed for a block of pairs at once, which needs each
+//! Vectors lie in memory in rows of four numbers, so that a pair finds each of a partner in one
+//! place; contact laws are computed for a block of pairs at once, which needs each
 //! quantity of all pairs side by side. The way from the one to the other is the transposition of
 //! four rows of four numbers, in registers. No number is changed by it.
 
@@ -15,28 +15,6 @@ pub(in crate::dem) type Row = [f64; 4];
 
 /// One quantity of every pair in a block.
 pub(in crate::dem) type Column = [f64; BLOCK];
-
-/// What a contact needs to know of a sphere.
-#[derive(Clone, Copy, Default)]
-#[repr(align(32))]
-pub(in crate::dem) struct Body {
-    /// Centre (m) and radius (m).
-    pub(in crate::dem) place: Row,
-    /// Velocity (m/s) and mass (kg).
-    pub(in crate::dem) motion: Row,
-    /// Spin (rad/s) and moment of inertia (kg m2).
-    pub(in crate::dem) turning: Row,
-}
-
-/// What contacts add to a sphere; the fourth numbers are zero.
-#[derive(Clone, Copy, Default)]
-#[repr(align(32))]
-pub(in crate::dem) struct Load {
-    /// Force (N).
-    pub(in crate::dem) force: Row,
-    /// Torque (N m).
-    pub(in crate::dem) torque: Row,
-}
 
 /// The columns of one kind of row.
 #[repr(align(64))]

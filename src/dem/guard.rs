@@ -78,7 +78,7 @@ impl Limits {
         let Some(sphere) = particles.position.iter().position(outside) else {
             return Ok(());
         };
-        let Vector { x, y, z } = particles.position[sphere];
+        let Vector { x, y, z, .. } = particles.position[sphere];
         let place = format!("centre at ({x:.4e}, {y:.4e}, {z:.4e}) m");
         let number = !(x.is_nan() || y.is_nan() || z.is_nan());
         Err(Instability {

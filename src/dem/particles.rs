@@ -35,6 +35,12 @@ pub struct Particles {
 }
 
 impl Particles {
+    /// Forgets the forces and torques of the latest evaluation.
+    pub(super) fn clear_forces(&mut self) {
+        self.force.fill(Vector::ZERO);
+        self.torque.fill(Vector::ZERO);
+    }
+
     /// Number of spheres.
     pub fn len(&self) -> usize {
         self.radius.len()

@@ -254,11 +254,8 @@ fn uniform(random: &mut impl Rng) -> f64 {
 /// Components uniform in plus or minus `bound`.
 fn within(bound: f64, random: &mut impl Rng) -> Vector {
     let mut component = || bound * (2.0 * uniform(random) - 1.0);
-    Vector {
-        x: component(),
-        y: component(),
-        z: component(),
-    }
+    let [x, y, z] = [component(), component(), component()];
+    Vector::new(x, y, z)
 }
 
 /// Fisher-Yates.

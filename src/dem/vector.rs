@@ -1,10 +1,12 @@
 //! Three-dimensional vectors.
 
 use serde::{Deserialize, Serialize};
+use std::fmt;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
-/// A vector in space.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// A vector in space. In memory it is a row of four numbers, which a processor takes and adds up in one go.
+#[derive(Clone, Copy, Default, Serialize, Deserialize)]
+#[repr(C, align(32))]
 pub struct Vector {
     /// Component along x.
     pub x: f64,
@@ -12,6 +14,9 @@ pub struct Vector {
     pub y: f64,
     /// Component along z.
     pub z: f64,
+    /// Fills up the row, and means nothing.
+    #[serde(skip)]
+    rest: f64,
 }
 
 impl Vector {
@@ -21,7 +26,19 @@ impl Vector {
     /// The vector with these components.
     #[inline(always)]
     pub const fn new(x: f64, y: f64, z: f64) -> Self {
-        Self { x, y, z }
+        Self { x, y, z, rest: 0.0 }
+    }
+
+    /// Its row of numbers, the last of which means nothing.
+    #[inline(always)]
+    pub(in crate::dem) const fn row(&self) -> [f64; 4] {
+        [self.x, self.y, self.z, self.rest]
+    }
+
+    /// The vector of a row, whose last number means nothing.
+    #[inline(always)]
+    pub(in crate::dem) const fn of_row([x, y, z, rest]: [f64; 4]) -> Self {
+        Self { x, y, z, rest }
     }
 
     /// Scalar product.
@@ -59,6 +76,19 @@ impl Vector {
     }
 }
 
+impl PartialEq for Vector {
+    fn eq(&self, other: &Self) -> bool {
+        (self.x, self.y, self.z) == (other.x, other.y, other.z)
+    }
+}
+
+impl fmt::Debug for Vector {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { x, y, z, .. } = self;
+        write!(out, "({x:?}, {y:?}, {z:?})")
+    }
+}
+
 impl From<[f64; 3]> for Vector {
     #[inline(always)]
     fn from([x, y, z]: [f64; 3]) -> Self {
@@ -70,7 +100,12 @@ impl Add for Vector {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self::new(self.x + other.x, self.y + other.y, self.z + other.z)
+        Self {
+            x: self.x + other.x,
+            y: self.y + other.y,
+            z: self.z + other.z,
+            rest: self.rest + other.rest,
+        }
     }
 }
 
@@ -78,7 +113,12 @@ impl Sub for Vector {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self::new(self.x - other.x, self.y - other.y, self.z - other.z)
+        Self {
+            x: self.x - other.x,
+            y: self.y - other.y,
+            z: self.z - other.z,
+            rest: self.rest - other.rest,
+        }
     }
 }
 
@@ -86,7 +126,12 @@ impl Neg for Vector {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self::new(-self.x, -self.y, -self.z)
+        Self {
+            x: -self.x,
+            y: -self.y,
+            z: -self.z,
+            rest: -self.rest,
+        }
     }
 }
 
@@ -94,7 +139,12 @@ impl Mul<f64> for Vector {
     type Output = Self;
     #[inline(always)]
     fn mul(self, factor: f64) -> Self {
-        Self::new(self.x * factor, self.y * factor, self.z * factor)
+        Self {
+            x: self.x * factor,
+            y: self.y * factor,
+            z: self.z * factor,
+            rest: self.rest * factor,
+        }
     }
 }
 

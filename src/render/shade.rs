@@ -14,7 +14,7 @@ pub(super) struct Sphere {
 
 impl Sphere {
     pub(super) fn is_drawable(&self) -> bool {
-        let Vector { x, y, z } = self.centre;
+        let Vector { x, y, z, .. } = self.centre;
         [x, y, z, self.radius].iter().all(|v| v.is_finite()) && self.radius > 0.0
     }
 

@@ -296,7 +296,7 @@ impl Impact {
             }
             Partner::Floor => self.radius - centre.z,
             Partner::Cylinder => {
-                let distance = Vector { z: 0.0, ..centre }.norm();
+                let distance = Vector::new(centre.x, centre.y, 0.0).norm();
                 distance + self.radius - CYLINDER * self.radius
             }
         }

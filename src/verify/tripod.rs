@@ -70,7 +70,7 @@ impl Family for Tripod {
             law.force(overlap, 0.0, 0.5 * self.radius) / weight
         };
         let forces = [force(0), force(1), force(2)];
-        let Vector { x, y, z } = bench.force_of_walls(&scene, particles)?;
+        let Vector { x, y, z, .. } = bench.force_of_walls(&scene, particles)?;
         Ok(named([
             (
                 "contact_force_over_weight",

@@ -56,7 +56,7 @@ impl Family for WallOrbit {
         bench.advance_for(&mut simulation, self.duration, self.dt)?;
         let particles = simulation.particles();
         let (place, velocity) = (particles.position[0], particles.velocity[0]);
-        let distance = Vector { z: 0.0, ..place }.norm();
+        let distance = Vector::new(place.x, place.y, 0.0).norm();
         let wall = bench.force_of_walls(&scene, particles)?;
         Ok(named([
             ("overlap", distance - (self.tank_radius - self.radius)),

@@ -10,7 +10,7 @@
 
 use super::anchor::{Allowance, Anchor};
 use super::{Particles, VerletList};
-use crate::dem::block::{BLOCK, Body, Columns};
+use crate::dem::block::{BLOCK, Columns};
 use crate::dem::vector::Vector;
 use fearless_simd::{Level, Simd};
 use std::ops::Range;
@@ -149,17 +149,16 @@ impl Near {
         self.margin = self.margin.clamp(least, least.max(0.5 * skin));
     }
 
-    /// Makes the list anew from a valid Verlet list; `bodies` are the particles in rows. `forget` is
+    /// Makes the list anew from a valid Verlet list. `forget` is
     /// called with each entry that is not near.
     pub(in crate::dem) fn refresh(
         &mut self,
         level: Level,
         list: &VerletList,
         particles: &Particles,
-        bodies: &[Body],
         forget: Option<&mut dyn FnMut(u32)>,
     ) {
-        fearless_simd::dispatch!(level, simd => self.find(simd, list, bodies, forget));
+        fearless_simd::dispatch!(level, simd => self.find(simd, list, particles, forget));
         self.anchor.drop(particles);
         self.half_diagonal = list.half_diagonal;
     }
@@ -169,12 +168,12 @@ impl Near {
         &mut self,
         simd: S,
         list: &VerletList,
-        bodies: &[Body],
+        particles: &Particles,
         mut forget: Option<&mut dyn FnMut(u32)>,
     ) {
         let (mut near, mut open) = (0, 0);
         self.shielding.clear();
-        self.shielding.resize(bodies.len(), 0);
+        self.shielding.resize(particles.len(), 0);
         let glance = &mut *self.glance;
         let blocks = list
             .owner()
@@ -183,7 +182,7 @@ impl Near {
         for (first, (owners, partners)) in (0..).step_by(BLOCK).zip(blocks) {
             glance.index[0][..owners.len()].copy_from_slice(owners);
             glance.index[1][..owners.len()].copy_from_slice(partners);
-            glance.gather(simd, bodies);
+            glance.gather(simd, particles);
             glance.classify(self.margin);
             // A pair is always written, and kept only if it belongs there.
             make_room(&mut self.pairs, near);
@@ -218,7 +217,7 @@ impl Near {
     pub(in crate::dem) fn count_shielding<S: Simd>(
         &mut self,
         simd: S,
-        bodies: &[Body],
+        particles: &Particles,
         shielding: &mut [u32],
     ) {
         shielding.copy_from_slice(&self.shielding);
@@ -227,7 +226,7 @@ impl Near {
             for k in 0..BLOCK {
                 [glance.index[0][k], glance.index[1][k]] = pairs[k];
             }
-            glance.gather(simd, bodies);
+            glance.gather(simd, particles);
             glance.look();
             for k in 0..BLOCK {
                 let [i, j] = pairs[k];
@@ -272,13 +271,19 @@ impl Glance {
     }
 
     #[inline(always)]
-    fn gather<S: Simd>(&mut self, simd: S, bodies: &[Body]) {
+    fn gather<S: Simd>(&mut self, simd: S, particles: &Particles) {
+        let Particles {
+            position, radius, ..
+        } = particles;
         for side in 0..2 {
             self.place[side].gather(
                 simd,
                 &self.index[side],
                 #[inline(always)]
-                |i| bodies[i].place,
+                |i| {
+                    let [x, y, z, _] = position[i].row();
+                    [x, y, z, radius[i]]
+                },
             );
         }
     }

@@ -2,12 +2,10 @@
 
 use super::System;
 use super::pair_block::Laws;
-use crate::dem::block::{BLOCK, Load};
+use crate::dem::block::BLOCK;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
 use crate::dem::neighbours::NearPair;
-use crate::dem::particles::Particles;
-use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;
 use fearless_simd::Simd;
 
@@ -23,40 +21,6 @@ pub(super) struct Among {
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Copies the state of the spheres into rows; radius, mass and inertia are there already.
-    #[inline(always)]
-    pub(super) fn gather(&mut self) {
-        let Particles {
-            position,
-            velocity,
-            spin,
-            ..
-        } = &self.parts.particles;
-        let motion = position.iter().zip(velocity);
-        for (body, (x, v)) in self.bodies.iter_mut().zip(motion) {
-            body.place[..3].copy_from_slice(&[x.x, x.y, x.z]);
-            body.motion[..3].copy_from_slice(&[v.x, v.y, v.z]);
-        }
-        for (body, spin) in self.bodies.iter_mut().zip(spin) {
-            body.turning[..3].copy_from_slice(&[spin.x, spin.y, spin.z]);
-        }
-        self.loads.fill(Load::default());
-    }
-
-    /// Copies forces and torques of the contacts back to the spheres.
-    #[inline(always)]
-    pub(super) fn scatter(&mut self) {
-        let Particles { force, torque, .. } = &mut self.parts.particles;
-        for (force, load) in force.iter_mut().zip(&self.loads) {
-            let [x, y, z, _] = load.force;
-            *force = Vector::new(x, y, z);
-        }
-        for (torque, load) in torque.iter_mut().zip(&self.loads) {
-            let [x, y, z, _] = load.torque;
-            *torque = Vector::new(x, y, z);
-        }
-    }
-
     /// The laws of this step's contacts.
     #[inline(always)]
     pub(super) fn laws(&self) -> Laws<N, T> {
@@ -75,14 +39,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         block.set_alike(self.alike);
         for pairs in pairs.chunks(BLOCK) {
             block.take_pairs(pairs, &self.pair_history);
-            block.gather_pairs::<S, T>(simd, &self.bodies, &self.earlier, self.alike.is_some());
+            block.gather_pairs::<S, T>(
+                simd,
+                &self.parts.particles,
+                &self.earlier,
+                self.alike.is_some(),
+            );
             block.interact(&laws);
             if Self::REMEMBERS {
                 for (k, pair) in pairs.iter().enumerate() {
                     self.pair_history[pair.entry as usize] = block.history(k);
                 }
             }
-            block.scatter::<S, T>(simd, pairs, &mut self.loads);
+            block.scatter::<S, T>(simd, pairs, &mut self.parts.particles);
             if let Some((k, overlap)) = block.first_too_deep(pairs.len()) {
                 let NearPair { i, j, .. } = pairs[k];
                 let sphere = self.parts.particles.moving_partner(i, j);
@@ -105,14 +74,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         block.set_alike(self.alike);
         for spheres in near.chunks(BLOCK) {
             block.take_spheres(spheres, histories);
-            block.gather_spheres::<S, T>(simd, &self.bodies, &self.earlier, self.alike.is_some());
+            block.gather_spheres::<S, T>(
+                simd,
+                &self.parts.particles,
+                &self.earlier,
+                self.alike.is_some(),
+            );
             block.interact_with_wall(wall, &laws);
             if Self::REMEMBERS {
                 for (k, &i) in spheres.iter().enumerate() {
                     histories[i as usize] = block.history(k);
                 }
             }
-            block.scatter_to_spheres::<S, T>(simd, spheres, &mut self.loads);
+            block.scatter_to_spheres::<S, T>(simd, spheres, &mut self.parts.particles);
             if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
                 self.too_deep.get_or_insert((spheres[k] as usize, overlap));
             }

@@ -24,10 +24,9 @@ impl Before {
 
     /// Writes them in rows, of spheres that turn.
     fn to_rows(&self, rows: &mut Vec<Earlier>) {
-        let row = |it: &Vector| [it.x, it.y, it.z, 0.0];
         rows.clear();
         let spheres = self.velocity.iter().zip(&self.spin);
-        rows.extend(spheres.map(|(velocity, spin)| [row(velocity), row(spin)]));
+        rows.extend(spheres.map(|(velocity, spin)| [velocity.row(), spin.row()]));
     }
 
     fn put_back(&self, particles: &mut Particles) {

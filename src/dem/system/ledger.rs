@@ -229,7 +229,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         for pairs in among.pairs.chunks(BLOCK) {
             let block = &mut ledger.block;
             block.take_pairs(pairs, &self.pair_history);
-            block.gather_slowly(2, &self.bodies, &self.earlier);
+            block.gather_slowly::<T>(2, &self.parts.particles, &self.earlier);
             block.interact(&self.laws());
             for (k, pair) in pairs.iter().enumerate() {
                 let Some(meeting) = ledger.block.meeting(k) else {
@@ -253,7 +253,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         for spheres in near.chunks(BLOCK) {
             let block = &mut ledger.block;
             block.take_spheres(spheres, histories);
-            block.gather_slowly(1, &self.bodies, &self.earlier);
+            block.gather_slowly::<T>(1, &self.parts.particles, &self.earlier);
             block.interact_with_wall(wall, &self.laws());
             for (k, &sphere) in spheres.iter().enumerate() {
                 let Some(meeting) = ledger.block.meeting_with_wall(wall, k) else {

@@ -1,8 +1,7 @@
 //! When lists of neighbours are made anew, and what becomes of the histories of their contacts.
 
 use super::pair_block::Solid;
-use super::{Age, Parts, System, bodies_of};
-use crate::dem::block::Load;
+use super::{Age, Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
 use crate::dem::particles::Particles;
@@ -29,7 +28,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 true => Some(&mut forget),
                 false => None,
             };
-            near.refresh(self.level, list, particles, &self.bodies, forget);
+            near.refresh(self.level, list, particles, forget);
             let margin = near.margin();
             if let Some(wall) = self.parts.floor {
                 let (near, history) = (&mut self.near_floor, &mut self.floor_history);
@@ -46,10 +45,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Fits everything that has an entry per sphere to the spheres that there are now.
     pub(super) fn renumber(&mut self) {
         if self.list.is_some() {
-            self.bodies = bodies_of(&self.parts.particles);
             self.alike = Solid::of_all(&self.parts.particles);
-            self.loads.clear();
-            self.loads.resize(self.bodies.len(), Load::default());
         }
         self.stale = true;
     }

@@ -14,11 +14,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if !N::ACTS {
             return contacts;
         }
-        if self.stale {
-            self.gather();
-            if self.refresh().is_err() {
-                return contacts;
-            }
+        if self.stale && self.refresh().is_err() {
+            return contacts;
         }
         let Particles {
             position,

@@ -16,7 +16,6 @@ use self::ledger::Ledger;
 pub(in crate::dem) use self::ledger::Work;
 use self::pair_block::{Earlier, Loading, PairBlock, Solid};
 pub(in crate::dem) use self::state::EngineState;
-use super::block::{Body, Load};
 use super::contact::NormalLaw;
 use super::effects::Effect;
 use super::friction::TangentialLaw;
@@ -24,7 +23,6 @@ use super::guard::Limits;
 use super::neighbours::{Near, Reach, VerletList};
 use super::particles::{Particles, Sphere, retain};
 use super::state::StateError;
-use super::vector::Vector;
 use super::walls::{Cylinder, Floor};
 use crate::record::Instability;
 use crate::scene::{Integrator, Neighbours};
@@ -104,10 +102,8 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     before: Before,
     workspace: Workspace<T::History>,
     ledger: Option<Ledger<T::History>>,
-    bodies: Vec<Body>,
     /// What all spheres are like, if they are alike.
     alike: Option<Solid<f64>>,
-    loads: Vec<Load>,
     block: Box<PairBlock<T::History>>,
     shielding: Vec<u32>,
     /// Spheres that may touch the floor and the cylinder.
@@ -158,13 +154,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             before: Before::default(),
             workspace: Workspace::default(),
             ledger: None,
-            bodies: if interact {
-                bodies_of(&parts.particles)
-            } else {
-                Vec::new()
-            },
             alike: Solid::of_all(&parts.particles),
-            loads: vec![Load::default(); if interact { count } else { 0 }],
             block: Box::new(PairBlock::new()),
             shielding: vec![0; if parts.shielded { count } else { 0 }],
             near_floor: Vec::new(),
@@ -188,36 +178,23 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// what a build has to do. Wider vectors change no bit: every lane computes what the scalar code
     /// would.
     fn evaluate(&mut self) -> Result<(), Instability> {
-        if self.list.is_some() {
-            self.gather();
-            if self.stale {
-                self.refresh()?;
-            }
-            let among = self.take_all();
-            self.note_all_contacts(&among);
-            self.forces_among(&among, true);
-            self.return_all(among);
-        } else {
-            if self.stale {
-                self.rebuild()?;
-            }
-            self.note_all_contacts(&Among::default());
-            self.parts.particles.force.fill(Vector::ZERO);
-            self.parts.particles.torque.fill(Vector::ZERO);
+        if self.stale {
+            self.refresh()?;
         }
+        let among = self.take_all();
+        self.note_all_contacts(&among);
+        self.parts.particles.clear_forces();
+        if self.list.is_some() {
+            self.forces_among(&among);
+        }
+        self.return_all(among);
         self.apply_effects();
         self.check_overlaps()
     }
 
     /// Forces and torques of all but contacts.
     fn evaluate_effects(&mut self) {
-        if self.list.is_some() {
-            self.gather();
-            self.forces_among(&Among::default(), true);
-        } else {
-            self.parts.particles.force.fill(Vector::ZERO);
-            self.parts.particles.torque.fill(Vector::ZERO);
-        }
+        self.parts.particles.clear_forces();
         self.apply_effects();
     }
 
@@ -265,15 +242,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.near_cylinder = among.cylinder;
     }
 
-    /// Adds the forces and torques of contacts to the loads. If these are all contacts, also finds the
-    /// forces and torques of the spheres from the loads, and counts shielding spheres.
-    fn forces_among(&mut self, among: &Among, all: bool) {
+    /// Adds the forces and torques of contacts, and counts shielding spheres.
+    fn forces_among(&mut self, among: &Among) {
         let level = self.level;
-        fearless_simd::dispatch!(level, simd => self.contact_forces(simd, among, all));
+        fearless_simd::dispatch!(level, simd => self.contact_forces(simd, among));
     }
 
     #[inline(always)]
-    fn contact_forces<S: Simd>(&mut self, simd: S, among: &Among, all: bool) {
+    fn contact_forces<S: Simd>(&mut self, simd: S, among: &Among) {
         self.pair_forces(simd, &among.pairs);
         if let (true, Some(floor)) = (N::ACTS, self.parts.floor) {
             let mut history = std::mem::take(&mut self.floor_history);
@@ -285,12 +261,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.wall_forces(simd, cylinder, &among.cylinder, &mut history);
             self.cylinder_history = history;
         }
-        if all {
-            self.scatter();
-        }
-        if all && self.parts.shielded {
+        if self.parts.shielded {
             self.near
-                .count_shielding(simd, &self.bodies, &mut self.shielding);
+                .count_shielding(simd, &self.parts.particles, &mut self.shielding);
         }
     }
 }
@@ -392,15 +365,4 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
     fn contacts(&mut self) -> Contacts {
         self.measure_contacts()
     }
-}
-
-/// Spheres in rows.
-fn bodies_of(particles: &Particles) -> Vec<Body> {
-    let inertia = |i: usize| particles.inertia.get(i).copied().unwrap_or(0.0);
-    let body = |i: usize| Body {
-        place: [0.0, 0.0, 0.0, particles.radius[i]],
-        motion: [0.0, 0.0, 0.0, particles.mass[i]],
-        turning: [0.0, 0.0, 0.0, inertia(i)],
-    };
-    (0..particles.len()).map(body).collect()
 }

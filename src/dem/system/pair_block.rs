@@ -4,14 +4,14 @@
 //! into vector instructions; a pair that does not touch gets a force of zero. Then the forces are added up
 //! one by one in the order of the list. Adding zero to a sum that began at +0 changes no bit of it.
 
-use crate::dem::block::{BLOCK, Body, Column, Columns, Load, Row};
+use crate::dem::block::{BLOCK, Column, Columns, Row};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, Spring, TangentialLaw, Touch, sliding_velocity};
 use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use crate::dem::walls::{Wall, WallContact};
-use fearless_simd::{Simd, SimdBase, f64x4};
+use fearless_simd::{Simd, SimdFrom, f64x4};
 use std::marker::PhantomData;
 
 /// Stands for an overlap within the limit; no touching pair has a negative one.
@@ -179,17 +179,19 @@ impl<H: History> PairBlock<H> {
 
     /// Fetches what of the spheres of one side does not change.
     #[inline(always)]
-    fn gather_solid(&mut self, side: usize, bodies: &[Body]) {
+    fn gather_solid(&mut self, side: usize, particles: &Particles) {
         let Solid {
             radius,
             mass,
             inertia,
         } = &mut self.solid[side];
         for (k, &i) in self.index[side].iter().enumerate() {
-            let body = &bodies[i as usize];
-            radius[k] = body.place[3];
-            mass[k] = body.motion[3];
-            inertia[k] = body.turning[3];
+            let i = i as usize;
+            radius[k] = particles.radius[i];
+            mass[k] = particles.mass[i];
+            if particles.rotate() {
+                inertia[k] = particles.inertia[i];
+            }
         }
     }
 
@@ -198,29 +200,30 @@ impl<H: History> PairBlock<H> {
     pub(super) fn gather_pairs<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        bodies: &[Body],
+        particles: &Particles,
         earlier: &[Earlier],
         alike: bool,
     ) {
+        let (position, velocity) = (&particles.position, &particles.velocity);
         self.offset.gather_differences(
             simd,
             &self.index,
             #[inline(always)]
-            |i| bodies[i].place,
+            |i| position[i].row(),
         );
         self.velocity.gather_differences(
             simd,
             &self.index,
             #[inline(always)]
-            |i| bodies[i].motion,
+            |i| velocity[i].row(),
         );
         if T::ROTATES {
-            self.gather_spin(simd, 0, bodies);
-            self.gather_spin(simd, 1, bodies);
+            self.gather_spin(simd, 0, &particles.spin);
+            self.gather_spin(simd, 1, &particles.spin);
         }
         if !alike {
-            self.gather_solid(0, bodies);
-            self.gather_solid(1, bodies);
+            self.gather_solid(0, particles);
+            self.gather_solid(1, particles);
         }
         if Self::REMEMBERS && !earlier.is_empty() {
             self.earlier_velocity.gather_differences(
@@ -239,28 +242,29 @@ impl<H: History> PairBlock<H> {
     pub(super) fn gather_spheres<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        bodies: &[Body],
+        particles: &Particles,
         earlier: &[Earlier],
         alike: bool,
     ) {
         let index = &self.index[0];
+        let (position, velocity) = (&particles.position, &particles.velocity);
         self.offset.gather(
             simd,
             index,
             #[inline(always)]
-            |i| bodies[i].place,
+            |i| position[i].row(),
         );
         self.velocity.gather(
             simd,
             index,
             #[inline(always)]
-            |i| bodies[i].motion,
+            |i| velocity[i].row(),
         );
         if T::ROTATES {
-            self.gather_spin(simd, 0, bodies);
+            self.gather_spin(simd, 0, &particles.spin);
         }
         if !alike {
-            self.gather_solid(0, bodies);
+            self.gather_solid(0, particles);
         }
         if Self::REMEMBERS && !earlier.is_empty() {
             self.earlier_velocity.gather(
@@ -274,7 +278,12 @@ impl<H: History> PairBlock<H> {
     }
 
     /// Fetches spheres, of pairs or near a wall, where speed does not matter.
-    pub(super) fn gather_slowly(&mut self, sides: usize, bodies: &[Body], earlier: &[Earlier]) {
+    pub(super) fn gather_slowly<T: TangentialLaw<History = H>>(
+        &mut self,
+        sides: usize,
+        particles: &Particles,
+        earlier: &[Earlier],
+    ) {
         let pairs = sides == 2;
         let difference = |one: Row, other: Row| match pairs {
             true => std::array::from_fn(|axis| one[axis] - other[axis]),
@@ -282,11 +291,16 @@ impl<H: History> PairBlock<H> {
         };
         for k in 0..BLOCK {
             let [i, j] = [0, 1].map(|side| self.index[side][k] as usize);
-            let [one, other] = [&bodies[i], &bodies[j]];
-            self.offset.set(k, difference(one.place, other.place));
-            self.velocity.set(k, difference(one.motion, other.motion));
-            self.spin[0].set(k, one.turning);
-            self.spin[1].set(k, other.turning);
+            let rows = |vectors: &[Vector]| [vectors[i].row(), vectors[j].row()];
+            let [one, other] = rows(&particles.position);
+            self.offset.set(k, difference(one, other));
+            let [one, other] = rows(&particles.velocity);
+            self.velocity.set(k, difference(one, other));
+            if T::ROTATES {
+                let [one, other] = rows(&particles.spin);
+                self.spin[0].set(k, one);
+                self.spin[1].set(k, other);
+            }
             if Self::REMEMBERS && !earlier.is_empty() {
                 let [one, other] = [&earlier[i], &earlier[j]];
                 self.earlier_velocity.set(k, difference(one[0], other[0]));
@@ -294,16 +308,16 @@ impl<H: History> PairBlock<H> {
                 self.earlier_spin[1].set(k, other[1]);
             }
         }
-        (0..sides).for_each(|side| self.gather_solid(side, bodies));
+        (0..sides).for_each(|side| self.gather_solid(side, particles));
     }
 
     #[inline(always)]
-    fn gather_spin<S: Simd>(&mut self, simd: S, side: usize, bodies: &[Body]) {
+    fn gather_spin<S: Simd>(&mut self, simd: S, side: usize, spin: &[Vector]) {
         self.spin[side].gather(
             simd,
             &self.index[side],
             #[inline(always)]
-            |i| bodies[i].turning,
+            |i| spin[i].row(),
         );
     }
 
@@ -333,7 +347,7 @@ impl<H: History> PairBlock<H> {
 
     #[inline(always)]
     fn take_spring(&mut self, k: usize, history: H) {
-        let Vector { x, y, z } = history.spring().force;
+        let Vector { x, y, z, .. } = history.spring().force;
         self.spring.set(k, [x, y, z, 0.0]);
     }
 
@@ -570,7 +584,7 @@ impl<H: History> PairBlock<H> {
         &self,
         simd: S,
         spheres: &[u32],
-        loads: &mut [Load],
+        particles: &mut Particles,
     ) {
         for (at, four) in (0..BLOCK).step_by(4).zip(spheres.chunks(4)) {
             let force = self.force.rows(simd, at);
@@ -580,10 +594,10 @@ impl<H: History> PairBlock<H> {
                 force
             };
             for (k, &i) in four.iter().enumerate() {
-                let load = &mut loads[i as usize];
-                add(simd, &mut load.force, force[k]);
+                let i = i as usize;
+                add(simd, &mut particles.force[i], force[k]);
                 if T::ROTATES {
-                    add(simd, &mut load.torque, torque[k]);
+                    add(simd, &mut particles.torque[i], torque[k]);
                 }
             }
         }
@@ -595,7 +609,7 @@ impl<H: History> PairBlock<H> {
         &self,
         simd: S,
         pairs: &[NearPair],
-        loads: &mut [Load],
+        particles: &mut Particles,
     ) {
         for (at, four) in (0..BLOCK).step_by(4).zip(pairs.chunks(4)) {
             let force = self.force.rows(simd, at);
@@ -605,15 +619,12 @@ impl<H: History> PairBlock<H> {
                 [force; 2]
             };
             for (k, pair) in four.iter().enumerate() {
-                let one = &mut loads[pair.i as usize];
-                add(simd, &mut one.force, force[k]);
+                let (i, j) = (pair.i as usize, pair.j as usize);
+                add(simd, &mut particles.force[i], force[k]);
+                add(simd, &mut particles.force[j], -force[k]);
                 if T::ROTATES {
-                    add(simd, &mut one.torque, torque[0][k]);
-                }
-                let other = &mut loads[pair.j as usize];
-                add(simd, &mut other.force, -force[k]);
-                if T::ROTATES {
-                    add(simd, &mut other.torque, torque[1][k]);
+                    add(simd, &mut particles.torque[i], torque[0][k]);
+                    add(simd, &mut particles.torque[j], torque[1][k]);
                 }
             }
         }
@@ -621,8 +632,8 @@ impl<H: History> PairBlock<H> {
 }
 
 #[inline(always)]
-fn add<S: Simd>(simd: S, sum: &mut Row, row: f64x4<S>) {
-    (f64x4::from_slice(simd, sum) + row).store_slice(sum);
+fn add<S: Simd>(simd: S, sum: &mut Vector, row: f64x4<S>) {
+    *sum = Vector::of_row((f64x4::simd_from(simd, sum.row()) + row).into());
 }
 
 /// What of a normal force friction feels: none where partners attract each other.

@@ -5,7 +5,7 @@
 
 use super::ledger::Books;
 use super::pair_block::Solid;
-use super::{Age, Load, Near, Parts, System, bodies_of};
+use super::{Age, Near, Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
 use crate::dem::particles::Particles;
@@ -129,9 +129,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return Ok(());
         };
         let particles = &self.parts.particles;
-        self.bodies = bodies_of(particles);
         self.alike = Solid::of_all(particles);
-        self.loads = vec![Load::default(); self.bodies.len()];
         self.near = Near::new(N::ACTS, self.parts.shielded, 0.3 * self.parts.skin);
         self.block.forget();
         self.age = Age::default();
@@ -150,7 +148,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             })
             .collect();
         // A step may begin with a drift, which already goes by the near list.
-        self.gather();
         self.refresh()
     }
 }

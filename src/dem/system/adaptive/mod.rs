@@ -10,7 +10,6 @@ use self::workspace::Start;
 use super::contacts::Among;
 use super::pair_block::Loading;
 use super::{Engine, System};
-use crate::dem::block::Load;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
 use crate::dem::neighbours::NearPair;
@@ -42,6 +41,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.check_speeds(true)?;
         let dt = self.parts.dt;
         work.start.keep(&self.parts.particles);
+        work.held.velocity.clone_from(&work.start.velocity);
+        work.held.spin.clone_from(&work.start.spin);
         if Self::REMEMBERS {
             // Of fixed spheres it stays zero.
             self.earlier.clear();
@@ -74,7 +75,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Moves all spheres by a step.
     fn attempt(&mut self, work: &mut Workspace<T::History>) -> Result<(), Instability> {
         self.group(work);
-        self.gather();
         self.move_free_spheres(work);
         let islands = std::mem::take(&mut work.islands);
         let outcome = islands.all().iter().try_for_each(|island| {
@@ -90,13 +90,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     fn slow_forces(&mut self, work: &mut Workspace<T::History>) -> Result<(), Instability> {
         let dt = self.parts.dt;
         if self.stale {
-            match self.list {
-                Some(_) => {
-                    self.gather();
-                    self.refresh()?;
-                }
-                None => self.rebuild()?,
-            }
+            self.refresh()?;
         }
         self.note_all_contacts(&Among::default());
         self.evaluate_effects();
@@ -129,7 +123,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if wide && self.near.holds(particles, self.near_age.time, reach) {
             return Ok(());
         }
-        self.gather();
         self.refresh()
     }
 
@@ -306,74 +299,67 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             let duration = if sub_step == 0 { half } else { time };
             self.loading = Loading::earlier(duration, half);
             for &i in &island.spheres {
-                self.foretell(i as usize, half);
+                self.foretell(i as usize, half, work);
             }
             if let Some(ledger) = &mut self.ledger {
                 let spheres = island.spheres.iter();
                 spheres.for_each(|&i| ledger.books.clear_sphere(i));
             }
             self.note_contacts(&island.among);
-            self.forces_among(&island.among, false);
+            self.forces_among(&island.among);
             self.check_overlaps()?;
             for &i in &island.spheres {
                 self.complete(i as usize, time, work);
             }
         }
         if Self::REMEMBERS {
-            self.load_springs(island, half);
+            self.load_springs(island, half, work);
         }
         Ok(())
     }
 
     /// Loads the springs of an island over the last `time` (s) of its step.
-    fn load_springs(&mut self, island: &Island, time: f64) {
+    fn load_springs(&mut self, island: &Island, time: f64, work: &mut Workspace<T::History>) {
         self.loading = Loading::present(time);
-        for &i in &island.spheres {
-            self.put_in_row(i as usize, 0.0);
-        }
-        self.forces_among(&island.among, false);
-        // The next step finds it deeper still, if it matters.
+        let particles = &self.parts.particles;
+        work.held.force.clone_from(&particles.force);
+        work.held.torque.clone_from(&particles.torque);
+        self.forces_among(&island.among);
+        // Forces are those of the last middle still, and the next step finds what is too deep, if it
+        // matters.
+        let particles = &mut self.parts.particles;
+        particles.force.copy_from_slice(&work.held.force);
+        particles.torque.copy_from_slice(&work.held.torque);
         self.too_deep = None;
     }
 
-    /// Moves a sphere to the middle of a sub-step, and puts it there with the velocity and spin that the
-    /// latest forces foretell.
-    fn foretell(&mut self, i: usize, half: f64) {
+    /// Moves a sphere to the middle of a sub-step, and gives it the velocity and spin that the latest
+    /// forces foretell there; its own are held.
+    fn foretell(&mut self, i: usize, half: f64, work: &mut Workspace<T::History>) {
         let particles = &mut self.parts.particles;
         particles.position[i] += particles.velocity[i] * half;
-        if Self::REMEMBERS {
-            let row = |it: Vector| [it.x, it.y, it.z, 0.0];
-            self.earlier[i] = [row(particles.velocity[i]), row(particles.spin[i])];
-        }
-        self.put_in_row(i, half);
-    }
-
-    /// Puts a sphere into its row, with the velocity and spin that the latest forces foretell for a `time`
-    /// (s) from now.
-    fn put_in_row(&mut self, i: usize, time: f64) {
-        let particles = &self.parts.particles;
-        let body = &mut self.bodies[i];
-        let Vector { x, y, z } = particles.position[i];
-        body.place[..3].copy_from_slice(&[x, y, z]);
-        let Vector { x, y, z } =
-            particles.velocity[i] + particles.force[i] * (particles.inverse_mass[i] * time);
-        body.motion[..3].copy_from_slice(&[x, y, z]);
+        work.held.velocity[i] = particles.velocity[i];
         if particles.rotate() {
-            let Vector { x, y, z } =
-                particles.spin[i] + particles.torque[i] * (particles.inverse_inertia[i] * time);
-            body.turning[..3].copy_from_slice(&[x, y, z]);
+            work.held.spin[i] = particles.spin[i];
         }
-        self.loads[i] = Load::default();
+        if Self::REMEMBERS {
+            self.earlier[i] = [particles.velocity[i].row(), particles.spin[i].row()];
+        }
+        kick(particles, i, half);
+        particles.force[i] = Vector::ZERO;
+        if particles.rotate() {
+            particles.torque[i] = Vector::ZERO;
+        }
     }
 
     /// Moves a sphere from the middle to the end of a sub-step.
     fn complete(&mut self, i: usize, time: f64, work: &mut Workspace<T::History>) {
         let particles = &mut self.parts.particles;
-        let [x, y, z, _] = self.loads[i].force;
-        particles.force[i] = Vector::new(x, y, z) + work.force[i];
+        particles.velocity[i] = work.held.velocity[i];
+        particles.force[i] += work.force[i];
         if particles.rotate() {
-            let [x, y, z, _] = self.loads[i].torque;
-            particles.torque[i] = Vector::new(x, y, z) + work.torque[i];
+            particles.spin[i] = work.held.spin[i];
+            particles.torque[i] += work.torque[i];
         }
         kick(particles, i, time);
         if let Some(ledger) = &mut self.ledger {

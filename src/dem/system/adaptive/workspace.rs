@@ -16,6 +16,7 @@ const LEEWAY: f64 = 1e-4;
 #[derive(Default)]
 pub(in crate::dem::system) struct Workspace<H> {
     pub(super) start: Start<H>,
+    pub(super) held: Held,
     /// Forces and torques of all but contacts in the middle of the step.
     pub(super) force: Vec<Vector>,
     pub(super) torque: Vec<Vector>,
@@ -29,6 +30,15 @@ pub(in crate::dem::system) struct Workspace<H> {
     /// Squared frequency (1/s2) and damping rate (1/s) of each sphere at its contacts.
     pub(super) stiffness: Vec<f64>,
     pub(super) damping: Vec<f64>,
+}
+
+/// What spheres have while something else is tried with them.
+#[derive(Default)]
+pub(super) struct Held {
+    pub(super) velocity: Vec<Vector>,
+    pub(super) spin: Vec<Vector>,
+    pub(super) force: Vec<Vector>,
+    pub(super) torque: Vec<Vector>,
 }
 
 /// The spheres at the start of a step.
