@@ -10,7 +10,7 @@
 
 use super::anchor::{Allowance, Anchor};
 use super::{Particles, VerletList};
-use crate::dem::block::{BLOCK, Columns};
+use crate::dem::block::{BLOCK, Column, Columns};
 use crate::dem::vector::Vector;
 use fearless_simd::{Level, Simd};
 use std::ops::Range;
@@ -158,6 +158,7 @@ impl Near {
         particles: &Particles,
         forget: Option<&mut dyn FnMut(u32)>,
     ) {
+        self.glance.note_radii(&particles.radius);
         fearless_simd::dispatch!(level, simd => self.find(simd, list, particles, forget));
         self.anchor.drop(particles);
         self.half_diagonal = list.half_diagonal;
@@ -257,7 +258,11 @@ const SHIELDS_SECOND: u64 = 8;
 /// A block of pairs to look at.
 struct Glance {
     index: [[u32; BLOCK]; 2],
-    place: [Columns; 2],
+    /// From the second centre to the first (m).
+    offset: Columns,
+    /// Radii (m); all the same if that is given.
+    radius: [Column; 2],
+    common_radius: Option<f64>,
     facts: [u64; BLOCK],
 }
 
@@ -265,8 +270,19 @@ impl Glance {
     fn new() -> Self {
         Self {
             index: [[0; BLOCK]; 2],
-            place: [Columns::ZERO, Columns::ZERO],
+            offset: Columns::ZERO,
+            radius: [[0.0; BLOCK]; 2],
+            common_radius: None,
             facts: [0; BLOCK],
+        }
+    }
+
+    /// Notes whether all spheres have the same radius, which is then not fetched.
+    fn note_radii(&mut self, radius: &[f64]) {
+        let first = radius.first().copied();
+        self.common_radius = first.filter(|first| radius.iter().all(|it| it == first));
+        if let Some(radius) = self.common_radius {
+            self.radius = [[radius; BLOCK]; 2];
         }
     }
 
@@ -275,25 +291,27 @@ impl Glance {
         let Particles {
             position, radius, ..
         } = particles;
-        for side in 0..2 {
-            self.place[side].gather(
-                simd,
-                &self.index[side],
-                #[inline(always)]
-                |i| {
-                    let [x, y, z, _] = position[i].row();
-                    [x, y, z, radius[i]]
-                },
-            );
+        self.offset.gather_differences(
+            simd,
+            &self.index,
+            #[inline(always)]
+            |i| position[i].row(),
+        );
+        if self.common_radius.is_none() {
+            for (radii, index) in self.radius.iter_mut().zip(&self.index) {
+                for (value, &i) in radii.iter_mut().zip(index) {
+                    *value = radius[i as usize];
+                }
+            }
         }
     }
 
     /// What is certain while offsets change by less than the margin (m).
     #[inline(always)]
     fn classify(&mut self, margin: f64) {
-        let [[xi, yi, zi, ri], [xj, yj, zj, rj]] = [&self.place[0].0, &self.place[1].0];
+        let ([x, y, z, _], [ri, rj]) = (&self.offset.0, &self.radius);
         for k in 0..BLOCK {
-            let (dx, dy, dz) = (xi[k] - xj[k], yi[k] - yj[k], zi[k] - zj[k]);
+            let (dx, dy, dz) = (x[k], y[k], z[k]);
             let reach = ri[k] + rj[k] + margin;
             let near = dx * dx + dy * dy + dz * dz < reach * reach;
             let (dx, dy) = (dx.abs(), dy.abs());
@@ -315,10 +333,9 @@ impl Glance {
     /// What is so now.
     #[inline(always)]
     fn look(&mut self) {
-        let [[xi, yi, zi, ri], [xj, yj, zj, rj]] = [&self.place[0].0, &self.place[1].0];
+        let ([x, y, z, _], [ri, rj]) = (&self.offset.0, &self.radius);
         for k in 0..BLOCK {
-            let dz = zi[k] - zj[k];
-            let (dx, dy) = ((xi[k] - xj[k]).abs(), (yi[k] - yj[k]).abs());
+            let (dx, dy, dz) = (x[k].abs(), y[k].abs(), z[k]);
             let within = |diameter: f64| (dx < diameter) & (dy < diameter);
             self.facts[k] = bit(within(2.0 * ri[k]) & (dz > 0.0), SHIELDS_FIRST)
                 | bit(within(2.0 * rj[k]) & (dz < 0.0), SHIELDS_SECOND);
