@@ -1,11 +1,13 @@
 //! Forces at contacts, block by block: which near pairs touch, and what acts on whom.
 
 use super::System;
-use super::pair_block::Laws;
+use super::meeting::{Couple, Earlier, Laws, Solid};
 use crate::dem::block::BLOCK;
+use crate::dem::block::Row;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
 use crate::dem::neighbours::NearPair;
+use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;
 use fearless_simd::Simd;
 
@@ -29,6 +31,44 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             tangential: self.tangential,
             loading: self.loading,
             overlap_limit: self.parts.limits.overlap,
+        }
+    }
+
+    /// Two spheres, with what they did before if springs are loaded by that.
+    pub(super) fn couple(&self, i: u32, j: u32) -> Couple {
+        let (one, other) = (self.beside_wall(i), self.beside_wall(j));
+        let earlier = one.earlier.zip(other.earlier);
+        Couple {
+            offset: one.offset - other.offset,
+            velocity: one.velocity - other.velocity,
+            spin: [one.spin[0], other.spin[0]],
+            solid: [one.solid[0], other.solid[0]],
+            earlier: earlier.map(|(one, other)| Earlier {
+                velocity: one.velocity - other.velocity,
+                spin: [one.spin[0], other.spin[0]],
+            }),
+        }
+    }
+
+    /// A sphere and a wall.
+    pub(super) fn beside_wall(&self, i: u32) -> Couple {
+        let (i, particles) = (i as usize, &self.parts.particles);
+        let of = |vectors: &[Vector]| vectors.get(i).copied().unwrap_or_default();
+        let sphere = Solid {
+            radius: particles.radius[i],
+            mass: particles.mass[i],
+            inertia: particles.inertia.get(i).copied().unwrap_or(0.0),
+        };
+        let earlier = self.earlier.get(i).filter(|_| self.loading.age > 0.0);
+        Couple {
+            offset: particles.position[i],
+            velocity: particles.velocity[i],
+            spin: [of(&particles.spin), Vector::ZERO],
+            solid: [sphere, Solid::WALL],
+            earlier: earlier.map(|&[velocity, spin]: &[Row; 2]| Earlier {
+                velocity: Vector::of_row(velocity),
+                spin: [Vector::of_row(spin), Vector::ZERO],
+            }),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Integration schemes: one function each, from kicks and drifts.
 
-use super::pair_block::{Earlier, Loading};
+use super::meeting::Loading;
+use super::pair_block::EarlierRows;
 use super::{Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
@@ -23,7 +24,7 @@ impl Before {
     }
 
     /// Writes them in rows, of spheres that turn.
-    fn to_rows(&self, rows: &mut Vec<Earlier>) {
+    fn to_rows(&self, rows: &mut Vec<EarlierRows>) {
         rows.clear();
         let spheres = self.velocity.iter().zip(&self.spin);
         rows.extend(spheres.map(|(velocity, spin)| [velocity.row(), spin.row()]));

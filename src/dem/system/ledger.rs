@@ -5,11 +5,11 @@
 //! what the scheme makes of conservative forces, not an error of the bookkeeping.
 
 use super::contacts::Among;
-use super::pair_block::{Meeting, PairBlock};
+use super::meeting::Meeting;
 use super::{Engine, System};
-use crate::dem::block::BLOCK;
 use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{History, TangentialLaw};
+use crate::dem::friction::{History, Spring, TangentialLaw};
+use crate::dem::neighbours::NearPair;
 use crate::dem::particles::{Particles, retain};
 use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;
@@ -135,24 +135,10 @@ impl Books {
     }
 }
 
-/// The books of a system, and where contacts are computed for them.
-pub(super) struct Ledger<H> {
+/// The books of a system.
+#[derive(Default)]
+pub(super) struct Ledger {
     pub(super) books: Books,
-    block: Box<PairBlock<H>>,
-}
-
-impl<H: History> Ledger<H> {
-    pub(super) fn new() -> Self {
-        Self {
-            books: Books::default(),
-            block: Box::new(PairBlock::new()),
-        }
-    }
-
-    /// Forgets the pairs of the past.
-    pub(super) fn forget(&mut self) {
-        self.block.forget();
-    }
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
@@ -225,20 +211,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.ledger = Some(ledger);
     }
 
-    fn note_pairs(&self, among: &Among, ledger: &mut Ledger<T::History>) {
-        for pairs in among.pairs.chunks(BLOCK) {
-            let block = &mut ledger.block;
-            block.take_pairs(pairs, &self.pair_history);
-            block.gather_slowly::<T>(2, &self.parts.particles, &self.earlier);
-            block.interact(&self.laws());
-            for (k, pair) in pairs.iter().enumerate() {
-                let Some(meeting) = ledger.block.meeting(k) else {
-                    continue;
-                };
+    fn note_pairs(&self, among: &Among, ledger: &mut Ledger) {
+        let laws = self.laws();
+        for &NearPair { i, j, entry } in &among.pairs {
+            let spring = match Self::REMEMBERS {
+                true => self.pair_history[entry as usize].spring(),
+                false => Spring::default(),
+            };
+            let meeting = laws.between(&self.couple(i, j), spring);
+            if meeting.touches {
                 let [damping, tangential] = self.parts_of(&meeting);
                 let [one, other] = meeting.torque;
-                ledger.books.add(pair.i, damping, tangential, one);
-                ledger.books.add(pair.j, -damping, -tangential, other);
+                ledger.books.add(i, damping, tangential, one);
+                ledger.books.add(j, -damping, -tangential, other);
             }
         }
     }
@@ -248,21 +233,15 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         wall: W,
         near: &[u32],
         histories: &[T::History],
-        ledger: &mut Ledger<T::History>,
+        ledger: &mut Ledger,
     ) {
-        for spheres in near.chunks(BLOCK) {
-            let block = &mut ledger.block;
-            block.take_spheres(spheres, histories);
-            block.gather_slowly::<T>(1, &self.parts.particles, &self.earlier);
-            block.interact_with_wall(wall, &self.laws());
-            for (k, &sphere) in spheres.iter().enumerate() {
-                let Some(meeting) = ledger.block.meeting_with_wall(wall, k) else {
-                    continue;
-                };
+        let laws = self.laws();
+        for &i in near {
+            let spring = histories[i as usize].spring();
+            let meeting = laws.at_wall(wall, &self.beside_wall(i), spring);
+            if meeting.touches {
                 let [damping, tangential] = self.parts_of(&meeting);
-                ledger
-                    .books
-                    .add(sphere, damping, tangential, meeting.torque[0]);
+                ledger.books.add(i, damping, tangential, meeting.torque[0]);
             }
         }
     }

@@ -1,6 +1,6 @@
 //! When lists of neighbours are made anew, and what becomes of the histories of their contacts.
 
-use super::pair_block::Solid;
+use super::meeting::Solid;
 use super::{Age, Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;

@@ -6,6 +6,7 @@ mod integrate;
 mod ledger;
 mod lists;
 mod measure;
+mod meeting;
 mod pair_block;
 mod state;
 
@@ -14,7 +15,8 @@ use self::contacts::Among;
 use self::integrate::Before;
 use self::ledger::Ledger;
 pub(in crate::dem) use self::ledger::Work;
-use self::pair_block::{Earlier, Loading, PairBlock, Solid};
+use self::meeting::{Loading, Solid};
+use self::pair_block::{EarlierRows, PairBlock};
 pub(in crate::dem) use self::state::EngineState;
 use super::contact::NormalLaw;
 use super::effects::Effect;
@@ -98,12 +100,12 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     /// How springs are loaded until the next evaluation.
     loading: Loading,
     /// The velocities and spins that load them, if these are not those of the evaluation.
-    earlier: Vec<Earlier>,
+    earlier: Vec<EarlierRows>,
     before: Before,
     workspace: Workspace<T::History>,
-    ledger: Option<Ledger<T::History>>,
+    ledger: Option<Ledger>,
     /// What all spheres are like, if they are alike.
-    alike: Option<Solid<f64>>,
+    alike: Option<Solid>,
     block: Box<PairBlock<T::History>>,
     shielding: Vec<u32>,
     /// Spheres that may touch the floor and the cylinder.
@@ -301,7 +303,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
     }
 
     fn keep_ledger(&mut self) {
-        self.ledger = Some(Ledger::new());
+        self.ledger = Some(Ledger::default());
     }
 
     fn work(&self) -> Option<Work> {
@@ -340,7 +342,6 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.parts.particles.retain(keep);
         if let Some(ledger) = &mut self.ledger {
             ledger.books.retain(keep);
-            ledger.forget();
         }
         retain(&mut self.parts.limits.speed_squared, keep);
         retain(&mut self.floor_history, keep);

@@ -4,7 +4,7 @@
 //! made anew. A contact without a history stands for one whose history is empty.
 
 use super::ledger::Books;
-use super::pair_block::Solid;
+use super::meeting::Solid;
 use super::{Age, Near, Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
@@ -134,9 +134,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.block.forget();
         self.age = Age::default();
         self.near_age = Age::default();
-        if let Some(ledger) = &mut self.ledger {
-            ledger.forget();
-        }
         list.build(particles);
         let mut known = histories.iter().peekable();
         let entries = list.owner().iter().zip(list.neighbour());

@@ -8,7 +8,7 @@ pub(super) use self::workspace::Workspace;
 use self::islands::Island;
 use self::workspace::Start;
 use super::contacts::Among;
-use super::pair_block::Loading;
+use super::meeting::Loading;
 use super::{Engine, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;

@@ -1,0 +1,283 @@
+//! What the laws answer at a contact, the same for pairs and walls.
+//!
+//! Free of branches, as it stands in loops over blocks of contacts, which touch or not.
+
+use crate::dem::contact::NormalLaw;
+use crate::dem::friction::{Spring, TangentialLaw, Touch, Traction, sliding_velocity};
+use crate::dem::particles::Particles;
+use crate::dem::vector::Vector;
+use crate::dem::walls::{Wall, WallContact};
+
+/// The time that springs are loaded over until an evaluation of forces, with the mean velocities of that
+/// time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Loading {
+    /// How long it is (s).
+    pub(super) duration: f64,
+    /// How long before the evaluation the spheres had the velocities that load springs (s): these are
+    /// then kept in rows of their own. Zero if they are those of the evaluation.
+    pub(super) age: f64,
+}
+
+impl Loading {
+    /// Over a time (s), by the velocities of the evaluation.
+    pub(super) fn present(duration: f64) -> Self {
+        Self { duration, age: 0.0 }
+    }
+
+    /// Over a time (s), by velocities that are that old (s).
+    pub(super) fn earlier(duration: f64, age: f64) -> Self {
+        Self { duration, age }
+    }
+}
+
+/// The laws of a step's contacts.
+#[derive(Clone, Copy)]
+pub(super) struct Laws<N, T> {
+    pub(super) normal: N,
+    pub(super) tangential: T,
+    pub(super) loading: Loading,
+    pub(super) overlap_limit: f64,
+}
+
+/// Two partners of a contact, or a sphere and the wall beside it. The first is the one that forces
+/// act on.
+#[derive(Clone, Copy)]
+pub(super) struct Couple {
+    /// Centre of the first from that of the second, or from the origin (m).
+    pub(super) offset: Vector,
+    /// Velocity of the first relative to the second (m/s).
+    pub(super) velocity: Vector,
+    /// Spins (rad/s).
+    pub(super) spin: [Vector; 2],
+    /// What does not change from step to step.
+    pub(super) solid: [Solid; 2],
+    /// What they did before, by which springs are loaded, if not by the present.
+    pub(super) earlier: Option<Earlier>,
+}
+
+/// What of a sphere does not change.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Solid {
+    /// Radius (m).
+    pub(super) radius: f64,
+    /// Mass (kg).
+    pub(super) mass: f64,
+    /// Moment of inertia (kg m2).
+    pub(super) inertia: f64,
+}
+
+impl Solid {
+    /// A wall, which friction takes for a partner at rest.
+    pub(super) const WALL: Self = Self {
+        radius: 0.0,
+        mass: 0.0,
+        inertia: 0.0,
+    };
+
+    /// What all spheres are like, if they are alike.
+    pub(super) fn of_all(particles: &Particles) -> Option<Self> {
+        let Particles {
+            radius,
+            mass,
+            inertia,
+            ..
+        } = particles;
+        let same = |values: &[f64]| values.windows(2).all(|pair| pair[0] == pair[1]);
+        let alike = same(radius) && same(mass) && same(inertia);
+        let first = |values: &[f64]| values.first().copied().unwrap_or(0.0);
+        alike.then(|| Self {
+            radius: first(radius),
+            mass: first(mass),
+            inertia: first(inertia),
+        })
+    }
+}
+
+/// Relative velocity (m/s) and spins (rad/s) before.
+#[derive(Clone, Copy)]
+pub(super) struct Earlier {
+    pub(super) velocity: Vector,
+    pub(super) spin: [Vector; 2],
+}
+
+/// A contact and what its laws answered.
+pub(super) struct Meeting {
+    /// Whether the partners touch. If they do not, nothing else means anything.
+    pub(super) touches: bool,
+    /// Whether the overlap is beyond the limit.
+    pub(super) too_deep: bool,
+    /// Unit normal, towards the partner that the force acts on.
+    pub(super) normal: Vector,
+    /// Velocity of its centre relative to the other (m/s).
+    pub(super) velocity: Vector,
+    /// Overlap (m).
+    pub(super) overlap: f64,
+    /// Effective radius (m).
+    pub(super) effective_radius: f64,
+    /// Force (N).
+    pub(super) force: Vector,
+    /// Torques on both partners (N m), zero without rotation.
+    pub(super) torque: [Vector; 2],
+    /// What the contact remembers.
+    pub(super) spring: Spring,
+}
+
+/// Where and how partners meet, whatever the second one is.
+struct Encounter {
+    touches: bool,
+    too_deep: bool,
+    normal: Vector,
+    overlap: f64,
+    effective_radius: f64,
+    /// Of friction alone.
+    lever: [f64; 2],
+    lesser_mass: f64,
+    /// Sliding velocity (m/s) and overlap (m) by which a spring is loaded, if not those of now.
+    loading: Option<(Vector, f64)>,
+}
+
+impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
+    const REMEMBERS: bool = size_of::<T::History>() > 0;
+
+    /// Two spheres.
+    #[inline(always)]
+    pub(super) fn between(&self, couple: &Couple, spring: Spring) -> Meeting {
+        let [one, other] = couple.solid;
+        let sum = one.radius + other.radius;
+        let distance_squared = couple.offset.norm_squared();
+        let touches = distance_squared < sum * sum;
+        let distance = distance_squared.sqrt();
+        let inverse_sum = 1.0 / sum;
+        let overlap = sum - distance;
+        let smaller = lesser(one.radius, other.radius);
+        let deep = overlap > self.overlap_limit * smaller;
+        let concentric = distance == 0.0;
+        // Both centres turn about the point where the surfaces meet, so that the pair keeps its
+        // angular momentum.
+        let lever = distance * inverse_sum;
+        let lever = [one.radius * lever, other.radius * lever];
+        let mut encounter = Encounter {
+            touches,
+            too_deep: touches & (deep | concentric),
+            normal: couple.offset * (1.0 / distance),
+            overlap,
+            effective_radius: one.radius * other.radius * inverse_sum,
+            lever,
+            lesser_mass: lesser(one.mass, other.mass),
+            loading: None,
+        };
+        if let (true, Some(earlier)) = (Self::REMEMBERS, &couple.earlier) {
+            let offset = couple.offset - earlier.velocity * self.loading.age;
+            let distance = offset.norm();
+            let normal = offset * (1.0 / distance);
+            let sliding = sliding_velocity(normal, earlier.velocity, earlier.spin, lever);
+            encounter.loading = Some((sliding, or_zero(sum - distance)));
+        }
+        self.answer(couple, encounter, spring)
+    }
+
+    /// A sphere and a wall.
+    #[inline(always)]
+    pub(super) fn at_wall<W: Wall>(&self, wall: W, couple: &Couple, spring: Spring) -> Meeting {
+        let Solid { radius, mass, .. } = couple.solid[0];
+        let WallContact {
+            touches,
+            overlap,
+            normal,
+        } = wall.contact(couple.offset, radius);
+        let mut encounter = Encounter {
+            touches,
+            too_deep: touches & (overlap > self.overlap_limit * radius),
+            normal,
+            overlap,
+            effective_radius: radius,
+            lever: [radius, 0.0],
+            lesser_mass: mass,
+            loading: None,
+        };
+        if let (true, Some(earlier)) = (Self::REMEMBERS, &couple.earlier) {
+            let centre = couple.offset - earlier.velocity * self.loading.age;
+            let contact = wall.contact(centre, radius);
+            let lever = encounter.lever;
+            let sliding = sliding_velocity(contact.normal, earlier.velocity, earlier.spin, lever);
+            encounter.loading = Some((sliding, or_zero(contact.overlap)));
+        }
+        self.answer(couple, encounter, spring)
+    }
+
+    #[inline(always)]
+    fn answer(&self, couple: &Couple, encounter: Encounter, mut spring: Spring) -> Meeting {
+        let Encounter {
+            touches,
+            too_deep,
+            normal,
+            overlap,
+            effective_radius,
+            lever,
+            lesser_mass,
+            loading,
+        } = encounter;
+        let Couple { velocity, spin, .. } = *couple;
+        let approach = -velocity.dot(normal);
+        let normal_force = self.normal.force(overlap, approach, effective_radius);
+        let mut force = normal * normal_force;
+        if N::DRAGS_SIDEWAYS {
+            force -= (velocity + normal * approach) * self.normal.sideways_drag();
+        }
+        let mut torque = [Vector::ZERO; 2];
+        if T::ROTATES {
+            let (loading_velocity, loading_overlap) = match loading {
+                Some(loading) => loading,
+                None => (sliding_velocity(normal, velocity, spin, lever), overlap),
+            };
+            let touch = Touch {
+                normal,
+                velocity,
+                spin,
+                lever,
+                inertia: [couple.solid[0].inertia, couple.solid[1].inertia],
+                lesser_mass,
+                overlap,
+                effective_radius,
+                // Friction feels none where partners attract each other.
+                normal_force: match N::ATTRACTS {
+                    true => or_zero(normal_force),
+                    false => normal_force,
+                },
+                loading_velocity,
+                loading_overlap,
+                loading_time: self.loading.duration,
+            };
+            let Traction {
+                force: sideways,
+                torque: [one, other],
+            } = self.tangential.traction(&touch, &mut spring);
+            force += sideways;
+            torque = [one, other];
+        }
+        Meeting {
+            touches,
+            too_deep,
+            normal,
+            velocity,
+            overlap,
+            effective_radius,
+            force,
+            torque,
+            spring,
+        }
+    }
+}
+
+/// Minima and the like as selects, which loops over contacts turn into vector instructions.
+#[inline(always)]
+fn lesser(one: f64, other: f64) -> f64 {
+    if one < other { one } else { other }
+}
+
+/// That, or zero if it is negative.
+#[inline(always)]
+fn or_zero(value: f64) -> f64 {
+    if value < 0.0 { 0.0 } else { value }
+}
