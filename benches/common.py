@@ -1,0 +1,33 @@
+"""What the scripts of this folder share: names of machine, date, program, and of tables."""
+
+import datetime
+import platform
+import re
+import subprocess
+from pathlib import Path
+
+FOLDER = Path(__file__).resolve().parent
+
+
+def today():
+    return datetime.date.today().isoformat()
+
+
+def machine():
+    """The processor's name."""
+    try:
+        names = re.findall(r"model name\s*:\s*(.*)", Path("/proc/cpuinfo").read_text())
+    except OSError:
+        names = []
+    return names[0] if names else platform.processor() or platform.machine()
+
+
+def version(program):
+    """Version and commit of the program."""
+    return subprocess.run([program, "--version"], check=True, stdout=subprocess.PIPE, text=True).stdout.split(maxsplit=1)[1].strip()
+
+
+def results(kind):
+    """The table of a kind of benchmark, of today and this machine."""
+    label = re.sub(r"[^a-z0-9]+", "-", machine().lower()).strip("-")
+    return FOLDER / "results" / f"{kind}-{today()}-{label}.csv"
