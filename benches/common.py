@@ -27,6 +27,12 @@ def version(program):
     return subprocess.run([program, "--version"], check=True, stdout=subprocess.PIPE, text=True).stdout.split(maxsplit=1)[1].strip()
 
 
+def commit():
+    """The commit that is checked out, with a mark if files differ from it."""
+    command = ["git", "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"]
+    return subprocess.run(command, stdout=subprocess.PIPE, text=True).stdout.strip() or "unknown"
+
+
 def results(kind):
     """The table of a kind of benchmark, of today and this machine."""
     label = re.sub(r"[^a-z0-9]+", "-", machine().lower()).strip("-")
