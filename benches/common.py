@@ -9,6 +9,14 @@ from pathlib import Path
 FOLDER = Path(__file__).resolve().parent
 
 
+def output(command, **more):
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, **more)
+    if done.returncode:
+        tail = (done.stdout + done.stderr).strip().splitlines()[-8:]
+        raise RuntimeError(f"{command[0]} failed:\n" + "\n".join(tail))
+    return done.stdout
+
+
 def today():
     return datetime.date.today().isoformat()
 

@@ -49,8 +49,8 @@ impl RunCost {
     /// # Errors
     /// If the scene cannot be built, or no record written to a temporary folder.
     pub fn measure(scene: &Scene, budget: Duration) -> Result<Self, CostError> {
-        let clock = Instant::now();
         let profile = Profile::new();
+        let clock = Instant::now();
         let reading = profile.reading;
         let mut meter = Meter::new();
         let mut run = Run::new(scene)?;

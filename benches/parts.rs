@@ -1,16 +1,27 @@
-//! Single parts: laws, lists, observers.
+//! Times of single parts: laws, lists, observers. `benches/README.md` says how to run them.
 
-use super::states;
+#![allow(clippy::unwrap_used, reason = "a benchmark may panic")]
+
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use phase::dem::contact::{Hertz, NormalLaw};
 use phase::dem::friction::{Coulomb, Frictionless, Mindlin, TangentialLaw, Touch};
 use phase::dem::neighbours::{Reach, VerletList};
-use phase::dem::start;
 use phase::dem::vector::Vector;
+use phase::dem::{Simulation, start};
 use phase::observe::Observer;
-use phase::scene::Neighbours;
+use phase::scene::{Neighbours, Scene, Start};
 use std::hint::black_box;
+use std::path::Path;
+
+fn main() {
+    divan::main();
+}
+
+/// A scene of this repository.
+fn scene(path: &str) -> Scene {
+    phase::scene::load(Path::new(path)).unwrap()
+}
 
 /// As many pairs as the engine takes at once.
 const BLOCK: usize = 32;
@@ -85,7 +96,13 @@ fn list_of_columns(bencher: Bencher<'_, '_>, count: usize) {
 }
 
 fn list(bencher: Bencher<'_, '_>, count: usize, reach: Reach, skin: f64) {
-    let scene = states::bed(count, "none");
+    let mut scene = scene("benches/bed.toml");
+    let scale = libm::cbrt(count as f64 / scene.spheres.count as f64);
+    scene.spheres.count = count;
+    *scene.tank.as_mut().unwrap().radius.as_mut().unwrap() *= scale;
+    if let Start::Random { z_max, .. } = &mut scene.start {
+        *z_max *= scale;
+    }
     let particles = start::place(&scene).unwrap();
     let skin = skin * particles.largest_radius();
     let mut list = VerletList::new(reach, skin, Neighbours::VerletList);
@@ -97,8 +114,10 @@ fn list(bencher: Bencher<'_, '_>, count: usize, reach: Reach, skin: f64) {
 /// One frame: the elastic energy of contacts, and all observers.
 #[divan::bench]
 fn frame_of_observers(bencher: Bencher<'_, '_>) {
-    let scene = states::theoretical(8.0);
-    let mut simulation = states::at(&scene, 1.0);
+    let scene = scene("sweeps/scenes/theoretical.toml");
+    let mut simulation = Simulation::new(&scene).unwrap();
+    let second = (1.0 / scene.time.dt).round() as u64;
+    simulation.advance(second).unwrap();
     let mut observer = Observer::new(&scene, &simulation.particles().radius);
     let mut time = 0.0;
     bencher
