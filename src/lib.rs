@@ -14,6 +14,7 @@
 //! | the label of a record | [`classify`](mod@classify) |
 //! | many scenes at once, their labels, and figures of them | [`sweep`], [`plot`] |
 //! | where an integrator is stable: a phase diagram of the numerics | [`stability`] |
+//! | what a run costs, and each of its parts | [`cost`] |
 //! | records and tables as files | [`store`] |
 //! | laws that results are compared with | [`theory`], [`beverloo`] |
 //!

@@ -1,7 +1,7 @@
 //! One run: from a scene to its record.
 
 use crate::cpu_time;
-use crate::dem::{BuildError, Counts, Simulation, SimulationState, StateError};
+use crate::dem::{BuildError, Counts, Profile, Simulation, SimulationState, StateError};
 use crate::observe::{Observer, Snapshot};
 use crate::record::{Outcome, Program, RunRecord};
 use crate::scene::Scene;
@@ -181,11 +181,26 @@ impl Run {
         if self.ended() {
             return;
         }
+        self.advance_steps();
+        self.look();
+    }
+
+    /// Begins to measure what the parts of a step take. Never changes the run.
+    pub(crate) fn keep_profile(&mut self, profile: Profile) {
+        self.simulation.keep_profile(profile);
+    }
+
+    /// What was measured, if anything is.
+    pub(crate) fn profile(&self) -> Option<&Profile> {
+        self.simulation.profile()
+    }
+
+    /// Advances to the next frame, which is to be [looked at](Self::look).
+    pub(crate) fn advance_steps(&mut self) {
         self.frame += 1;
         if let Err(instability) = self.simulation.advance(self.steps_per_frame) {
             self.outcome = Outcome::Unstable(instability);
         }
-        self.look();
     }
 
     /// Whether the run is over: its time is up, a guard is broken, or nothing more will happen.
@@ -262,7 +277,7 @@ impl Run {
     }
 
     /// Looks at the present frame, and keeps of it what the scene's output asks for.
-    fn look(&mut self) {
+    pub(crate) fn look(&mut self) {
         let (broken, ended) = (self.broken(), self.ended());
         let time = self.simulation.time();
         let view = self.simulation.frame();

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use support::{TinySweep, Workplace, scene_file};
 
 /// The commands that answer in JSON are tested below; these are all.
-const COMMANDS: [&str; 16] = [
+const COMMANDS: [&str; 17] = [
     "sweep",
     "classify",
     "plot",
@@ -18,6 +18,7 @@ const COMMANDS: [&str; 16] = [
     "export",
     "view",
     "check",
+    "cost",
     "neighbours",
     "stability",
     "verify",
@@ -247,6 +248,13 @@ fn a_sweep_answers_in_json() {
     assert_eq!(forecast["limits"][0]["decisive"], true);
     assert!(forecast["limits"][0]["ratio"].as_f64().unwrap() < 1.0);
     assert!(forecast["forecast"]["disk"].as_f64().unwrap() > 0.0);
+
+    let cost = answer(&place, &["cost", "tiny.toml", "--seconds", "1"], 0);
+    assert_eq!((&cost["kind"], &cost["jobs"]), (&"sweep".into(), &6.into()));
+    let parts = cost["parts"].as_array().unwrap();
+    let shares = parts.iter().map(|part| part["share"].as_f64().unwrap());
+    assert!((shares.sum::<f64>() - 1.0).abs() < 1e-9, "{cost}");
+    assert_eq!(cost["tried"][1]["point"]["omega"], 8.0);
 
     let swept = answer(&place, &["sweep", "tiny.toml"], 0);
     assert_eq!(swept["folder"], "results/tiny");

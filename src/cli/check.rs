@@ -7,10 +7,9 @@ use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::time_step::{self, Tightest, tightest_limits};
 use super::{classify, format, job, kind};
-use phase::classify::Sieves;
 use phase::dem::timestep::{Limit, Standing};
 use phase::scene::{Contact, Friction, Scene, Start};
-use phase::sweep::{Axis, Forecast, Job, PlotSettings, Sweep, describe, forecast, work};
+use phase::sweep::{Axis, Forecast, Job, Sweep, describe, forecast, work};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -46,12 +45,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if kind::is_study(&arguments.file) {
         return study::main(arguments, workers, console);
     }
-    let is_sweep = kind::is_sweep(&arguments.file);
-    let sweep = if is_sweep {
-        phase::sweep::load(&arguments.file).map_err(Failure::refused)?
-    } else {
-        sweep_of_one(phase::scene::load_base(&arguments.file).map_err(Failure::refused)?)
-    };
+    let (sweep, is_sweep) = kind::load_scene_or_sweep(&arguments.file)?;
     let jobs = sweep.jobs().map_err(Failure::refused)?;
     if is_sweep {
         classify::check_sieves(&sweep, &jobs)?;
@@ -86,7 +80,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let (steps_per_frame, frames) = phase::run::frames(scene);
     console.answer(&Answer {
         file: &arguments.file,
-        kind: if is_sweep { "sweep" } else { "scene" },
+        kind: kind::name(is_sweep),
         title: sweep.title.as_deref().or(scene.title.as_deref()),
         jobs: jobs.len(),
         axes: &sweep.axes,
@@ -106,18 +100,6 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         forecast: forecast.map(|forecast| ForecastAnswer::new(&forecast, workers)),
     })?;
     Ok(Exit::Done)
-}
-
-/// The sweep of just one scene.
-fn sweep_of_one(scene: Scene) -> Sweep {
-    Sweep {
-        title: None,
-        axes: Vec::new(),
-        seeds: vec![scene.seed],
-        scene,
-        sieves: Sieves::default(),
-        plot: PlotSettings::default(),
-    }
 }
 
 fn line(name: &str, text: impl std::fmt::Display) -> String {

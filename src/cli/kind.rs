@@ -1,8 +1,9 @@
 //! Whether a file is a scene, a sweep or a study of stability.
 
 use super::exit::Failure;
+use phase::classify::Sieves;
 use phase::scene::Scene;
-use phase::sweep::Sweep;
+use phase::sweep::{PlotSettings, Sweep};
 use std::path::Path;
 
 /// Reads a scene file.
@@ -39,9 +40,36 @@ pub(super) fn load_sweep(file: &Path) -> Result<Sweep, Failure> {
     phase::sweep::load(file).map_err(Failure::refused)
 }
 
+/// Reads either, a scene as the sweep of just one; and whether it is a sweep.
+pub(super) fn load_scene_or_sweep(file: &Path) -> Result<(Sweep, bool), Failure> {
+    let is_sweep = is_sweep(file);
+    let sweep = match is_sweep {
+        true => phase::sweep::load(file).map_err(Failure::refused)?,
+        false => sweep_of_one(phase::scene::load_base(file).map_err(Failure::refused)?),
+    };
+    Ok((sweep, is_sweep))
+}
+
+/// The sweep of just one scene.
+fn sweep_of_one(scene: Scene) -> Sweep {
+    Sweep {
+        title: None,
+        axes: Vec::new(),
+        seeds: vec![scene.seed],
+        scene,
+        sieves: Sieves::default(),
+        plot: PlotSettings::default(),
+    }
+}
+
+/// What a file is, in a word.
+pub(super) fn name(is_sweep: bool) -> &'static str {
+    if is_sweep { "sweep" } else { "scene" }
+}
+
 /// Whether a file is a sweep rather than a scene, which shows in its keys. What cannot be read is
 /// left to the loader to complain of.
-pub(super) fn is_sweep(file: &Path) -> bool {
+fn is_sweep(file: &Path) -> bool {
     let table = keys(file);
     ["axis", "scene", "sieves", "plot", "seeds"]
         .iter()

@@ -5,6 +5,7 @@ mod check;
 mod classify;
 mod completions;
 mod console;
+mod cost;
 mod exit;
 mod export;
 mod folders;
@@ -79,6 +80,7 @@ enum Command {
     Export(export::Arguments),
     View(view::Arguments),
     Check(check::Arguments),
+    Cost(cost::Arguments),
     Neighbours(neighbours::Arguments),
     Stability(stability::Arguments),
     Status(status::Arguments),
@@ -101,6 +103,7 @@ impl Command {
             Self::Export(arguments) => arguments.json,
             Self::View(arguments) => arguments.json,
             Self::Check(arguments) => arguments.json,
+            Self::Cost(arguments) => arguments.json,
             Self::Neighbours(arguments) => arguments.json,
             Self::Stability(arguments) => arguments.json,
             Self::Status(arguments) => arguments.json,
@@ -122,6 +125,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Export(arguments) => export::main(&arguments, &console),
         Command::View(arguments) => view::main(&arguments, &console),
         Command::Check(arguments) => check::main(&arguments, &console),
+        Command::Cost(arguments) => cost::main(&arguments, &console),
         Command::Neighbours(arguments) => neighbours::main(&arguments, &console),
         Command::Stability(arguments) => stability::main(&arguments, &console),
         Command::Status(arguments) => status::main(&arguments, &console),

@@ -5,3 +5,9 @@
 //! times only on this one.
 
 pub mod neighbours;
+mod run;
+mod sweep;
+
+pub use crate::dem::Part;
+pub use run::{CostError, RunCost};
+pub use sweep::{SweepCost, Tried};

@@ -6,6 +6,7 @@ use super::guard::Limits;
 use super::neighbours::VerletList;
 use super::particles::{Particles, Sphere};
 use super::process::{Counts, Feed, Process};
+use super::profile::Profile;
 use super::start::{self, StartError};
 use super::system::{Engine, Parts, System};
 use super::vector::Vector;
@@ -169,6 +170,16 @@ impl Simulation {
     /// same bits: a test compares the two.
     pub fn use_baseline_instructions(&mut self) {
         self.engine.use_baseline_instructions();
+    }
+
+    /// Begins to measure what the parts of a step take. Never changes the motion.
+    pub(crate) fn keep_profile(&mut self, profile: Profile) {
+        self.engine.keep_profile(profile);
+    }
+
+    /// What was measured, if anything is.
+    pub(crate) fn profile(&self) -> Option<&Profile> {
+        self.engine.profile()
     }
 
     /// The spheres that are in the simulation, the fixed ones first.

@@ -1,12 +1,14 @@
 //! What a sweep will cost, from a short trial of a few of its jobs.
 
-use super::{Job, work};
+use super::representatives::Representative;
+use super::{Job, representatives, work};
+use crate::cost::{CostError, Part, RunCost};
 use crate::record::RunRecord;
 use crate::run::{self, RunError};
 use crate::scene::Scene;
 use crate::store::{self, StoreError};
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What a sweep will cost.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +30,14 @@ pub struct Forecast {
 /// Why there is no forecast.
 #[derive(Debug, thiserror::Error)]
 pub enum ForecastError {
+    /// A job of the trial cannot be measured.
+    #[error("the trial of job {id} failed: {source}")]
+    Cost {
+        /// Identity of the run.
+        id: String,
+        /// Why.
+        source: CostError,
+    },
     /// A job of the trial failed.
     #[error("the trial of job {id} failed: {source}")]
     Run {
@@ -57,8 +67,8 @@ struct Trial {
     memory: f64,
 }
 
-/// Runs the first part of some jobs, the corners and the middle of the grid, for about `budget`
-/// altogether on that many workers, and extrapolates.
+/// Measures what some jobs cost, at the corners and in the middle of the grid, for about `budget`
+/// altogether on that many workers, and extrapolates: each stands for the jobs nearest to it.
 ///
 /// # Errors
 /// If a job of the trial fails.
@@ -66,14 +76,18 @@ pub fn forecast(jobs: &[Job], workers: usize, budget: Duration) -> Result<Foreca
     let chosen = representatives(jobs);
     let rounds = chosen.len().div_ceil(workers.max(1)).max(1);
     let budget = budget / rounds as u32;
-    let trials = work::map(workers, &chosen, |job| try_job(job, budget))?;
+    let trials = work::map(workers, &chosen, |it| try_job(it.job, budget))?;
     let trials: Vec<Trial> = trials.into_iter().collect::<Result<_, _>>()?;
-    let mean = |value: fn(&Trial) -> f64| {
-        trials.iter().map(value).sum::<f64>() / trials.len().max(1) as f64
+    let sum = |value: &dyn Fn(&Trial, &Representative<'_>) -> f64| -> f64 {
+        let pairs = trials.iter().zip(&chosen);
+        pairs.map(|(trial, chosen)| value(trial, chosen)).sum()
     };
-    let sphere_steps = jobs.iter().map(|job| work::sphere_steps(&job.scene)).sum();
-    // Times add up, so the mean rate is the harmonic one.
-    let rate = 1.0 / mean(|trial| 1.0 / trial.rate);
+    let mean = |value: fn(&Trial) -> f64| {
+        sum(&|trial, chosen| value(trial) * chosen.jobs as f64) / jobs.len().max(1) as f64
+    };
+    let sphere_steps = chosen.iter().map(|it| it.sphere_steps).sum();
+    // Times add up, not rates.
+    let rate = sphere_steps as f64 / sum(&|trial, chosen| chosen.sphere_steps as f64 / trial.rate);
     let at_once = workers.min(jobs.len()).max(1) as f64;
     Ok(Forecast {
         tried: chosen.len(),
@@ -88,59 +102,25 @@ pub fn forecast(jobs: &[Job], workers: usize, budget: Duration) -> Result<Foreca
 /// Memory of the program without any run (bytes).
 const PROGRAM_MEMORY: f64 = 10e6;
 
-/// The jobs at the corners and in the middle of the grid, of the first seed.
-fn representatives(jobs: &[Job]) -> Vec<&Job> {
-    let (Some(first), Some(last)) = (jobs.first(), jobs.last()) else {
-        return Vec::new();
-    };
-    let mut chosen: Vec<&Job> = Vec::new();
-    let is_end =
-        |(axis, value): (usize, &f64)| *value == first.values[axis] || *value == last.values[axis];
-    for job in jobs.iter().filter(|job| job.seed == first.seed) {
-        if job.values.iter().enumerate().all(is_end) {
-            chosen.push(job);
-        }
-    }
-    let middle = &jobs[jobs.len() / 2];
-    if !chosen.iter().any(|job| job.id == middle.id) {
-        chosen.push(middle);
-    }
-    chosen
-}
-
 /// Runs the beginning of a job for about the time of the budget.
 fn try_job(job: &Job, budget: Duration) -> Result<Trial, ForecastError> {
-    let failed = |source| ForecastError::Run {
+    let failed = |source| ForecastError::Cost {
         id: job.id.clone(),
         source,
     };
-    let start = Instant::now();
-    let mut frames_run = 0;
-    let timed = run::run(&job.scene, &mut |progress| {
-        frames_run = progress.frame;
-        // The rest of the budget is for runs that end, since only these leave a record.
-        if start.elapsed() < budget / 2 {
-            ControlFlow::Continue(())
-        } else {
-            ControlFlow::Break(())
+    // The rest of the budget is for runs that end, since only these tell the size of a whole record.
+    let cost = RunCost::measure(&job.scene, budget / 2).map_err(failed)?;
+    let disk = match cost.whole {
+        true => size_of_record(&cost.record)?,
+        false => {
+            let all_frames = run::frames(&job.scene).1;
+            size_of_whole_run(job, (cost.frames / 2).max(20).min(all_frames))?
         }
-    });
-    let seconds = start.elapsed().as_secs_f64();
-    let (steps_per_frame, all_frames) = run::frames(&job.scene);
-    let (steps, disk) = match timed {
-        Ok(record) => {
-            let steps = work::sphere_steps_of(&record);
-            (steps, size_of_record(&record)?)
-        }
-        Err(RunError::Interrupted) => {
-            let steps = work::sphere_steps_until(&job.scene, frames_run * steps_per_frame);
-            let frames = (frames_run / 2).max(20).min(all_frames);
-            (steps, size_of_whole_run(job, frames)?)
-        }
-        Err(error) => return Err(failed(error)),
     };
+    // The record is written by the same worker.
+    let seconds = cost.elapsed + cost.seconds(Part::Record);
     Ok(Trial {
-        rate: steps.max(1) as f64 / seconds,
+        rate: cost.sphere_steps.max(1) as f64 / seconds,
         disk,
         // The record in memory and as the bytes of its file, neither compressed.
         memory: 4.0 * disk + job.scene.spheres.count as f64 * ENGINE_BYTES,
@@ -237,31 +217,5 @@ mod tests {
                 "{forecast} for {size}"
             );
         }
-    }
-
-    #[test]
-    fn corners_and_middle_stand_for_the_grid() {
-        let at = |x: f64, y: f64, seed: u64| Job {
-            id: format!("{x} {y} {seed}"),
-            values: vec![x, y],
-            seed,
-            ..job()
-        };
-        let mut jobs = Vec::new();
-        for x in 0..3 {
-            for y in 0..3 {
-                for seed in 1..3 {
-                    jobs.push(at(f64::from(x), f64::from(y), seed));
-                }
-            }
-        }
-        let chosen: Vec<_> = representatives(&jobs)
-            .iter()
-            .map(|job| job.values.clone())
-            .collect();
-        assert_eq!(
-            chosen,
-            [[0.0, 0.0], [0.0, 2.0], [2.0, 0.0], [2.0, 2.0], [1.0, 1.0]]
-        );
     }
 }

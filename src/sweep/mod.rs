@@ -11,6 +11,7 @@ mod labels;
 mod load;
 mod plan;
 mod pool;
+mod representatives;
 pub(crate) mod schema;
 mod select;
 mod spacing;
@@ -35,6 +36,7 @@ pub use load::{from_str, load};
 pub use plan::{Done, ForeignRecord, Plan, Standing};
 pub(crate) use pool::panic_message;
 pub use pool::{Event, Pool, PoolError, Report};
+pub(crate) use representatives::representatives;
 pub use select::{SelectError, parse_point};
 pub use status::{Status, UnderWay};
 

@@ -6,6 +6,7 @@ use crate::record::RunRecord;
 use crate::resume::{self, Checkpoints};
 use crate::run::{self, Progress, Run};
 use crate::store::{self, CheckpointError, StoreError};
+use std::cmp::Reverse;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -109,7 +110,10 @@ impl Pool<'_> {
             self.checkpoints(job).remove().map_err(FolderError::from)?;
         }
 
-        let pending: Vec<(usize, &Job)> = plan.pending().enumerate().collect();
+        let mut pending: Vec<(usize, &Job)> = plan.pending().enumerate().collect();
+        // The longest first, so that no worker begins one when the others are done. Those of one length
+        // stay in the sweep's order.
+        pending.sort_by_key(|(_, job)| Reverse(work::sphere_steps(&job.scene)));
         let tally = Mutex::new(Tally::default());
         work::each(self.workers, &pending, |&(position, job)| {
             if self.stop.load(Ordering::Relaxed) || lock(&tally).halted.is_some() {
@@ -360,6 +364,36 @@ mod tests {
         let report = pool.run(&plan).unwrap();
         assert_eq!((report.finished, report.failures.len()), (2, 0));
         assert!(!folder.failures().exists());
+    }
+
+    #[test]
+    fn the_longest_jobs_come_first() {
+        let place = tempfile::tempdir().unwrap();
+        let folder = Folder::new(place.path());
+        folder.create().unwrap();
+        let (sweep, mut jobs) = sweep();
+        for (job, duration) in jobs.iter_mut().zip([0.01, 0.03, 0.01, 0.02]) {
+            job.scene.time.duration = duration;
+            job.id = job.scene.identity();
+        }
+        let begun = Mutex::new(Vec::new());
+        let pool = Pool {
+            folder: &folder,
+            sweep: &sweep,
+            workers: 1,
+            stop: &AtomicBool::new(false),
+            checkpoint_interval: resume::DEFAULT_INTERVAL,
+            resume: true,
+            watch: &|event| {
+                if let Event::Started(job) = event {
+                    begun.lock().unwrap().push(job.values[0]);
+                }
+            },
+        };
+        let plan = Plan::new(&folder, jobs, 1).unwrap();
+        let report = pool.run(&plan).unwrap();
+        assert_eq!(report.finished, 4);
+        assert_eq!(*begun.lock().unwrap(), [2.0, 4.0, 1.0, 3.0]);
     }
 
     #[test]

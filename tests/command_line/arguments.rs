@@ -35,6 +35,7 @@ fn every_command_has_an_example() {
         "plot",
         "run",
         "check",
+        "cost",
         "status",
         "new",
         "schema",

@@ -2,6 +2,7 @@
 
 use super::OneBody;
 use crate::dem::particles::Particles;
+use crate::dem::profile::Part;
 use crate::scene;
 
 pub(super) struct Gravity {
@@ -18,6 +19,8 @@ impl Gravity {
 }
 
 impl OneBody for Gravity {
+    const PART: Part = Part::Gravity;
+
     #[inline(always)]
     fn add(&mut self, particles: &mut Particles, _: &[u32]) {
         let [x, z] = self.acceleration;

@@ -7,6 +7,7 @@ mod swirl;
 mod updraught;
 
 use super::particles::Particles;
+use super::profile::Part;
 use crate::scene::Scene;
 use fearless_simd::Level;
 
@@ -16,12 +17,18 @@ pub(super) trait Effect: Send {
     /// of spheres that shield each one from below.
     fn apply(&mut self, level: Level, particles: &mut Particles, shielding: &[u32]);
 
+    /// What it is called in a profile.
+    fn part(&self) -> Part;
+
     /// The potential energy (J) of a force that has one; none of the others.
     fn energy(&self, particles: &Particles) -> Option<f64>;
 }
 
 /// The loop of an effect, to be compiled once per instruction set.
 trait OneBody: Send {
+    /// What it is called in a profile.
+    const PART: Part;
+
     /// As [`Effect::apply`]; implementations must be inlined always.
     fn add(&mut self, particles: &mut Particles, shielding: &[u32]);
 
@@ -37,6 +44,10 @@ impl<E: OneBody> Effect for E {
             let _ = simd;
             self.add(particles, shielding);
         });
+    }
+
+    fn part(&self) -> Part {
+        E::PART
     }
 
     fn energy(&self, particles: &Particles) -> Option<f64> {

@@ -2,6 +2,7 @@
 
 use super::OneBody;
 use crate::dem::particles::Particles;
+use crate::dem::profile::Part;
 use crate::scene;
 
 pub(super) struct SpinDamping {
@@ -17,6 +18,8 @@ impl SpinDamping {
 }
 
 impl OneBody for SpinDamping {
+    const PART: Part = Part::SpinDamping;
+
     #[inline(always)]
     fn add(&mut self, particles: &mut Particles, _: &[u32]) {
         for (torque, &spin) in particles.torque.iter_mut().zip(&particles.spin) {

@@ -5,6 +5,7 @@ use super::drag::{
 };
 use super::{Effect, OneBody};
 use crate::dem::particles::Particles;
+use crate::dem::profile::Part;
 use crate::dem::vector::Vector;
 use crate::scene::{self, Drag};
 use std::marker::PhantomData;
@@ -38,6 +39,8 @@ pub(super) fn of_scene(
 }
 
 impl<K: DragKernel> OneBody for Swirl<K> {
+    const PART: Part = Part::Swirl;
+
     #[inline(always)]
     fn add(&mut self, particles: &mut Particles, _: &[u32]) {
         let coefficients = self

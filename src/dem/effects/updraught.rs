@@ -4,6 +4,7 @@ use super::drag::{Coefficients, DragKernel, Form, Linear, QuadraticComponents, f
 use super::{Effect, OneBody};
 use crate::dem::math::exp;
 use crate::dem::particles::Particles;
+use crate::dem::profile::Part;
 use crate::scene::{self, Drag};
 use std::marker::PhantomData;
 
@@ -52,6 +53,8 @@ pub(super) fn of_scene(
 }
 
 impl<K: DragKernel> OneBody for Updraught<K> {
+    const PART: Part = Part::Updraught;
+
     #[inline(always)]
     fn add(&mut self, particles: &mut Particles, shielding: &[u32]) {
         let count = particles.len();

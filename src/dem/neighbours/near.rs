@@ -214,13 +214,17 @@ impl Near {
     }
 
     /// Counts the spheres that shield each one at the present positions.
-    #[inline(always)]
-    pub(in crate::dem) fn count_shielding<S: Simd>(
+    pub(in crate::dem) fn count_shielding(
         &mut self,
-        simd: S,
+        level: Level,
         particles: &Particles,
         shielding: &mut [u32],
     ) {
+        fearless_simd::dispatch!(level, simd => self.count(simd, particles, shielding));
+    }
+
+    #[inline(always)]
+    fn count<S: Simd>(&mut self, simd: S, particles: &Particles, shielding: &mut [u32]) {
         shielding.copy_from_slice(&self.shielding);
         let glance = &mut *self.glance;
         for pairs in self.undecided.chunks_exact(BLOCK) {

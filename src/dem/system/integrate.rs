@@ -6,6 +6,7 @@ use super::{Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
 use crate::dem::particles::Particles;
+use crate::dem::profile::{self, Part};
 use crate::dem::vector::Vector;
 use crate::record::Instability;
 use crate::scene::Integrator;
@@ -40,10 +41,12 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// v += a dt for a time `dt`, and the same for spins. True if a sphere is too fast.
     pub(super) fn kick(&mut self, dt: f64) -> bool {
         let level = self.level;
-        fearless_simd::dispatch!(level, simd => {
+        let too_fast = fearless_simd::dispatch!(level, simd => {
             let _ = simd;
             self.kick_all(dt)
-        })
+        });
+        self.mark(Part::Kick);
+        too_fast
     }
 
     #[inline(always)]
@@ -86,6 +89,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             let _ = simd;
             self.drift_all(dt);
         });
+        self.mark(Part::Drift);
     }
 
     #[inline(always)]
@@ -134,12 +138,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.moves += steps * spheres;
         }
         for _ in 0..steps {
+            profile::begin(&mut self.profile, self.step, spheres as usize);
             match self.parts.integrator {
                 Integrator::SymplecticEuler => self.symplectic_euler()?,
                 Integrator::VelocityVerlet => self.velocity_verlet()?,
                 Integrator::SynchronisedVerlet => self.synchronised_verlet()?,
                 Integrator::AdaptiveVerlet => self.adaptive_verlet()?,
             }
+            self.mark(Part::Rest);
         }
         Ok(())
     }

@@ -11,6 +11,7 @@ use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, Spring, TangentialLaw};
 use crate::dem::neighbours::NearPair;
 use crate::dem::particles::{Particles, retain};
+use crate::dem::profile::Part;
 use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;
 use serde::{Deserialize, Serialize};
@@ -182,6 +183,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         for i in particles.fixed..particles.len() {
             ledger.books.note_kick(i, particles, dt);
         }
+        self.mark(Part::Ledger);
     }
 
     /// Notes all contacts, before their forces are evaluated: histories are not moved on.

@@ -5,6 +5,7 @@ use super::{Age, Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
 use crate::dem::particles::Particles;
+use crate::dem::profile::Part;
 use crate::dem::walls::Wall;
 use crate::record::Instability;
 
@@ -17,7 +18,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.near.adapt(self.near_age.steps, list.skin());
         self.near_age = Age::default();
         if !list.holds(&self.parts.particles, self.age.time, self.near.margin()) {
+            self.mark(Part::Near);
             self.rebuild()?;
+            self.mark(Part::List);
         }
         self.stale = false;
         if let Some(list) = &self.list {
@@ -39,6 +42,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 find_near_wall(wall, particles, margin, near, history);
             }
         }
+        self.mark(Part::Near);
         Ok(())
     }
 

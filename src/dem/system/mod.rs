@@ -24,6 +24,7 @@ use super::friction::TangentialLaw;
 use super::guard::Limits;
 use super::neighbours::{Near, Reach, VerletList};
 use super::particles::{Particles, Sphere, retain};
+use super::profile::{self, Part, Profile};
 use super::state::StateError;
 use super::walls::{Cylinder, Floor};
 use crate::record::Instability;
@@ -43,6 +44,10 @@ pub(in crate::dem) trait Engine: Send {
     fn use_baseline_instructions(&mut self);
     /// Begins to keep the books of energy; never changes the motion.
     fn keep_ledger(&mut self);
+    /// Begins to measure what the parts of a step take; never changes the motion.
+    fn keep_profile(&mut self, profile: Profile);
+    /// What was measured, if anything is.
+    fn profile(&self) -> Option<&Profile>;
     /// Work since the start, if books are kept.
     fn work(&self) -> Option<Work>;
     /// Adds a sphere; effects must not depend on how many there are.
@@ -104,6 +109,7 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     before: Before,
     workspace: Workspace<T::History>,
     ledger: Option<Ledger>,
+    profile: Option<Box<Profile>>,
     /// What all spheres are like, if they are alike.
     alike: Option<Solid>,
     block: Box<PairBlock<T::History>>,
@@ -156,6 +162,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             before: Before::default(),
             workspace: Workspace::default(),
             ledger: None,
+            profile: None,
             alike: Solid::of_all(&parts.particles),
             block: Box::new(PairBlock::new()),
             shielding: vec![0; if parts.shielded { count } else { 0 }],
@@ -185,7 +192,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         let among = self.take_all();
         self.note_all_contacts(&among);
+        self.mark_ledger();
         self.parts.particles.clear_forces();
+        self.mark(Part::Rest);
         if self.list.is_some() {
             self.forces_among(&among);
         }
@@ -201,6 +210,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     fn apply_effects(&mut self) {
+        if self.parts.shielded {
+            let (near, particles) = (&mut self.near, &self.parts.particles);
+            near.count_shielding(self.level, particles, &mut self.shielding);
+            self.mark(Part::Shield);
+        }
         let Parts {
             particles, effects, ..
         } = &mut self.parts;
@@ -210,6 +224,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 before = Some([particles.force.clone(), particles.torque.clone()]);
             }
             effect.apply(self.level, particles, &self.shielding);
+            profile::mark(&mut self.profile, effect.part());
         }
         if let (Some(ledger), Some([force, torque])) = (&mut self.ledger, before) {
             ledger.books.note_air([&force, &torque], particles);
@@ -229,6 +244,20 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
+    /// Ends a part of a step that is looked at.
+    #[inline(always)]
+    fn mark(&mut self, part: Part) {
+        profile::mark(&mut self.profile, part);
+    }
+
+    /// The same of the ledger, if there is one.
+    #[inline(always)]
+    fn mark_ledger(&mut self) {
+        if self.ledger.is_some() {
+            self.mark(Part::Ledger);
+        }
+    }
+
     /// Takes out what may touch, all of it.
     fn take_all(&mut self) -> Among {
         Among {
@@ -244,7 +273,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.near_cylinder = among.cylinder;
     }
 
-    /// Adds the forces and torques of contacts, and counts shielding spheres.
+    /// Adds the forces and torques of contacts.
     fn forces_among(&mut self, among: &Among) {
         let level = self.level;
         fearless_simd::dispatch!(level, simd => self.contact_forces(simd, among));
@@ -253,26 +282,30 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     #[inline(always)]
     fn contact_forces<S: Simd>(&mut self, simd: S, among: &Among) {
         self.pair_forces(simd, &among.pairs);
+        if N::ACTS {
+            self.mark(Part::Pairs);
+        }
         if let (true, Some(floor)) = (N::ACTS, self.parts.floor) {
             let mut history = std::mem::take(&mut self.floor_history);
             self.wall_forces(simd, floor, &among.floor, &mut history);
             self.floor_history = history;
+            self.mark(Part::Floor);
         }
         if let (true, Some(cylinder)) = (N::ACTS, self.parts.cylinder) {
             let mut history = std::mem::take(&mut self.cylinder_history);
             self.wall_forces(simd, cylinder, &among.cylinder, &mut history);
             self.cylinder_history = history;
-        }
-        if self.parts.shielded {
-            self.near
-                .count_shielding(simd, &self.parts.particles, &mut self.shielding);
+            self.mark(Part::Cylinder);
         }
     }
 }
 
 impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
     fn advance(&mut self, steps: u64) -> Result<(), Instability> {
-        self.steps(steps)?;
+        self.profile.iter_mut().for_each(|it| it.enter());
+        let result = self.steps(steps);
+        self.profile.iter_mut().for_each(|it| it.leave());
+        result?;
         let Parts {
             particles,
             limits,
@@ -304,6 +337,14 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
 
     fn keep_ledger(&mut self) {
         self.ledger = Some(Ledger::default());
+    }
+
+    fn keep_profile(&mut self, profile: Profile) {
+        self.profile = Some(Box::new(profile));
+    }
+
+    fn profile(&self) -> Option<&Profile> {
+        self.profile.as_deref()
     }
 
     fn work(&self) -> Option<Work> {
