@@ -321,15 +321,27 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Loads the springs of an island over the last `time` (s) of its step.
     fn load_springs(&mut self, island: &Island, time: f64, work: &mut Workspace<T::History>) {
         self.loading = Loading::present(time);
+        let spheres = || island.spheres.iter().map(|&i| i as usize);
         let particles = &self.parts.particles;
-        work.held.force.clone_from(&particles.force);
-        work.held.torque.clone_from(&particles.torque);
+        work.held.force.clear();
+        work.held
+            .force
+            .extend(spheres().map(|i| particles.force[i]));
+        work.held.torque.clear();
+        if particles.rotate() {
+            let torques = spheres().map(|i| particles.torque[i]);
+            work.held.torque.extend(torques);
+        }
         self.forces_among(&island.among);
         // Forces are those of the last middle still, and the next step finds what is too deep, if it
         // matters.
         let particles = &mut self.parts.particles;
-        particles.force.copy_from_slice(&work.held.force);
-        particles.torque.copy_from_slice(&work.held.torque);
+        for (i, &force) in spheres().zip(&work.held.force) {
+            particles.force[i] = force;
+        }
+        for (i, &torque) in spheres().zip(&work.held.torque) {
+            particles.torque[i] = torque;
+        }
         self.too_deep = None;
     }
 

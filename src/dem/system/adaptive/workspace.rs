@@ -35,8 +35,10 @@ pub(in crate::dem::system) struct Workspace<H> {
 /// What spheres have while something else is tried with them.
 #[derive(Default)]
 pub(super) struct Held {
+    /// Of every sphere.
     pub(super) velocity: Vec<Vector>,
     pub(super) spin: Vec<Vector>,
+    /// Of those of an island.
     pub(super) force: Vec<Vector>,
     pub(super) torque: Vec<Vector>,
 }
