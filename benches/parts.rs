@@ -5,7 +5,7 @@
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use phase::dem::contact::{Hertz, NormalLaw};
-use phase::dem::friction::{Coulomb, Frictionless, Mindlin, TangentialLaw, Touch};
+use phase::dem::friction::{Coulomb, Frictionless, Mindlin, Spring, TangentialLaw, Touch};
 use phase::dem::neighbours::{Reach, VerletList};
 use phase::dem::vector::Vector;
 use phase::dem::{Simulation, start};
@@ -52,17 +52,17 @@ fn touches() -> Vec<Touch> {
 fn laws<T: TangentialLaw>(bencher: Bencher<'_, '_>, tangential: T) {
     let normal = Hertz::new(2.83e5, 0.3, 1e-3, 1.0);
     let touches = touches();
-    let mut histories = vec![T::History::default(); BLOCK];
+    let mut springs = [Spring::default(); BLOCK];
     bencher.counter(ItemsCount::new(BLOCK)).bench_local(|| {
         let mut sum = Vector::ZERO;
-        for (touch, history) in black_box(&touches).iter().zip(&mut histories) {
+        for (touch, spring) in black_box(&touches).iter().zip(&mut springs) {
             let rate = -touch.velocity.dot(touch.normal);
             let force = normal.force(touch.overlap, rate, touch.effective_radius);
             let touch = Touch {
                 normal_force: force,
                 ..*touch
             };
-            sum += touch.normal * force + tangential.traction(&touch, history).force;
+            sum += touch.normal * force + tangential.traction(&touch, spring).force;
         }
         sum
     });

@@ -92,7 +92,7 @@ fn spheres_without_forces_have_no_lists() {
     scene.friction = None;
     scene.updraught = None;
     let cost = RunCost::measure(&scene, LONG).unwrap();
-    for part in [Part::Rows, Part::List, Part::Near, Part::Pairs, Part::Floor] {
+    for part in [Part::List, Part::Near, Part::Pairs, Part::Floor] {
         assert!(!part.is_in(&scene), "{part:?}");
         assert_eq!(cost.seconds(part), 0.0, "{part:?}");
     }
