@@ -110,7 +110,14 @@ impl Checkpoints {
 
     fn write(&self, run: &Run) -> Result<(), StoreError> {
         match run.state() {
-            Some(state) => store::write_checkpoint(&self.path, run.scene(), &state),
+            Some(state) => {
+                // Its folder may have been removed while the run went on. What fails here fails again in
+                // writing, which says so.
+                if let Some(folder) = self.path.parent() {
+                    let _ = fs::create_dir_all(folder);
+                }
+                store::write_checkpoint(&self.path, run.scene(), &state)
+            }
             // A guard ended the run: there is nothing to go on with.
             None => Ok(()),
         }

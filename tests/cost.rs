@@ -6,6 +6,7 @@
 mod support;
 
 use phase::cost::{Part, RunCost, SweepCost};
+use phase::record::Outcome;
 use phase::scene::{Integrator, Scene};
 use phase::store::content_digest;
 use serde_json::Value;
@@ -168,4 +169,24 @@ fn a_few_jobs_stand_for_a_sweep() {
     text.says("omega = 4, seed 1")
         .says("stands for 2 jobs")
         .says("total");
+}
+
+/// Symptom: a run that a guard ended was called the whole run, and start and record of a single frame were
+/// taken for what every step costs.
+#[test]
+fn a_run_that_becomes_unstable_is_named_and_its_record_counts_once() {
+    let mut scene = realistic(5.0);
+    scene.guards.displacement = 1e-6;
+    let cost = RunCost::measure(&scene, LONG).unwrap();
+    assert!(matches!(cost.record.outcome, Outcome::Unstable(_)));
+    for part in [Part::Start, Part::Record] {
+        assert_eq!(cost.all_seconds(part), cost.seconds(part), "{part:?}");
+    }
+    let place = Workplace::new();
+    let text = std::fs::read_to_string("sweeps/scenes/realistic.toml").unwrap();
+    place.write("scene.toml", &(text + "\n[guards]\ndisplacement = 1e-6\n"));
+    let answer = json(&place, &["cost", "scene.toml", "--json"]);
+    assert_eq!(answer["tried"][0]["unstable"], true);
+    let said = place.phase(&["cost", "scene.toml"]).code(0).stdout;
+    assert!(said.contains("became unstable"), "{said}");
 }

@@ -9,7 +9,7 @@ use super::time_step::{self, Tightest, tightest_limits};
 use super::{classify, format, job, kind};
 use phase::dem::timestep::{Limit, Standing};
 use phase::scene::{Contact, Friction, Scene, Start};
-use phase::sweep::{Axis, Forecast, Job, Sweep, describe, forecast, work};
+use phase::sweep::{Axis, Forecast, Job, Leaves, Sweep, describe, forecast, work};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -69,11 +69,11 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if !arguments.no_trial {
         // A silo ends its run when it is empty.
         let may_end = jobs.iter().any(|job| job.scene.has_flow());
-        let found = print_forecast(&jobs, workers, may_end, console)?;
-        console.result(line(
-            "  disk",
-            format_args!("about {}", format::bytes(found.disk)),
-        ))?;
+        let found = print_forecast(&jobs, workers, may_end, Leaves::Records, console)?;
+        if let Some(disk) = found.disk {
+            let about = format!("about {}", format::bytes(disk));
+            console.result(line("  disk", about))?;
+        }
         forecast = Some(found);
     }
     let scene = &sweep.scene;
@@ -206,10 +206,11 @@ fn print_forecast(
     jobs: &[Job],
     workers: usize,
     may_end: bool,
+    leaves: Leaves,
     console: &Console,
 ) -> Result<Forecast, Failure> {
     console.note("running the first part of a few jobs ...");
-    let forecast = forecast(jobs, workers, TRIAL_TIME).map_err(Failure::failed)?;
+    let forecast = forecast(jobs, workers, TRIAL_TIME, leaves).map_err(Failure::failed)?;
     console.result(line(
         "forecast",
         format_args!(
@@ -292,7 +293,8 @@ struct ForecastAnswer {
     rate: f64,
     seconds: f64,
     memory: f64,
-    disk: f64,
+    /// None where no records are left.
+    disk: Option<f64>,
 }
 
 impl ForecastAnswer {

@@ -4,6 +4,7 @@ use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::{format, job, kind};
 use phase::cost::{Part, SweepCost, Tried};
+use phase::record::Outcome;
 use phase::sweep::{Axis, describe};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -64,9 +65,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 /// What of a job was run, and what it stands for.
 fn describe_tried(tried: &Tried<'_>, axes: &[Axis], jobs: usize) -> String {
     let cost = &tried.cost;
-    let extent = match cost.whole {
-        true => "the whole run",
-        false => "the first part of the run",
+    let extent = match (&cost.record.outcome, cost.whole) {
+        (Outcome::Unstable(instability), _) => {
+            format!("a run that became unstable ({instability})")
+        }
+        (_, true) => "the whole run".to_owned(),
+        (_, false) => "the first part of the run".to_owned(),
     };
     let what = format!(
         "{}, {} in {extent}",
@@ -140,6 +144,8 @@ struct TriedAnswer {
     seed: u64,
     stands_for: usize,
     whole: bool,
+    /// Whether a guard ended it.
+    unstable: bool,
     frames: u64,
     sphere_steps: u64,
     cpu_seconds: f64,
@@ -169,6 +175,7 @@ impl<'a> Answer<'a> {
             seed: tried.job.seed,
             stands_for: tried.jobs,
             whole: tried.cost.whole,
+            unstable: matches!(tried.cost.record.outcome, Outcome::Unstable(_)),
             frames: tried.cost.frames,
             sphere_steps: tried.cost.sphere_steps,
             cpu_seconds: tried.cost.total(),

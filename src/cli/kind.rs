@@ -42,6 +42,13 @@ pub(super) fn load_sweep(file: &Path) -> Result<Sweep, Failure> {
 
 /// Reads either, a scene as the sweep of just one; and whether it is a sweep.
 pub(super) fn load_scene_or_sweep(file: &Path) -> Result<(Sweep, bool), Failure> {
+    if is_study(file) {
+        return Err(Failure::refused(format_args!(
+            "{}: this is a study of stability, neither a scene nor a sweep; `phase check {0}` says what \
+             it costs",
+            file.display()
+        )));
+    }
     let is_sweep = is_sweep(file);
     let sweep = match is_sweep {
         true => phase::sweep::load(file).map_err(Failure::refused)?,

@@ -107,11 +107,11 @@ impl RunCost {
         self.parts[part as usize]
     }
 
-    /// Processor time of a part of the whole run (s), if it goes on as it began: the start comes only
-    /// once.
+    /// Processor time of a part of the whole run (s), if it goes on as it began: start and record come
+    /// only once.
     pub fn all_seconds(&self, part: Part) -> f64 {
         match part {
-            Part::Start => self.seconds(part),
+            Part::Start | Part::Record => self.seconds(part),
             _ => {
                 let rest = self.all_sphere_steps as f64 / self.sphere_steps.max(1) as f64;
                 self.seconds(part) * rest

@@ -27,8 +27,12 @@ pub struct Tried<'a> {
 impl Tried<'_> {
     /// Processor time of a part of all jobs that it stands for (s).
     pub fn seconds(&self, part: Part) -> f64 {
-        let own = self.cost.all_sphere_steps.max(1) as f64;
-        self.cost.all_seconds(part) * self.sphere_steps as f64 / own
+        let runs = match part {
+            // Once for every job, however far it comes.
+            Part::Start | Part::Record => self.jobs as f64,
+            _ => self.sphere_steps as f64 / self.cost.all_sphere_steps.max(1) as f64,
+        };
+        self.cost.all_seconds(part) * runs
     }
 }
 

@@ -23,8 +23,17 @@ pub struct Forecast {
     pub seconds: f64,
     /// Memory while it runs (bytes), roughly.
     pub memory: f64,
-    /// Size of all records (bytes).
-    pub disk: f64,
+    /// Size of all records (bytes), if they are left.
+    pub disk: Option<f64>,
+}
+
+/// What each run leaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Leaves {
+    /// A record.
+    Records,
+    /// Nothing but a row of a table.
+    Nothing,
 }
 
 /// Why there is no forecast.
@@ -59,8 +68,10 @@ pub enum ForecastError {
 
 /// Cost of one job, as tried.
 struct Trial {
-    /// Sphere-steps per second.
-    rate: f64,
+    /// Seconds per sphere-step.
+    step: f64,
+    /// Seconds that come once for every job: start and record.
+    once: f64,
     /// Size of the whole record (bytes).
     disk: f64,
     /// Memory of the run (bytes).
@@ -72,11 +83,16 @@ struct Trial {
 ///
 /// # Errors
 /// If a job of the trial fails.
-pub fn forecast(jobs: &[Job], workers: usize, budget: Duration) -> Result<Forecast, ForecastError> {
+pub fn forecast(
+    jobs: &[Job],
+    workers: usize,
+    budget: Duration,
+    leaves: Leaves,
+) -> Result<Forecast, ForecastError> {
     let chosen = representatives(jobs);
     let rounds = chosen.len().div_ceil(workers.max(1)).max(1);
     let budget = budget / rounds as u32;
-    let trials = work::map(workers, &chosen, |it| try_job(it.job, budget))?;
+    let trials = work::map(workers, &chosen, |it| try_job(it.job, budget, leaves))?;
     let trials: Vec<Trial> = trials.into_iter().collect::<Result<_, _>>()?;
     let sum = |value: &dyn Fn(&Trial, &Representative<'_>) -> f64| -> f64 {
         let pairs = trials.iter().zip(&chosen);
@@ -87,7 +103,10 @@ pub fn forecast(jobs: &[Job], workers: usize, budget: Duration) -> Result<Foreca
     };
     let sphere_steps = chosen.iter().map(|it| it.sphere_steps).sum();
     // Times add up, not rates.
-    let rate = sphere_steps as f64 / sum(&|trial, chosen| chosen.sphere_steps as f64 / trial.rate);
+    let seconds = sum(&|trial, chosen| {
+        trial.step * chosen.sphere_steps as f64 + trial.once * chosen.jobs as f64
+    });
+    let rate = sphere_steps as f64 / seconds;
     let at_once = workers.min(jobs.len()).max(1) as f64;
     Ok(Forecast {
         tried: chosen.len(),
@@ -95,7 +114,7 @@ pub fn forecast(jobs: &[Job], workers: usize, budget: Duration) -> Result<Foreca
         rate,
         seconds: sphere_steps as f64 / rate / at_once,
         memory: PROGRAM_MEMORY + at_once * mean(|trial| trial.memory),
-        disk: jobs.len() as f64 * mean(|trial| trial.disk),
+        disk: (leaves == Leaves::Records).then(|| jobs.len() as f64 * mean(|trial| trial.disk)),
     })
 }
 
@@ -103,24 +122,30 @@ pub fn forecast(jobs: &[Job], workers: usize, budget: Duration) -> Result<Foreca
 const PROGRAM_MEMORY: f64 = 10e6;
 
 /// Runs the beginning of a job for about the time of the budget.
-fn try_job(job: &Job, budget: Duration) -> Result<Trial, ForecastError> {
+fn try_job(job: &Job, budget: Duration, leaves: Leaves) -> Result<Trial, ForecastError> {
     let failed = |source| ForecastError::Cost {
         id: job.id.clone(),
         source,
     };
     // The rest of the budget is for runs that end, since only these tell the size of a whole record.
     let cost = RunCost::measure(&job.scene, budget / 2).map_err(failed)?;
-    let disk = match cost.whole {
-        true => size_of_record(&cost.record)?,
-        false => {
+    let disk = match (leaves, cost.whole) {
+        (Leaves::Nothing, _) => 0.0,
+        (Leaves::Records, true) => size_of_record(&cost.record)?,
+        (Leaves::Records, false) => {
             let all_frames = run::frames(&job.scene).1;
             size_of_whole_run(job, (cost.frames / 2).max(20).min(all_frames))?
         }
     };
+    let start = cost.seconds(Part::Start);
     // The record is written by the same worker.
-    let seconds = cost.elapsed + cost.seconds(Part::Record);
+    let record = match leaves {
+        Leaves::Records => cost.seconds(Part::Record),
+        Leaves::Nothing => 0.0,
+    };
     Ok(Trial {
-        rate: cost.sphere_steps.max(1) as f64 / seconds,
+        step: (cost.elapsed - start).max(0.0) / cost.sphere_steps.max(1) as f64,
+        once: start + record,
         disk,
         // The record in memory and as the bytes of its file, neither compressed.
         memory: 4.0 * disk + job.scene.spheres.count as f64 * ENGINE_BYTES,

@@ -24,7 +24,7 @@ pub(crate) use axis::AxisEntry;
 pub use dumps::find_dumps;
 pub use failure::{Failure, describe};
 pub use folder::{Folder, FolderError};
-pub use forecast::{Forecast, ForecastError, forecast};
+pub use forecast::{Forecast, ForecastError, Leaves, forecast};
 pub use job::{Job, PointError};
 pub(crate) use job::{grid, points, scene_with};
 pub use label::{Labelling, changes, irreplaceable};

@@ -1,6 +1,7 @@
 //! The few jobs from which is told what all cost.
 
 use super::{Job, work};
+use crate::scene::Integrator;
 
 /// A job that stands for those nearest to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,7 +14,7 @@ pub(crate) struct Representative<'a> {
     pub(crate) sphere_steps: u64,
 }
 
-/// The jobs at the corners and in the middle of the grid, of the first seed. The others, of all seeds,
+/// The jobs at the corners and in the middle of the grid, of the first seed and each integrator. The others, of all seeds,
 /// are shared out among them: each to the nearest, counted in steps of the grid over its width.
 pub(crate) fn representatives(jobs: &[Job]) -> Vec<Representative<'_>> {
     let (Some(first), Some(last)) = (jobs.first(), jobs.last()) else {
@@ -28,9 +29,16 @@ pub(crate) fn representatives(jobs: &[Job]) -> Vec<Representative<'_>> {
             chosen.push(job);
         }
     }
-    let middle = of_first_seed[of_first_seed.len() / 2];
-    if !chosen.iter().any(|job| job.values == middle.values) {
-        chosen.push(middle);
+    // A study goes over the grid once with each integrator.
+    for integrator in Integrator::ALL {
+        let own = |job: &&Job| job.scene.time.integrator == integrator;
+        let of_it: Vec<&Job> = of_first_seed.iter().copied().filter(own).collect();
+        let Some(&middle) = of_it.get(of_it.len() / 2) else {
+            continue;
+        };
+        if !chosen.iter().any(|job| job.id == middle.id) {
+            chosen.push(middle);
+        }
     }
     let axes = axes(jobs);
     let places: Vec<Vec<f64>> = chosen.iter().map(|job| place(job, &axes)).collect();
@@ -75,7 +83,10 @@ fn place(job: &Job, axes: &[Vec<f64>]) -> Vec<f64> {
         let index = axis.iter().position(|it| it == value).unwrap_or(0);
         index as f64 / (axis.len().max(2) - 1) as f64
     };
-    axes.iter().zip(&job.values).map(along).collect()
+    let place = axes.iter().zip(&job.values).map(along);
+    // Whatever the axes, no job stands for one of another integrator.
+    let integrator = (2 * axes.len() * job.scene.time.integrator as usize) as f64;
+    place.chain([integrator]).collect()
 }
 
 fn distance_squared(a: &[f64], b: &[f64]) -> f64 {
@@ -133,6 +144,28 @@ mod tests {
         // The middle has those less than four steps away, 1 + 4 + 8 + 12 points; at four steps corners
         // are as near, and come first.
         assert_eq!(chosen[4].jobs, 25 * 3);
+    }
+
+    /// Symptom: the forecast of a study depended on the order of its integrators. Cause: jobs of all of them
+    /// were given to the first.
+    #[test]
+    fn jobs_of_an_integrator_stand_for_its_own() {
+        let mut jobs = Vec::new();
+        for integrator in [Integrator::VelocityVerlet, Integrator::AdaptiveVerlet] {
+            for mut job in grid(3, 1) {
+                job.scene.time.integrator = integrator;
+                job.id = format!("{integrator:?} {}", job.id);
+                jobs.push(job);
+            }
+        }
+        let chosen = representatives(&jobs);
+        assert_eq!(chosen.len(), 10);
+        for integrator in [Integrator::VelocityVerlet, Integrator::AdaptiveVerlet] {
+            let own = chosen
+                .iter()
+                .filter(|it| it.job.scene.time.integrator == integrator);
+            assert_eq!(own.map(|it| it.jobs).sum::<usize>(), 9);
+        }
     }
 
     #[test]

@@ -18,18 +18,13 @@ fn each_integrator(trial: impl Fn(Integrator) + Sync) {
     });
 }
 
-/// Adaptive Verlet goes a tenth of the steps: by its sub-steps it goes over a contact as often in these.
 #[test]
-#[ignore = "takes a minute"]
+#[ignore = "takes three minutes"]
 fn a_column_of_a_hundred_stays_at_rest_for_a_million_steps() {
     each_integrator(|integrator| {
-        let steps = match integrator {
-            Integrator::AdaptiveVerlet => 100_000,
-            _ => 1_000_000,
-        };
         for friction in column_frictions() {
             let scene = crowded(&column(&[RADIUS; 100], friction), integrator, LIMIT);
-            let [way, speed] = drift(&scene, steps);
+            let [way, speed] = drift(&scene, 1_000_000);
             assert!(way < 1e-10 && speed < 1e-10, "{way} radii, {speed} m/s");
         }
     });
@@ -49,16 +44,11 @@ fn a_leaning_column_of_twenty_with_static_friction_does_not_creep() {
     });
 }
 
-/// Four thousand by adaptive Verlet: each of them costs it several times as much as the others.
 #[test]
-#[ignore = "takes two minutes"]
+#[ignore = "takes five minutes"]
 fn twenty_thousand_spheres_dropped_at_once_come_to_rest() {
     each_integrator(|integrator| {
-        let count = match integrator {
-            Integrator::AdaptiveVerlet => 4_000,
-            _ => 20_000,
-        };
-        let scene = crowded(&dropped(count, Some(MINDLIN)), integrator, LIMIT);
+        let scene = crowded(&dropped(20_000, Some(MINDLIN)), integrator, LIMIT);
         falls_soundly(&scene, 3000, 3);
     });
 }

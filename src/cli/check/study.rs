@@ -6,7 +6,7 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::format;
 use phase::scene::Integrator;
 use phase::stability::{self, Study, Theory};
-use phase::sweep::{Axis, Job};
+use phase::sweep::{Axis, Job, Leaves};
 use serde::Serialize;
 use std::path::Path;
 
@@ -26,7 +26,13 @@ pub(super) fn main(
     let forecast = match arguments.no_trial {
         true => None,
         // A guard may end any run.
-        false => Some(print_forecast(&jobs, workers, true, console)?),
+        false => Some(print_forecast(
+            &jobs,
+            workers,
+            true,
+            Leaves::Nothing,
+            console,
+        )?),
     };
     console.answer(&Answer {
         file: &arguments.file,

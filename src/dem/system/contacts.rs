@@ -36,7 +36,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Two spheres, with what they did before if springs are loaded by that.
     pub(super) fn couple(&self, i: u32, j: u32) -> Couple {
-        let (one, other) = (self.beside_wall(i), self.beside_wall(j));
+        let (one, other) = (self.alone(i), self.alone(j));
         let earlier = one.earlier.zip(other.earlier);
         Couple {
             offset: one.offset - other.offset,
@@ -50,8 +50,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
-    /// A sphere and a wall.
-    pub(super) fn beside_wall(&self, i: u32) -> Couple {
+    /// A sphere by itself, as walls meet it.
+    pub(super) fn alone(&self, i: u32) -> Couple {
         let (i, particles) = (i as usize, &self.parts.particles);
         let of = |vectors: &[Vector]| vectors.get(i).copied().unwrap_or_default();
         let sphere = Solid {

@@ -240,7 +240,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let laws = self.laws();
         for &i in near {
             let spring = histories[i as usize].spring();
-            let meeting = laws.at_wall(wall, &self.beside_wall(i), spring);
+            let meeting = laws.at_wall(wall, &self.alone(i), spring);
             if meeting.touches {
                 let [damping, tangential] = self.parts_of(&meeting);
                 ledger.books.add(i, damping, tangential, meeting.torque[0]);

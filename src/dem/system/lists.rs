@@ -83,7 +83,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 }
 
-/// Finds the spheres near a wall, and forgets the histories of the others.
+/// Finds the spheres near a wall that move, and forgets the histories of the others.
 fn find_near_wall<W: Wall, H: Default>(
     wall: W,
     particles: &Particles,
@@ -93,7 +93,7 @@ fn find_near_wall<W: Wall, H: Default>(
 ) {
     near.clear();
     for (i, (&centre, &radius)) in particles.position.iter().zip(&particles.radius).enumerate() {
-        if wall.is_near(centre, radius, margin) {
+        if i >= particles.fixed && wall.is_near(centre, radius, margin) {
             near.push(i as u32);
         } else {
             histories[i] = H::default();

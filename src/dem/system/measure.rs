@@ -64,7 +64,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 ),
             ];
             for (contact, history) in walls {
-                if let Some(contact) = contact.filter(|contact| contact.touches) {
+                if let Some(contact) = contact.filter(|contact| contact.touches && i >= *fixed) {
                     energy += self.normal.elastic_energy(contact.overlap, ri);
                     springs += spring(history, i, contact.overlap, ri);
                     *count += 1;

@@ -103,6 +103,19 @@ impl<H: History> PairBlock<H> {
         Vector::new(x[k], y[k], z[k])
     }
 
+    #[inline(always)]
+    fn take_spring(&mut self, k: usize, history: H) {
+        let Vector { x, y, z, .. } = history.spring().force;
+        self.spring.set(k, [x, y, z, 0.0]);
+    }
+
+    /// What a contact of the block remembers.
+    #[inline(always)]
+    pub(super) fn history(&self, k: usize) -> H {
+        let force = Self::vector(&self.spring, k);
+        H::of_spring(Spring { force })
+    }
+
     /// Says what all spheres are like, if they are alike: it is then not fetched.
     pub(super) fn set_alike(&mut self, alike: Option<Solid>) {
         if let Some(solid) = alike {
@@ -242,19 +255,6 @@ impl<H: History> PairBlock<H> {
                 self.take_spring(k, histories[pair.entry as usize]);
             }
         }
-    }
-
-    #[inline(always)]
-    fn take_spring(&mut self, k: usize, history: H) {
-        let Vector { x, y, z, .. } = history.spring().force;
-        self.spring.set(k, [x, y, z, 0.0]);
-    }
-
-    /// What a contact of the block remembers.
-    #[inline(always)]
-    pub(super) fn history(&self, k: usize) -> H {
-        let force = Self::vector(&self.spring, k);
-        H::of_spring(Spring { force })
     }
 
     /// The same with spheres near a wall.

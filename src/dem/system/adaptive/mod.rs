@@ -306,6 +306,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 spheres.for_each(|&i| ledger.books.clear_sphere(i));
             }
             self.note_contacts(&island.among);
+            self.mark_ledger();
             self.forces_among(&island.among);
             self.check_overlaps()?;
             for &i in &island.spheres {
@@ -333,8 +334,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             work.held.torque.extend(torques);
         }
         self.forces_among(&island.among);
-        // Forces are those of the last middle still, and the next step finds what is too deep, if it
-        // matters.
+        // Forces of spheres that move are those of the last middle still, and the next step finds what is
+        // too deep, if it matters.
         let particles = &mut self.parts.particles;
         for (i, &force) in spheres().zip(&work.held.force) {
             particles.force[i] = force;
