@@ -217,6 +217,8 @@ fn a_checkpoint_that_cannot_be_written_does_not_end_the_run() {
     let place = Workplace::new();
     let mut scene = tank(None, Integrator::SymplecticEuler);
     scene.time.duration = 0.02;
+    // A file where a folder should be.
+    place.write("no-folder", "");
     let checkpoints = Checkpoints::beside(&place.path("no-folder/run.h5"), Duration::ZERO);
     let run = || Run::new(&scene).unwrap();
     let mut warnings = Vec::new();
@@ -238,4 +240,18 @@ fn a_checkpoint_that_cannot_be_written_does_not_end_the_run() {
 
     let ending = checkpoints.run(run(), &mut |_| ControlFlow::Break(()), &mut |_| {});
     assert!(matches!(ending, Ending::Lost(_)), "{ending:?}");
+}
+
+/// Symptom: a run whose folder was removed while it went on left no checkpoint when it was stopped. Cause:
+/// only the record made its folder again.
+#[test]
+fn a_folder_that_was_removed_is_made_again_for_the_checkpoint() {
+    let place = Workplace::new();
+    let mut scene = tank(None, Integrator::SymplecticEuler);
+    scene.time.duration = 0.02;
+    let checkpoints = Checkpoints::beside(&place.path("removed/run.h5"), Duration::ZERO);
+    let run = Run::new(&scene).unwrap();
+    let ending = checkpoints.run(run, &mut |_| ControlFlow::Break(()), &mut |_| {});
+    assert!(matches!(ending, Ending::Interrupted), "{ending:?}");
+    assert!(place.path("removed/run.checkpoint").is_file());
 }
