@@ -123,6 +123,8 @@ impl History for Spring {
 pub trait TangentialLaw: Copy + Send + 'static {
     /// Whether spheres rotate, which costs spins and torques.
     const ROTATES: bool = true;
+    /// Whether the law asks for masses and moments of inertia; a [`Touch`] need not have them otherwise.
+    const WEIGHS: bool = false;
     /// What a contact remembers from step to step; `()` costs nothing. A checkpoint stores it.
     type History: History;
 

@@ -24,6 +24,7 @@ impl SpinFriction {
 }
 
 impl TangentialLaw for SpinFriction {
+    const WEIGHS: bool = true;
     type History = ();
 
     #[inline(always)]

@@ -125,18 +125,19 @@ impl<H: History> PairBlock<H> {
 
     /// Fetches what of the spheres of one side does not change.
     #[inline(always)]
-    fn gather_solid(&mut self, side: usize, particles: &Particles) {
+    fn gather_solid<T: TangentialLaw>(&mut self, side: usize, particles: &Particles) {
         let Solids {
             radius,
             mass,
             inertia,
         } = &mut self.solid[side];
         for (k, &i) in self.index[side].iter().enumerate() {
-            let i = i as usize;
-            radius[k] = particles.radius[i];
-            mass[k] = particles.mass[i];
-            if particles.rotate() {
-                inertia[k] = particles.inertia[i];
+            radius[k] = particles.radius[i as usize];
+        }
+        if T::WEIGHS {
+            for (k, &i) in self.index[side].iter().enumerate() {
+                mass[k] = particles.mass[i as usize];
+                inertia[k] = particles.inertia[i as usize];
             }
         }
     }
@@ -168,8 +169,8 @@ impl<H: History> PairBlock<H> {
             self.gather_spin(simd, 1, &particles.spin);
         }
         if !alike {
-            self.gather_solid(0, particles);
-            self.gather_solid(1, particles);
+            self.gather_solid::<T>(0, particles);
+            self.gather_solid::<T>(1, particles);
         }
         if Self::REMEMBERS && !earlier.is_empty() {
             self.earlier_velocity.gather_differences(
@@ -210,7 +211,7 @@ impl<H: History> PairBlock<H> {
             self.gather_spin(simd, 0, &particles.spin);
         }
         if !alike {
-            self.gather_solid(0, particles);
+            self.gather_solid::<T>(0, particles);
         }
         if Self::REMEMBERS && !earlier.is_empty() {
             self.earlier_velocity.gather(
