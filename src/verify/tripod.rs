@@ -3,7 +3,7 @@
 use super::bench::{Bench, Material, at, downward};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
-use crate::dem::contact::{Hertz, NormalLaw};
+use crate::dem::contact::{Hertz, NormalLaw, contact_radius};
 use crate::dem::vector::Vector;
 use crate::scene::{Scene, Tank};
 use serde::Deserialize;
@@ -67,7 +67,7 @@ impl Family for Tripod {
         let force = |foot: usize| {
             let offset = particles.position[3] - particles.position[foot];
             let overlap = 2.0 * self.radius - offset.norm();
-            law.force(overlap, 0.0, 0.5 * self.radius) / weight
+            law.force(overlap, 0.0, contact_radius(overlap, 0.5 * self.radius)) / weight
         };
         let forces = [force(0), force(1), force(2)];
         let Vector { x, y, z, .. } = bench.force_of_walls(&scene, particles)?;

@@ -1,6 +1,6 @@
 //! Viscoelastic Hertz contact.
 
-use super::NormalLaw;
+use super::{NormalLaw, contact_radius};
 
 /// F = K (xi^1.5 + c A sqrt(xi) dxi/dt), never attractive, with
 /// K = 2 Y sqrt(R_eff) / (3 (1 - nu^2)), overlap xi, dissipation time A and factor c:
@@ -25,26 +25,26 @@ impl Hertz {
 }
 
 impl NormalLaw for Hertz {
+    const WIDENS: bool = true;
+
     #[inline(always)]
-    fn force(&self, overlap: f64, overlap_rate: f64, effective_radius: f64) -> f64 {
-        // Elastic and dissipative part share sqrt(R_eff xi), so that one root serves both.
-        let force = self.modulus
-            * (effective_radius * overlap).sqrt()
-            * (overlap + self.dissipation * overlap_rate);
+    fn force(&self, overlap: f64, overlap_rate: f64, contact_radius: f64) -> f64 {
+        let force =
+            self.modulus * contact_radius * (overlap + self.dissipation * overlap_rate);
         if force < 0.0 { 0.0 } else { force }
     }
 
     #[inline(always)]
     fn elastic_energy(&self, overlap: f64, effective_radius: f64) -> f64 {
-        0.4 * self.modulus * (effective_radius * overlap).sqrt() * overlap * overlap
+        0.4 * self.modulus * contact_radius(overlap, effective_radius) * overlap * overlap
     }
 
     fn stiffness(&self, overlap: f64, effective_radius: f64) -> f64 {
-        1.5 * self.modulus * (effective_radius * overlap).sqrt()
+        1.5 * self.modulus * contact_radius(overlap, effective_radius)
     }
 
     fn damping(&self, overlap: f64, effective_radius: f64) -> f64 {
-        self.modulus * (effective_radius * overlap).sqrt() * self.dissipation
+        self.modulus * contact_radius(overlap, effective_radius) * self.dissipation
     }
 
     fn deepest_overlap(

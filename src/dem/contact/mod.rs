@@ -7,6 +7,15 @@ pub mod restitution;
 pub use hertz::Hertz;
 pub use linear::Linear;
 
+use super::math::square_root;
+
+/// Radius sqrt(R_eff xi) (m) of the disc in which partners touch (Hertz, 1882), from the overlap xi (m) and the
+/// effective radius r1 r2 / (r1 + r2) (m; the sphere's own at a flat wall).
+#[inline(always)]
+pub fn contact_radius(overlap: f64, effective_radius: f64) -> f64 {
+    square_root(effective_radius * overlap)
+}
+
 /// A normal contact law. The engine is compiled for each law by itself.
 pub trait NormalLaw: Copy + Send + 'static {
     /// Whether there are contacts at all.
@@ -18,9 +27,11 @@ pub trait NormalLaw: Copy + Send + 'static {
     /// Whether the force may be attractive.
     const ATTRACTS: bool = false;
 
-    /// Repulsive force (N) from the overlap (m), its rate (m/s) and the effective radius
-    /// r1 r2 / (r1 + r2) (m; the sphere's own at a flat wall).
-    fn force(&self, overlap: f64, overlap_rate: f64, effective_radius: f64) -> f64;
+    /// Whether the force depends on the [`contact_radius`].
+    const WIDENS: bool = false;
+
+    /// Repulsive force (N) from the overlap (m), its rate (m/s) and the [`contact_radius`] (m).
+    fn force(&self, overlap: f64, overlap_rate: f64, contact_radius: f64) -> f64;
 
     /// Drag per tangential relative velocity of the centres (N s/m); asked for only if the law
     /// [drags sideways](Self::DRAGS_SIDEWAYS).

@@ -1,6 +1,7 @@
 //! Coulomb friction, regularised at rest.
 
 use super::{Spring, TangentialLaw, Touch, Traction};
+use crate::dem::math::inverse_square_root;
 
 /// f = -mu F_n u / max(|u|, u_0), with the sliding velocity u of the contact point (translation
 /// and spin). Below the regularisation speed u_0 it is viscous, so a pile at rest creeps.
@@ -26,13 +27,13 @@ impl TangentialLaw for Coulomb {
     #[inline(always)]
     fn traction(&self, touch: &Touch, _: &mut Spring) -> Traction {
         let sliding = touch.sliding_velocity();
-        let speed = sliding.norm();
-        let speed = if speed < self.regularisation {
-            self.regularisation
-        } else {
-            speed
-        };
-        touch.traction(sliding * (-self.coefficient * touch.normal_force / speed))
+        let (squared, least) = (
+            sliding.norm_squared(),
+            self.regularisation * self.regularisation,
+        );
+        let squared = if squared < least { least } else { squared };
+        let inverse_speed = inverse_square_root(squared);
+        touch.traction(sliding * (-self.coefficient * touch.normal_force * inverse_speed))
     }
 
     fn damping(&self, normal_force: f64, speed: f64) -> f64 {

@@ -67,7 +67,7 @@ mod tests {
             effective_radius: 0.02,
             normal_force: 2.0,
             loading_velocity: along * speed,
-            loading_overlap: 1e-4,
+            loading_radius: 1e-3,
             loading_time: DT,
         }
     }

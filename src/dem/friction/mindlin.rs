@@ -1,6 +1,7 @@
 //! Mindlin friction by increments.
 
 use super::{Spring, TangentialLaw, Touch, Traction};
+use crate::dem::contact::contact_radius;
 
 /// Mindlin's tangential stiffness k_t = 8 G* sqrt(R_eff xi) on a contact that sticks, loaded and
 /// unloaded by increments of the sliding displacement, df = -k_t du, and capped at mu F_n;
@@ -30,18 +31,19 @@ impl Mindlin {
 }
 
 impl TangentialLaw for Mindlin {
+    const WIDENS: bool = true;
     type History = Spring;
 
     #[inline(always)]
     fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction {
-        let stiffness = self.stiffness(touch.loading_overlap, touch.effective_radius);
+        let stiffness = self.modulus * touch.loading_radius;
         let limit = self.coefficient * touch.normal_force;
         spring.load(touch, stiffness, 0.0, limit)
     }
 
     #[inline(always)]
     fn stiffness(&self, overlap: f64, effective_radius: f64) -> f64 {
-        self.modulus * (effective_radius * overlap).sqrt()
+        self.modulus * contact_radius(overlap, effective_radius)
     }
 
     fn energy(&self, spring: &Spring, overlap: f64, effective_radius: f64) -> f64 {

@@ -41,8 +41,8 @@ pub struct Touch {
     pub normal_force: f64,
     /// The mean sliding velocity since the contact's latest evaluation (m/s), by which springs are loaded.
     pub loading_velocity: Vector,
-    /// The mean overlap since then (m).
-    pub loading_overlap: f64,
+    /// The mean [contact radius](super::contact::contact_radius) since then (m).
+    pub loading_radius: f64,
     /// The time since then (s).
     pub loading_time: f64,
 }
@@ -125,6 +125,8 @@ pub trait TangentialLaw: Copy + Send + 'static {
     const ROTATES: bool = true;
     /// Whether the law asks for masses and moments of inertia; a [`Touch`] need not have them otherwise.
     const WEIGHS: bool = false;
+    /// Whether the law asks for the [contact radius](super::contact::contact_radius).
+    const WIDENS: bool = false;
     /// What a contact remembers from step to step; `()` costs nothing. A checkpoint stores it.
     type History: History;
 

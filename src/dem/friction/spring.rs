@@ -1,6 +1,7 @@
 //! The loaded spring of a contact that sticks.
 
 use super::{Touch, Traction};
+use crate::dem::math::inverse_square_root;
 use crate::dem::vector::Vector;
 use serde::{Deserialize, Serialize};
 
@@ -10,6 +11,9 @@ pub struct Spring {
     /// Its force (N).
     pub(in crate::dem) force: Vector,
 }
+
+/// Of the squares of two forces (N4): those of a spring of 1e-70 N.
+const LEAST_PRODUCT: f64 = 1e-280;
 
 impl Spring {
     /// The traction of the spring, of a stiffness (N/m), and of a dashpot beside it (N s/m), together
@@ -28,11 +32,10 @@ impl Spring {
         let loading = touch.loading_velocity * (stiffness * touch.loading_time);
         let elastic = self.turned(touch.normal) - loading;
         let force = elastic - drag;
-        let norm = force.norm();
+        let squared = force.norm_squared();
         // Selects, not branches: so the loop over a block of contacts is turned into vector instructions.
-        let slides = norm > limit;
-        let scale = if slides { limit / norm } else { 1.0 };
-        let capped = force * scale;
+        let slides = squared > limit * limit;
+        let capped = force * (limit * inverse_square_root(squared));
         self.force = select(slides, capped + drag, elastic);
         touch.traction(select(slides, capped, force))
     }
@@ -48,12 +51,10 @@ impl Spring {
     fn turned(&self, normal: Vector) -> Vector {
         let turned = self.force.perpendicular_to(normal);
         let (before, after) = (self.force.norm_squared(), turned.norm_squared());
-        let scale = if after > 0.0 {
-            (before / after).sqrt()
-        } else {
-            0.0
-        };
-        select(after > 0.0, turned * scale, Vector::ZERO)
+        // One root for |before| / |after|; what is too small for it is no force.
+        let product = before * after;
+        let scale = before * inverse_square_root(product);
+        select(product > LEAST_PRODUCT, turned * scale, Vector::ZERO)
     }
 }
 

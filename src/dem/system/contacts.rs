@@ -43,6 +43,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             velocity: one.velocity - other.velocity,
             spin: [one.spin[0], other.spin[0]],
             solid: [one.solid[0], other.solid[0]],
+            inverse_sum: 1.0 / (one.solid[0].radius + other.solid[0].radius),
             earlier: earlier.map(|(one, other)| Earlier {
                 velocity: one.velocity - other.velocity,
                 spin: [one.spin[0], other.spin[0]],
@@ -65,6 +66,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             velocity: particles.velocity[i],
             spin: [of(&particles.spin), Vector::ZERO],
             solid: [sphere, Solid::WALL],
+            inverse_sum: 1.0 / sphere.radius,
             earlier: earlier.map(|&[velocity, spin]: &[Row; 2]| Earlier {
                 velocity: Vector::of_row(velocity),
                 spin: [Vector::of_row(spin), Vector::ZERO],

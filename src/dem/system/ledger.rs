@@ -258,7 +258,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         } = *meeting;
         let elastic = self
             .normal
-            .force(meeting.overlap, 0.0, meeting.effective_radius);
+            .force(meeting.overlap, 0.0, meeting.contact_radius);
         if !T::ROTATES {
             return [force - normal * elastic, Vector::ZERO];
         }

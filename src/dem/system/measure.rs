@@ -55,11 +55,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             } = &self.parts;
             let walls = [
                 (
-                    floor.map(|wall| wall.contact(centre, ri)),
+                    floor.map(|wall| wall.meet(centre, ri)),
                     &self.floor_history,
                 ),
                 (
-                    cylinder.map(|wall| wall.contact(centre, ri)),
+                    cylinder.map(|wall| wall.meet(centre, ri)),
                     &self.cylinder_history,
                 ),
             ];

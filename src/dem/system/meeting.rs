@@ -2,8 +2,9 @@
 //!
 //! Free of branches, as it stands in loops over blocks of contacts, which touch or not.
 
-use crate::dem::contact::NormalLaw;
+use crate::dem::contact::{NormalLaw, contact_radius};
 use crate::dem::friction::{Spring, TangentialLaw, Touch, Traction, sliding_velocity};
+use crate::dem::math::inverse_square_root;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use crate::dem::walls::{Wall, WallContact};
@@ -52,6 +53,8 @@ pub(super) struct Couple {
     pub(super) spin: [Vector; 2],
     /// What does not change from step to step.
     pub(super) solid: [Solid; 2],
+    /// 1 / (r1 + r2) (1/m).
+    pub(super) inverse_sum: f64,
     /// What they did before, by which springs are loaded, if not by the present.
     pub(super) earlier: Option<Earlier>,
 }
@@ -113,8 +116,8 @@ pub(super) struct Meeting {
     pub(super) velocity: Vector,
     /// Overlap (m).
     pub(super) overlap: f64,
-    /// Effective radius (m).
-    pub(super) effective_radius: f64,
+    /// Contact radius (m), if a law asks for it.
+    pub(super) contact_radius: f64,
     /// Force (N).
     pub(super) force: Vector,
     /// Torques on both partners (N m), zero without rotation.
@@ -130,49 +133,87 @@ struct Encounter {
     normal: Vector,
     overlap: f64,
     effective_radius: f64,
+    contact_radius: f64,
     /// Of friction alone.
     lever: [f64; 2],
     lesser_mass: f64,
-    /// Sliding velocity (m/s) and overlap (m) by which a spring is loaded, if not those of now.
+    /// Sliding velocity (m/s) and contact radius (m) by which a spring is loaded, if not those of now.
     loading: Option<(Vector, f64)>,
+}
+
+/// What of a contact takes longest to compute, and waits for nothing but places: a loop over many contacts
+/// finds these first, each in a loop of its own, so that the processor need not wait for one after the other.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Roots {
+    /// 1 / the distance of the centres, or what a [`Wall`] asks for (1/m).
+    pub(super) inverse_distance: f64,
+    /// The contact radius (m), if a law asks for it.
+    pub(super) contact_radius: f64,
 }
 
 impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
     const REMEMBERS: bool = size_of::<T::History>() > 0;
+    const WIDENS: bool = N::WIDENS | T::WIDENS;
 
     /// Two spheres.
     #[inline(always)]
     pub(super) fn between(&self, couple: &Couple, spring: Spring) -> Meeting {
+        let inverse_distance = inverse_square_root(couple.offset.norm_squared());
+        let roots = Roots {
+            inverse_distance,
+            contact_radius: self.contact_radius(couple, inverse_distance),
+        };
+        self.between_with(couple, roots, spring)
+    }
+
+    /// The contact radius of two spheres (m).
+    #[inline(always)]
+    pub(super) fn contact_radius(&self, couple: &Couple, inverse_distance: f64) -> f64 {
+        if !Self::WIDENS {
+            return 0.0;
+        }
+        let [one, other] = couple.solid;
+        let distance = couple.offset.norm_squared() * inverse_distance;
+        let overlap = one.radius + other.radius - distance;
+        contact_radius(overlap, effective_radius(couple))
+    }
+
+    /// Two spheres whose roots are known.
+    #[inline(always)]
+    pub(super) fn between_with(&self, couple: &Couple, roots: Roots, spring: Spring) -> Meeting {
         let [one, other] = couple.solid;
         let sum = one.radius + other.radius;
         let distance_squared = couple.offset.norm_squared();
         let touches = distance_squared < sum * sum;
-        let distance = distance_squared.sqrt();
-        let inverse_sum = 1.0 / sum;
+        let distance = distance_squared * roots.inverse_distance;
         let overlap = sum - distance;
         let smaller = lesser(one.radius, other.radius);
         let deep = overlap > self.overlap_limit * smaller;
         let concentric = distance == 0.0;
         // Both centres turn about the point where the surfaces meet, so that the pair keeps its
         // angular momentum.
-        let lever = distance * inverse_sum;
+        let lever = distance * couple.inverse_sum;
         let lever = [one.radius * lever, other.radius * lever];
+        let effective_radius = effective_radius(couple);
         let mut encounter = Encounter {
             touches,
             too_deep: touches & (deep | concentric),
-            normal: couple.offset * (1.0 / distance),
+            normal: couple.offset * roots.inverse_distance,
             overlap,
-            effective_radius: one.radius * other.radius * inverse_sum,
+            effective_radius,
+            contact_radius: roots.contact_radius,
             lever,
             lesser_mass: lesser(one.mass, other.mass),
             loading: None,
         };
         if let (true, Some(earlier)) = (Self::REMEMBERS, &couple.earlier) {
             let offset = couple.offset - earlier.velocity * self.loading.age;
-            let distance = offset.norm();
-            let normal = offset * (1.0 / distance);
+            let distance_squared = offset.norm_squared();
+            let inverse_distance = inverse_square_root(distance_squared);
+            let normal = offset * inverse_distance;
             let sliding = sliding_velocity(normal, earlier.velocity, earlier.spin, lever);
-            encounter.loading = Some((sliding, or_zero(sum - distance)));
+            let overlap = or_zero(sum - distance_squared * inverse_distance);
+            encounter.loading = Some((sliding, contact_radius(overlap, effective_radius)));
         }
         self.answer(couple, encounter, spring)
     }
@@ -180,28 +221,62 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
     /// A sphere and a wall.
     #[inline(always)]
     pub(super) fn at_wall<W: Wall>(&self, wall: W, couple: &Couple, spring: Spring) -> Meeting {
+        let inverse_distance = wall.inverse_distance(couple.offset);
+        let roots = Roots {
+            inverse_distance,
+            contact_radius: self.contact_radius_at_wall(wall, couple, inverse_distance),
+        };
+        self.at_wall_with(wall, couple, roots, spring)
+    }
+
+    /// The contact radius of a sphere at a wall (m).
+    #[inline(always)]
+    pub(super) fn contact_radius_at_wall<W: Wall>(
+        &self,
+        wall: W,
+        couple: &Couple,
+        inverse_distance: f64,
+    ) -> f64 {
+        if !Self::WIDENS {
+            return 0.0;
+        }
+        let radius = couple.solid[0].radius;
+        let contact = wall.contact(couple.offset, radius, inverse_distance);
+        contact_radius(contact.overlap, radius)
+    }
+
+    /// A sphere and a wall whose roots are known.
+    #[inline(always)]
+    pub(super) fn at_wall_with<W: Wall>(
+        &self,
+        wall: W,
+        couple: &Couple,
+        roots: Roots,
+        spring: Spring,
+    ) -> Meeting {
         let Solid { radius, mass, .. } = couple.solid[0];
         let WallContact {
             touches,
             overlap,
             normal,
-        } = wall.contact(couple.offset, radius);
+        } = wall.contact(couple.offset, radius, roots.inverse_distance);
         let mut encounter = Encounter {
             touches,
             too_deep: touches & (overlap > self.overlap_limit * radius),
             normal,
             overlap,
             effective_radius: radius,
+            contact_radius: roots.contact_radius,
             lever: [radius, 0.0],
             lesser_mass: mass,
             loading: None,
         };
         if let (true, Some(earlier)) = (Self::REMEMBERS, &couple.earlier) {
             let centre = couple.offset - earlier.velocity * self.loading.age;
-            let contact = wall.contact(centre, radius);
+            let contact = wall.meet(centre, radius);
             let lever = encounter.lever;
             let sliding = sliding_velocity(contact.normal, earlier.velocity, earlier.spin, lever);
-            encounter.loading = Some((sliding, or_zero(contact.overlap)));
+            encounter.loading = Some((sliding, contact_radius(or_zero(contact.overlap), radius)));
         }
         self.answer(couple, encounter, spring)
     }
@@ -214,22 +289,26 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             normal,
             overlap,
             effective_radius,
+            contact_radius,
             lever,
             lesser_mass,
             loading,
         } = encounter;
         let Couple { velocity, spin, .. } = *couple;
         let approach = -velocity.dot(normal);
-        let normal_force = self.normal.force(overlap, approach, effective_radius);
+        let normal_force = self.normal.force(overlap, approach, contact_radius);
         let mut force = normal * normal_force;
         if N::DRAGS_SIDEWAYS {
             force -= (velocity + normal * approach) * self.normal.sideways_drag();
         }
         let mut torque = [Vector::ZERO; 2];
         if T::ROTATES {
-            let (loading_velocity, loading_overlap) = match loading {
+            let (loading_velocity, loading_radius) = match loading {
                 Some(loading) => loading,
-                None => (sliding_velocity(normal, velocity, spin, lever), overlap),
+                None => (
+                    sliding_velocity(normal, velocity, spin, lever),
+                    contact_radius,
+                ),
             };
             let touch = Touch {
                 normal,
@@ -246,7 +325,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
                     false => normal_force,
                 },
                 loading_velocity,
-                loading_overlap,
+                loading_radius,
                 loading_time: self.loading.duration,
             };
             let Traction {
@@ -262,12 +341,19 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             normal,
             velocity,
             overlap,
-            effective_radius,
+            contact_radius,
             force,
             torque,
             spring,
         }
     }
+}
+
+/// r1 r2 / (r1 + r2) (m).
+#[inline(always)]
+fn effective_radius(couple: &Couple) -> f64 {
+    let [one, other] = couple.solid;
+    one.radius * other.radius * couple.inverse_sum
 }
 
 /// Minima and the like as selects, which loops over contacts turn into vector instructions.

@@ -4,9 +4,10 @@
 //! into vector instructions; a pair that does not touch gets a force of zero. Then the forces are added up
 //! one by one in the order of the list. Adding zero to a sum that began at +0 changes no bit of it.
 
-use super::meeting::{Couple, Earlier, Laws, Meeting, Solid};
+use super::meeting::{Couple, Earlier, Laws, Meeting, Roots, Solid};
 use crate::dem::block::{BLOCK, Column, Columns, Row};
 use crate::dem::contact::NormalLaw;
+use crate::dem::math::inverse_square_root;
 use crate::dem::friction::{History, Spring, TangentialLaw};
 use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
@@ -61,6 +62,11 @@ pub(super) struct PairBlock<H> {
     earlier_spin: [Columns; 2],
     /// What does not change from step to step, of both.
     solid: [Solids; 2],
+    /// 1 / (r1 + r2) of a pair (1/m).
+    inverse_sum: Column,
+    /// [`Roots`] of every contact.
+    inverse_distance: Column,
+    contact_radius: Column,
     /// Forces of springs (N).
     spring: Columns,
     force: Columns,
@@ -84,6 +90,9 @@ impl<H: History> PairBlock<H> {
             earlier_velocity: Columns::ZERO,
             earlier_spin: pair(),
             solid: [Solids::all(Solid::WALL), Solids::all(Solid::WALL)],
+            inverse_sum: [0.0; BLOCK],
+            inverse_distance: [0.0; BLOCK],
+            contact_radius: [0.0; BLOCK],
             spring: Columns::ZERO,
             memory: PhantomData,
             force: Columns::ZERO,
@@ -120,6 +129,7 @@ impl<H: History> PairBlock<H> {
     pub(super) fn set_alike(&mut self, alike: Option<Solid>) {
         if let Some(solid) = alike {
             self.solid = [Solids::all(solid), Solids::all(solid)];
+            self.inverse_sum = [1.0 / (solid.radius + solid.radius); BLOCK];
         }
     }
 
@@ -171,6 +181,10 @@ impl<H: History> PairBlock<H> {
         if !alike {
             self.gather_solid::<T>(0, particles);
             self.gather_solid::<T>(1, particles);
+            let [one, other] = &self.solid;
+            for (k, inverse) in self.inverse_sum.iter_mut().enumerate() {
+                *inverse = 1.0 / (one.radius[k] + other.radius[k]);
+            }
         }
         if Self::REMEMBERS && !earlier.is_empty() {
             self.earlier_velocity.gather_differences(
@@ -288,8 +302,18 @@ impl<H: History> PairBlock<H> {
         laws: &Laws<N, T>,
     ) {
         for k in 0..BLOCK {
+            let offset = Self::vector(&self.offset, k);
+            self.inverse_distance[k] = inverse_square_root(offset.norm_squared());
+        }
+        if N::WIDENS || T::WIDENS {
+            for k in 0..BLOCK {
+                let couple = self.couple::<T, false>(k, self.solid[1].at(k));
+                self.contact_radius[k] = laws.contact_radius(&couple, self.inverse_distance[k]);
+            }
+        }
+        for k in 0..BLOCK {
             let couple = self.couple::<T, EARLIER>(k, self.solid[1].at(k));
-            let meeting = laws.between(&couple, self.spring(k));
+            let meeting = laws.between_with(&couple, self.roots(k), self.spring(k));
             self.keep::<T>(k, &meeting);
         }
     }
@@ -319,12 +343,24 @@ impl<H: History> PairBlock<H> {
         laws: &Laws<N, T>,
     ) {
         for k in 0..BLOCK {
+            let offset = Self::vector(&self.offset, k);
+            self.inverse_distance[k] = wall.inverse_distance(offset);
+        }
+        if N::WIDENS || T::WIDENS {
+            for k in 0..BLOCK {
+                let couple = self.couple::<T, false>(k, Solid::WALL);
+                let inverse_distance = self.inverse_distance[k];
+                self.contact_radius[k] =
+                    laws.contact_radius_at_wall(wall, &couple, inverse_distance);
+            }
+        }
+        for k in 0..BLOCK {
             let mut couple = self.couple::<T, EARLIER>(k, Solid::WALL);
             couple.spin[1] = Vector::ZERO;
             if let Some(earlier) = &mut couple.earlier {
                 earlier.spin[1] = Vector::ZERO;
             }
-            let meeting = laws.at_wall(wall, &couple, self.spring(k));
+            let meeting = laws.at_wall_with(wall, &couple, self.roots(k), self.spring(k));
             self.keep::<T>(k, &meeting);
         }
     }
@@ -338,6 +374,7 @@ impl<H: History> PairBlock<H> {
             velocity: Self::vector(&self.velocity, k),
             spin: [Vector::ZERO; 2],
             solid: [self.solid[0].at(k), other],
+            inverse_sum: self.inverse_sum[k],
             earlier: None,
         };
         if T::ROTATES {
@@ -350,6 +387,14 @@ impl<H: History> PairBlock<H> {
             });
         }
         couple
+    }
+
+    #[inline(always)]
+    fn roots(&self, k: usize) -> Roots {
+        Roots {
+            inverse_distance: self.inverse_distance[k],
+            contact_radius: self.contact_radius[k],
+        }
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! The cylindrical wall about the z axis.
 
 use super::{Wall, WallContact};
+use crate::dem::math::inverse_square_root;
 use crate::dem::vector::Vector;
 
 /// A vertical cylinder about the z axis, with the spheres inside.
@@ -12,14 +13,18 @@ pub struct Cylinder {
 
 impl Wall for Cylinder {
     #[inline(always)]
-    fn contact(&self, centre: Vector, radius: f64) -> WallContact {
+    fn inverse_distance(&self, centre: Vector) -> f64 {
+        inverse_square_root(centre.x * centre.x + centre.y * centre.y)
+    }
+
+    #[inline(always)]
+    fn contact(&self, centre: Vector, radius: f64, inverse_distance: f64) -> WallContact {
         let reach = self.radius - radius;
         let distance_squared = centre.x * centre.x + centre.y * centre.y;
-        let distance = distance_squared.sqrt();
         WallContact {
             touches: !(distance_squared <= reach * reach),
-            overlap: distance - reach,
-            normal: Vector::new(-centre.x / distance, -centre.y / distance, 0.0),
+            overlap: distance_squared * inverse_distance - reach,
+            normal: Vector::new(-centre.x, -centre.y, 0.0) * inverse_distance,
         }
     }
 

@@ -10,7 +10,7 @@ use self::workspace::Start;
 use super::contacts::Among;
 use super::meeting::Loading;
 use super::{Engine, System};
-use crate::dem::contact::NormalLaw;
+use crate::dem::contact::{NormalLaw, contact_radius};
 use crate::dem::friction::TangentialLaw;
 use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
@@ -207,7 +207,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 continue;
             }
             work.islands.touch(sphere);
-            let contact = wall.contact(centre, radius);
+            let contact = wall.meet(centre, radius);
             let rates = self.rates(
                 if contact.touches {
                     contact.overlap
@@ -246,7 +246,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let (normal, tangential) = (&self.normal, &self.tangential);
         let overlap =
             normal.deepest_overlap(overlap, speed + gain, effective_radius, 1.0 / yielding);
-        let force = normal.force(overlap, 0.0, effective_radius);
+        let force = normal.force(overlap, 0.0, contact_radius(overlap, effective_radius));
         let along = yielding + turning;
         let squared = (normal.stiffness(overlap, effective_radius) * yielding)
             .max(tangential.stiffness(overlap, effective_radius) * along);
