@@ -5,7 +5,8 @@
 //! quantity of all pairs side by side. The way from the one to the other is the transposition of
 //! four rows of four numbers, in registers. No number is changed by it.
 
-use fearless_simd::{Simd, SimdBase, SimdInto, f64x4};
+use crate::dem::vector::Vector;
+use fearless_simd::{Simd, SimdBase, SimdCombine, SimdSplit, SimdFrom, f64x4, f64x8};
 
 /// Pairs in a block.
 pub(in crate::dem) const BLOCK: usize = 32;
@@ -18,83 +19,103 @@ pub(in crate::dem) type Column = [f64; BLOCK];
 
 /// The columns of one kind of row.
 #[repr(align(64))]
-pub(in crate::dem) struct Columns(pub(in crate::dem) [Column; 4]);
+pub(in crate::dem) struct Columns(pub(in crate::dem) [Column; 3]);
+
+/// Rows that are turned into columns, or columns into rows, at once.
+pub(in crate::dem) const ROWS: usize = 8;
 
 impl Columns {
-    pub(in crate::dem) const ZERO: Self = Self([[0.0; BLOCK]; 4]);
+    pub(in crate::dem) const ZERO: Self = Self([[0.0; BLOCK]; 3]);
 
-    /// Fills the columns with the rows of `index.len()` spheres.
+    /// Fills the columns, each with the row of its lane.
     #[inline(always)]
-    pub(in crate::dem) fn gather<S: Simd>(
-        &mut self,
-        simd: S,
-        index: &[u32; BLOCK],
-        row: impl Fn(usize) -> Row,
-    ) {
-        for at in (0..BLOCK).step_by(4) {
-            let index = [index[at], index[at + 1], index[at + 2], index[at + 3]];
-            let rows = [
-                row(index[0] as usize).simd_into(simd),
-                row(index[1] as usize).simd_into(simd),
-                row(index[2] as usize).simd_into(simd),
-                row(index[3] as usize).simd_into(simd),
-            ];
-            let [a, b, c, d] = transpose::<S>(rows);
-            a.store_slice(&mut self.0[0][at..at + 4]);
-            b.store_slice(&mut self.0[1][at..at + 4]);
-            c.store_slice(&mut self.0[2][at..at + 4]);
-            d.store_slice(&mut self.0[3][at..at + 4]);
+    pub(in crate::dem) fn fill<S: Simd>(&mut self, row: impl Fn(usize) -> f64x4<S>) {
+        for at in (0..BLOCK).step_by(ROWS) {
+            let (a, b, c, d) = (row(at), row(at + 1), row(at + 2), row(at + 3));
+            let (e, f, g, h) = (row(at + 4), row(at + 5), row(at + 6), row(at + 7));
+            self.put(at, [a, b, c, d, e, f, g, h]);
         }
     }
 
-    /// Fills the columns with the differences of the rows of spheres, without the fourth numbers.
+    /// The vector of a lane.
     #[inline(always)]
-    pub(in crate::dem) fn gather_differences<S: Simd>(
-        &mut self,
-        simd: S,
-        index: &[[u32; BLOCK]; 2],
-        row: impl Fn(usize) -> Row,
-    ) {
-        let [one, other] = index;
-        for at in (0..BLOCK).step_by(4) {
-            let difference = |k: usize| -> f64x4<S> {
-                let one: f64x4<S> = row(one[at + k] as usize).simd_into(simd);
-                let other: f64x4<S> = row(other[at + k] as usize).simd_into(simd);
-                one - other
-            };
-            let rows = [difference(0), difference(1), difference(2), difference(3)];
-            let [a, b, c, _] = transpose::<S>(rows);
-            a.store_slice(&mut self.0[0][at..at + 4]);
-            b.store_slice(&mut self.0[1][at..at + 4]);
-            c.store_slice(&mut self.0[2][at..at + 4]);
+    pub(in crate::dem) fn vector(&self, k: usize) -> Vector {
+        let [x, y, z] = &self.0;
+        Vector::new(x[k], y[k], z[k])
+    }
+
+    /// Puts rows into their places, from `at` on; without the fourth numbers.
+    #[inline(always)]
+    pub(in crate::dem) fn put<S: Simd>(&mut self, at: usize, rows: [f64x4<S>; ROWS]) {
+        let [first, second, third] = &mut self.0;
+        let (first, second, third) = (
+            &mut first[at..at + ROWS],
+            &mut second[at..at + ROWS],
+            &mut third[at..at + ROWS],
+        );
+        let [a, b, c, d, e, f, g, h] = rows;
+        if <S::f64s as SimdBase<S>>::LEN < ROWS {
+            let [x, y, z, _] = transpose([a, b, c, d]);
+            let [u, v, w, _] = transpose([e, f, g, h]);
+            x.store_slice(&mut first[..4]);
+            u.store_slice(&mut first[4..]);
+            y.store_slice(&mut second[..4]);
+            v.store_slice(&mut second[4..]);
+            z.store_slice(&mut third[..4]);
+            w.store_slice(&mut third[4..]);
+        } else {
+            let (ab, cd, ef, gh) = (a.combine(b), c.combine(d), e.combine(f), g.combine(h));
+            let (even, more_even) = (ab.unzip_low(cd), ef.unzip_low(gh));
+            let (odd, more_odd) = (ab.unzip_high(cd), ef.unzip_high(gh));
+            even.unzip_low(more_even).store_slice(first);
+            odd.unzip_low(more_odd).store_slice(second);
+            even.unzip_high(more_even).store_slice(third);
         }
     }
 
-    /// Puts one row into its place.
-    pub(in crate::dem) fn set(&mut self, k: usize, row: Row) {
-        for (column, value) in self.0.iter_mut().zip(row) {
-            column[k] = value;
-        }
-    }
-
-    /// The four rows from `at` on.
+    /// The rows from `at` on; their fourth numbers mean nothing.
     #[inline(always)]
-    pub(in crate::dem) fn rows<S: Simd>(&self, simd: S, at: usize) -> [f64x4<S>; 4] {
-        let [a, b, c, d] = &self.0;
-        transpose([
-            f64x4::from_slice(simd, &a[at..at + 4]),
-            f64x4::from_slice(simd, &b[at..at + 4]),
-            f64x4::from_slice(simd, &c[at..at + 4]),
-            f64x4::from_slice(simd, &d[at..at + 4]),
-        ])
+    pub(in crate::dem) fn rows<S: Simd>(&self, simd: S, at: usize) -> [f64x4<S>; ROWS] {
+        let [first, second, third] = &self.0;
+        let (first, second, third) = (
+            &first[at..at + ROWS],
+            &second[at..at + ROWS],
+            &third[at..at + ROWS],
+        );
+        if <S::f64s as SimdBase<S>>::LEN < ROWS {
+            let four = |column: &[f64]| f64x4::from_slice(simd, column);
+            let zero = f64x4::splat(simd, 0.0);
+            let [a, b, c, d] =
+                transpose([four(&first[..4]), four(&second[..4]), four(&third[..4]), zero]);
+            let [e, f, g, h] =
+                transpose([four(&first[4..]), four(&second[4..]), four(&third[4..]), zero]);
+            [a, b, c, d, e, f, g, h]
+        } else {
+            let eight = |column: &[f64]| f64x8::from_slice(simd, column);
+            let (x, y, z) = (eight(first), eight(second), eight(third));
+            let zero = f64x8::splat(simd, 0.0);
+            let (low, more_low) = (x.zip_low(z), y.zip_low(zero));
+            let (high, more_high) = (x.zip_high(z), y.zip_high(zero));
+            let (a, b) = low.zip_low(more_low).split();
+            let (c, d) = low.zip_high(more_low).split();
+            let (e, f) = high.zip_low(more_high).split();
+            let (g, h) = high.zip_high(more_high).split();
+            [a, b, c, d, e, f, g, h]
+        }
     }
 }
 
-/// Rows as columns. Spelled out, as closures given to array methods would be calls of functions that
+/// Four rows as columns. Spelled out, as closures given to array methods would be calls of functions that
 /// are compiled without these vectors.
 #[inline(always)]
 fn transpose<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
     let (ac, bd) = (a.interleave(c), b.interleave(d));
     let (low, high) = (ac.0.interleave(bd.0), ac.1.interleave(bd.1));
     [low.0, low.1, high.0, high.1]
+}
+
+/// The row of one of the vectors.
+#[inline(always)]
+pub(in crate::dem) fn row<S: Simd>(simd: S, vectors: &[Vector], i: u32) -> f64x4<S> {
+    f64x4::simd_from(simd, vectors[i as usize].row())
 }

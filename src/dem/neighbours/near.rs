@@ -10,7 +10,7 @@
 
 use super::anchor::{Allowance, Anchor};
 use super::{Particles, VerletList};
-use crate::dem::block::{BLOCK, Column, Columns};
+use crate::dem::block::{BLOCK, Column, Columns, row};
 use crate::dem::vector::Vector;
 use fearless_simd::{Level, Simd};
 use std::ops::Range;
@@ -295,11 +295,10 @@ impl Glance {
         let Particles {
             position, radius, ..
         } = particles;
-        self.offset.gather_differences(
-            simd,
-            &self.index,
+        let [one, other] = &self.index;
+        self.offset.fill::<S>(
             #[inline(always)]
-            |i| position[i].row(),
+            |k| row(simd, position, one[k]) - row(simd, position, other[k]),
         );
         if self.common_radius.is_none() {
             for (radii, index) in self.radius.iter_mut().zip(&self.index) {
@@ -313,7 +312,7 @@ impl Glance {
     /// What is certain while offsets change by less than the margin (m).
     #[inline(always)]
     fn classify(&mut self, margin: f64) {
-        let ([x, y, z, _], [ri, rj]) = (&self.offset.0, &self.radius);
+        let ([x, y, z], [ri, rj]) = (&self.offset.0, &self.radius);
         for k in 0..BLOCK {
             let (dx, dy, dz) = (x[k], y[k], z[k]);
             let reach = ri[k] + rj[k] + margin;
@@ -337,7 +336,7 @@ impl Glance {
     /// What is so now.
     #[inline(always)]
     fn look(&mut self) {
-        let ([x, y, z, _], [ri, rj]) = (&self.offset.0, &self.radius);
+        let ([x, y, z], [ri, rj]) = (&self.offset.0, &self.radius);
         for k in 0..BLOCK {
             let (dx, dy, dz) = (x[k].abs(), y[k].abs(), z[k]);
             let within = |diameter: f64| (dx < diameter) & (dy < diameter);

@@ -2,6 +2,7 @@
 
 use super::System;
 use super::meeting::{Couple, Earlier, Laws, Solid};
+use super::pair_block::Memory;
 use crate::dem::block::BLOCK;
 use crate::dem::block::Row;
 use crate::dem::contact::NormalLaw;
@@ -80,20 +81,22 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let block = &mut self.block;
         block.set_alike(self.alike);
         for pairs in pairs.chunks(BLOCK) {
-            block.take_pairs(pairs, &self.pair_history);
-            block.gather_pairs::<S, T>(
-                simd,
-                &self.parts.particles,
-                &self.earlier,
-                self.alike.is_some(),
-            );
+            let memory = Memory {
+                histories: &self.pair_history,
+                earlier: &self.earlier,
+            };
+            block.take_pairs::<S, T>(simd, pairs, &self.parts.particles, memory);
             block.interact(&laws);
             if Self::REMEMBERS {
-                for (k, pair) in pairs.iter().enumerate() {
-                    self.pair_history[pair.entry as usize] = block.history(k);
-                }
+                let histories = &mut self.pair_history;
+                block.remember(
+                    simd,
+                    pairs.len(),
+                    #[inline(always)]
+                    |k, history| histories[pairs[k].entry as usize] = history,
+                );
             }
-            block.scatter::<S, T>(simd, pairs, &mut self.parts.particles);
+            block.add_to_pairs::<S, T>(simd, pairs.len(), &mut self.parts.particles);
             if let Some((k, overlap)) = block.first_too_deep(pairs.len()) {
                 let NearPair { i, j, .. } = pairs[k];
                 let sphere = self.parts.particles.moving_partner(i, j);
@@ -115,20 +118,21 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let block = &mut self.block;
         block.set_alike(self.alike);
         for spheres in near.chunks(BLOCK) {
-            block.take_spheres(spheres, histories);
-            block.gather_spheres::<S, T>(
-                simd,
-                &self.parts.particles,
-                &self.earlier,
-                self.alike.is_some(),
-            );
+            let memory = Memory {
+                histories,
+                earlier: &self.earlier,
+            };
+            block.take_spheres::<S, T>(simd, spheres, &self.parts.particles, memory);
             block.interact_with_wall(wall, &laws);
             if Self::REMEMBERS {
-                for (k, &i) in spheres.iter().enumerate() {
-                    histories[i as usize] = block.history(k);
-                }
+                block.remember(
+                    simd,
+                    spheres.len(),
+                    #[inline(always)]
+                    |k, history| histories[spheres[k] as usize] = history,
+                );
             }
-            block.scatter_to_spheres::<S, T>(simd, spheres, &mut self.parts.particles);
+            block.add_to_spheres::<S, T>(simd, spheres.len(), &mut self.parts.particles);
             if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
                 self.too_deep.get_or_insert((spheres[k] as usize, overlap));
             }

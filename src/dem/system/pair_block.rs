@@ -5,7 +5,7 @@
 //! one by one in the order of the list. Adding zero to a sum that began at +0 changes no bit of it.
 
 use super::meeting::{Couple, Earlier, Laws, Meeting, Roots, Solid};
-use crate::dem::block::{BLOCK, Column, Columns, Row};
+use crate::dem::block::{BLOCK, Column, Columns, ROWS, Row, row};
 use crate::dem::contact::NormalLaw;
 use crate::dem::math::inverse_square_root;
 use crate::dem::friction::{History, Spring, TangentialLaw};
@@ -21,6 +21,13 @@ const NOT_DEEP: f64 = -1.0;
 
 /// Velocity and spin of a sphere before an evaluation of forces, in rows.
 pub(super) type EarlierRows = [Row; 2];
+
+/// What contacts remember, and the velocities and spins that load their springs, if not those of now.
+#[derive(Clone, Copy)]
+pub(super) struct Memory<'a, H> {
+    pub(super) histories: &'a [H],
+    pub(super) earlier: &'a [EarlierRows],
+}
 
 /// What of the spheres of a block does not change.
 struct Solids {
@@ -62,6 +69,8 @@ pub(super) struct PairBlock<H> {
     earlier_spin: [Columns; 2],
     /// What does not change from step to step, of both.
     solid: [Solids; 2],
+    /// Whether all spheres are alike.
+    alike: bool,
     /// 1 / (r1 + r2) of a pair (1/m).
     inverse_sum: Column,
     /// [`Roots`] of every contact.
@@ -90,6 +99,7 @@ impl<H: History> PairBlock<H> {
             earlier_velocity: Columns::ZERO,
             earlier_spin: pair(),
             solid: [Solids::all(Solid::WALL), Solids::all(Solid::WALL)],
+            alike: false,
             inverse_sum: [0.0; BLOCK],
             inverse_distance: [0.0; BLOCK],
             contact_radius: [0.0; BLOCK],
@@ -106,36 +116,122 @@ impl<H: History> PairBlock<H> {
         self.index = [[0; BLOCK]; 2];
     }
 
-    #[inline(always)]
-    fn vector(columns: &Columns, k: usize) -> Vector {
-        let [x, y, z, _] = &columns.0;
-        Vector::new(x[k], y[k], z[k])
-    }
-
-    #[inline(always)]
-    fn take_spring(&mut self, k: usize, history: H) {
-        let Vector { x, y, z, .. } = history.spring().force;
-        self.spring.set(k, [x, y, z, 0.0]);
-    }
-
-    /// What a contact of the block remembers.
-    #[inline(always)]
-    pub(super) fn history(&self, k: usize) -> H {
-        let force = Self::vector(&self.spring, k);
-        H::of_spring(Spring { force })
-    }
-
     /// Says what all spheres are like, if they are alike: it is then not fetched.
     pub(super) fn set_alike(&mut self, alike: Option<Solid>) {
+        self.alike = alike.is_some();
         if let Some(solid) = alike {
             self.solid = [Solids::all(solid), Solids::all(solid)];
+            self.spin[1] = Columns::ZERO;
             self.inverse_sum = [1.0 / (solid.radius + solid.radius); BLOCK];
+        }
+    }
+
+    /// Fetches pairs, up to a block of them, with what they remember. Lanes without a pair repeat one of the
+    /// past.
+    #[inline(always)]
+    pub(super) fn take_pairs<S: Simd, T: TangentialLaw<History = H>>(
+        &mut self,
+        simd: S,
+        pairs: &[NearPair],
+        particles: &Particles,
+        memory: Memory<'_, H>,
+    ) {
+        for (k, pair) in pairs.iter().enumerate() {
+            self.index[0][k] = pair.i;
+            self.index[1][k] = pair.j;
+        }
+        let Particles {
+            position, velocity, ..
+        } = particles;
+        let [one, other] = &self.index;
+        self.offset.fill::<S>(
+            #[inline(always)]
+            |k| row(simd, position, one[k]) - row(simd, position, other[k]),
+        );
+        self.velocity.fill::<S>(
+            #[inline(always)]
+            |k| row(simd, velocity, one[k]) - row(simd, velocity, other[k]),
+        );
+        if T::ROTATES {
+            self.take_spins(simd, &particles.spin);
+        }
+        if !self.alike {
+            self.take_solids::<T>(0, particles);
+            self.take_solids::<T>(1, particles);
+            let [one, other] = &self.solid;
+            for (k, inverse) in self.inverse_sum.iter_mut().enumerate() {
+                *inverse = 1.0 / (one.radius[k] + other.radius[k]);
+            }
+        }
+        if Self::REMEMBERS {
+            let entries: [u32; BLOCK] = std::array::from_fn(|k| pairs.get(k).map_or(0, |it| it.entry));
+            self.spring.fill::<S>(
+                #[inline(always)]
+                |k| f64x4::simd_from(simd, memory.histories[entries[k] as usize].spring().force.row()),
+            );
+        }
+        if Self::REMEMBERS && !memory.earlier.is_empty() {
+            let earlier = memory.earlier;
+            let [one, other] = &self.index;
+            self.earlier_velocity.fill::<S>(
+                #[inline(always)]
+                |k| {
+                    let [one, other] = [one[k], other[k]].map(|i| earlier[i as usize][0]);
+                    f64x4::simd_from(simd, one) - f64x4::simd_from(simd, other)
+                },
+            );
+            self.take_earlier_spin(simd, 0, earlier);
+            self.take_earlier_spin(simd, 1, earlier);
+        }
+    }
+
+    /// Fetches spheres near a wall, up to a block of them, with what they remember.
+    #[inline(always)]
+    pub(super) fn take_spheres<S: Simd, T: TangentialLaw<History = H>>(
+        &mut self,
+        simd: S,
+        spheres: &[u32],
+        particles: &Particles,
+        memory: Memory<'_, H>,
+    ) {
+        self.index[0][..spheres.len()].copy_from_slice(spheres);
+        let index = &self.index[0];
+        self.offset.fill::<S>(
+            #[inline(always)]
+            |k| row(simd, &particles.position, index[k]),
+        );
+        self.velocity.fill::<S>(
+            #[inline(always)]
+            |k| row(simd, &particles.velocity, index[k]),
+        );
+        if T::ROTATES {
+            self.spin[0].fill::<S>(
+                #[inline(always)]
+                |k| row(simd, &particles.spin, index[k]),
+            );
+        }
+        if !self.alike {
+            self.take_solids::<T>(0, particles);
+        }
+        let index = &self.index[0];
+        if Self::REMEMBERS {
+            self.spring.fill::<S>(
+                #[inline(always)]
+                |k| f64x4::simd_from(simd, memory.histories[index[k] as usize].spring().force.row()),
+            );
+        }
+        if Self::REMEMBERS && !memory.earlier.is_empty() {
+            self.earlier_velocity.fill::<S>(
+                #[inline(always)]
+                |k| f64x4::simd_from(simd, memory.earlier[index[k] as usize][0]),
+            );
+            self.take_earlier_spin(simd, 0, memory.earlier);
         }
     }
 
     /// Fetches what of the spheres of one side does not change.
     #[inline(always)]
-    fn gather_solid<T: TangentialLaw>(&mut self, side: usize, particles: &Particles) {
+    fn take_solids<T: TangentialLaw>(&mut self, side: usize, particles: &Particles) {
         let Solids {
             radius,
             mass,
@@ -152,135 +248,35 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Fetches the spheres of pairs. Lanes without a contact hold what an earlier block left.
+    /// Fetches the spins of pairs. Of spheres that are alike, which have the same lever, laws ask for the sum of both
+    /// alone: the first gets all of it.
     #[inline(always)]
-    pub(super) fn gather_pairs<S: Simd, T: TangentialLaw<History = H>>(
-        &mut self,
-        simd: S,
-        particles: &Particles,
-        earlier: &[EarlierRows],
-        alike: bool,
-    ) {
-        let (position, velocity) = (&particles.position, &particles.velocity);
-        self.offset.gather_differences(
-            simd,
-            &self.index,
-            #[inline(always)]
-            |i| position[i].row(),
-        );
-        self.velocity.gather_differences(
-            simd,
-            &self.index,
-            #[inline(always)]
-            |i| velocity[i].row(),
-        );
-        if T::ROTATES {
-            self.gather_spin(simd, 0, &particles.spin);
-            self.gather_spin(simd, 1, &particles.spin);
-        }
-        if !alike {
-            self.gather_solid::<T>(0, particles);
-            self.gather_solid::<T>(1, particles);
-            let [one, other] = &self.solid;
-            for (k, inverse) in self.inverse_sum.iter_mut().enumerate() {
-                *inverse = 1.0 / (one.radius[k] + other.radius[k]);
-            }
-        }
-        if Self::REMEMBERS && !earlier.is_empty() {
-            self.earlier_velocity.gather_differences(
-                simd,
-                &self.index,
+    fn take_spins<S: Simd>(&mut self, simd: S, spin: &[Vector]) {
+        let [one, other] = &self.index;
+        if self.alike {
+            self.spin[0].fill::<S>(
                 #[inline(always)]
-                |i| earlier[i][0],
+                |k| row(simd, spin, one[k]) + row(simd, spin, other[k]),
             );
-            self.gather_earlier_spin(simd, 0, earlier);
-            self.gather_earlier_spin(simd, 1, earlier);
+            return;
         }
-    }
-
-    /// Fetches spheres near a wall.
-    #[inline(always)]
-    pub(super) fn gather_spheres<S: Simd, T: TangentialLaw<History = H>>(
-        &mut self,
-        simd: S,
-        particles: &Particles,
-        earlier: &[EarlierRows],
-        alike: bool,
-    ) {
-        let index = &self.index[0];
-        let (position, velocity) = (&particles.position, &particles.velocity);
-        self.offset.gather(
-            simd,
-            index,
+        self.spin[0].fill::<S>(
             #[inline(always)]
-            |i| position[i].row(),
+            |k| row(simd, spin, one[k]),
         );
-        self.velocity.gather(
-            simd,
-            index,
+        self.spin[1].fill::<S>(
             #[inline(always)]
-            |i| velocity[i].row(),
-        );
-        if T::ROTATES {
-            self.gather_spin(simd, 0, &particles.spin);
-        }
-        if !alike {
-            self.gather_solid::<T>(0, particles);
-        }
-        if Self::REMEMBERS && !earlier.is_empty() {
-            self.earlier_velocity.gather(
-                simd,
-                &self.index[0],
-                #[inline(always)]
-                |i| earlier[i][0],
-            );
-            self.gather_earlier_spin(simd, 0, earlier);
-        }
-    }
-
-    #[inline(always)]
-    fn gather_spin<S: Simd>(&mut self, simd: S, side: usize, spin: &[Vector]) {
-        self.spin[side].gather(
-            simd,
-            &self.index[side],
-            #[inline(always)]
-            |i| spin[i].row(),
+            |k| row(simd, spin, other[k]),
         );
     }
 
     #[inline(always)]
-    fn gather_earlier_spin<S: Simd>(&mut self, simd: S, side: usize, earlier: &[EarlierRows]) {
-        self.earlier_spin[side].gather(
-            simd,
-            &self.index[side],
+    fn take_earlier_spin<S: Simd>(&mut self, simd: S, side: usize, earlier: &[EarlierRows]) {
+        let index = &self.index[side];
+        self.earlier_spin[side].fill::<S>(
             #[inline(always)]
-            |i| earlier[i][1],
+            |k| f64x4::simd_from(simd, earlier[index[k] as usize][1]),
         );
-    }
-
-    /// Takes pairs, up to a block of them, with what they remember.
-    #[inline(always)]
-    pub(super) fn take_pairs(&mut self, pairs: &[NearPair], histories: &[H]) {
-        for (k, pair) in pairs.iter().enumerate() {
-            self.index[0][k] = pair.i;
-            self.index[1][k] = pair.j;
-        }
-        if Self::REMEMBERS {
-            for (k, pair) in pairs.iter().enumerate() {
-                self.take_spring(k, histories[pair.entry as usize]);
-            }
-        }
-    }
-
-    /// The same with spheres near a wall.
-    #[inline(always)]
-    pub(super) fn take_spheres(&mut self, spheres: &[u32], histories: &[H]) {
-        self.index[0][..spheres.len()].copy_from_slice(spheres);
-        if Self::REMEMBERS {
-            for (k, &i) in spheres.iter().enumerate() {
-                self.take_spring(k, histories[i as usize]);
-            }
-        }
     }
 
     /// Computes the laws for every pair.
@@ -302,7 +298,7 @@ impl<H: History> PairBlock<H> {
         laws: &Laws<N, T>,
     ) {
         for k in 0..BLOCK {
-            let offset = Self::vector(&self.offset, k);
+            let offset = self.offset.vector(k);
             self.inverse_distance[k] = inverse_square_root(offset.norm_squared());
         }
         if N::WIDENS || T::WIDENS {
@@ -343,7 +339,7 @@ impl<H: History> PairBlock<H> {
         laws: &Laws<N, T>,
     ) {
         for k in 0..BLOCK {
-            let offset = Self::vector(&self.offset, k);
+            let offset = self.offset.vector(k);
             self.inverse_distance[k] = wall.inverse_distance(offset);
         }
         if N::WIDENS || T::WIDENS {
@@ -370,20 +366,20 @@ impl<H: History> PairBlock<H> {
     #[inline(always)]
     fn couple<T: TangentialLaw, const EARLIER: bool>(&self, k: usize, other: Solid) -> Couple {
         let mut couple = Couple {
-            offset: Self::vector(&self.offset, k),
-            velocity: Self::vector(&self.velocity, k),
+            offset: self.offset.vector(k),
+            velocity: self.velocity.vector(k),
             spin: [Vector::ZERO; 2],
             solid: [self.solid[0].at(k), other],
             inverse_sum: self.inverse_sum[k],
             earlier: None,
         };
         if T::ROTATES {
-            couple.spin = [0, 1].map(|side| Self::vector(&self.spin[side], k));
+            couple.spin = [0, 1].map(|side| self.spin[side].vector(k));
         }
         if EARLIER {
             couple.earlier = Some(Earlier {
-                velocity: Self::vector(&self.earlier_velocity, k),
-                spin: [0, 1].map(|side| Self::vector(&self.earlier_spin[side], k)),
+                velocity: self.earlier_velocity.vector(k),
+                spin: [0, 1].map(|side| self.earlier_spin[side].vector(k)),
             });
         }
         couple
@@ -400,7 +396,7 @@ impl<H: History> PairBlock<H> {
     #[inline(always)]
     fn spring(&self, k: usize) -> Spring {
         let force = match Self::REMEMBERS {
-            true => Self::vector(&self.spring, k),
+            true => self.spring.vector(k),
             false => Vector::ZERO,
         };
         Spring { force }
@@ -437,68 +433,99 @@ impl<H: History> PairBlock<H> {
             .map(|k| (k, self.too_deep[k]))
     }
 
-    /// Adds forces and torques of a wall to the spheres.
+    /// Adds forces and torques of a wall to so many spheres.
     #[inline(always)]
-    pub(super) fn scatter_to_spheres<S: Simd, T: TangentialLaw<History = H>>(
-        &self,
+    pub(super) fn add_to_spheres<S: Simd, T: TangentialLaw<History = H>>(
+        &mut self,
         simd: S,
-        spheres: &[u32],
+        contacts: usize,
         particles: &mut Particles,
     ) {
-        for (at, four) in (0..BLOCK).step_by(4).zip(spheres.chunks(4)) {
+        self.clear_from(contacts);
+        let (forces, torques) = (&mut particles.force[..], &mut particles.torque[..]);
+        for at in (0..BLOCK).step_by(ROWS) {
             let force = self.force.rows(simd, at);
-            let torque = if T::ROTATES {
-                self.torque[0].rows(simd, at)
-            } else {
-                force
-            };
-            for (k, &i) in four.iter().enumerate() {
-                let i = i as usize;
-                add(simd, &mut particles.force[i], force[k]);
-                if T::ROTATES {
-                    add(simd, &mut particles.torque[i], torque[k]);
+            for k in 0..ROWS {
+                add(simd, forces, self.index[0][at + k], force[k]);
+            }
+            if T::ROTATES {
+                let torque = self.torque[0].rows(simd, at);
+                for k in 0..ROWS {
+                    add(simd, torques, self.index[0][at + k], torque[k]);
                 }
             }
         }
     }
 
-    /// Adds forces and torques to the partners, pair by pair.
+    /// Adds forces and torques to the partners of so many pairs, one after the other.
     #[inline(always)]
-    pub(super) fn scatter<S: Simd, T: TangentialLaw<History = H>>(
-        &self,
+    pub(super) fn add_to_pairs<S: Simd, T: TangentialLaw<History = H>>(
+        &mut self,
         simd: S,
-        pairs: &[NearPair],
+        contacts: usize,
         particles: &mut Particles,
     ) {
-        for (at, four) in (0..BLOCK).step_by(4).zip(pairs.chunks(4)) {
+        self.clear_from(contacts);
+        let (forces, torques) = (&mut particles.force[..], &mut particles.torque[..]);
+        let [one, other] = &self.index;
+        for at in (0..BLOCK).step_by(ROWS) {
             let force = self.force.rows(simd, at);
-            let torque = if T::ROTATES {
-                [self.torque[0].rows(simd, at), self.torque[1].rows(simd, at)]
-            } else {
-                [force; 2]
-            };
-            for (k, pair) in four.iter().enumerate() {
-                let (i, j) = (pair.i as usize, pair.j as usize);
-                add(simd, &mut particles.force[i], force[k]);
-                add(simd, &mut particles.force[j], -force[k]);
-                if T::ROTATES {
-                    add(simd, &mut particles.torque[i], torque[0][k]);
-                    add(simd, &mut particles.torque[j], torque[1][k]);
-                }
+            for k in 0..ROWS {
+                add(simd, forces, one[at + k], force[k]);
+                add(simd, forces, other[at + k], -force[k]);
+            }
+        }
+        if !T::ROTATES {
+            return;
+        }
+        // Both get the same where they are alike.
+        let second = if self.alike { 0 } else { 1 };
+        for at in (0..BLOCK).step_by(ROWS) {
+            let torque = [
+                self.torque[0].rows(simd, at),
+                self.torque[second].rows(simd, at),
+            ];
+            for k in 0..ROWS {
+                add(simd, torques, one[at + k], torque[0][k]);
+                add(simd, torques, other[at + k], torque[1][k]);
+            }
+        }
+    }
+
+    /// Makes nothing act in the lanes from there on.
+    #[inline(always)]
+    fn clear_from(&mut self, contacts: usize) {
+        if contacts < BLOCK {
+            let [one, other] = &mut self.torque;
+            for column in [&mut self.force, one, other].into_iter().flat_map(|it| &mut it.0) {
+                column[contacts..].fill(0.0);
+            }
+        }
+    }
+
+    /// Calls `keep` with what every contact of so many remembers.
+    #[inline(always)]
+    pub(super) fn remember<S: Simd>(&self, simd: S, contacts: usize, mut keep: impl FnMut(usize, H)) {
+        for at in (0..contacts).step_by(ROWS) {
+            let rows = self.spring.rows(simd, at);
+            for (k, &row) in (at..contacts).zip(&rows) {
+                let force = Vector::of_row(row.into());
+                keep(k, H::of_spring(Spring { force }));
             }
         }
     }
 }
 
 #[inline(always)]
-fn add<S: Simd>(simd: S, sum: &mut Vector, row: f64x4<S>) {
-    *sum = Vector::of_row((f64x4::simd_from(simd, sum.row()) + row).into());
+fn add<S: Simd>(simd: S, sums: &mut [Vector], i: u32, force: f64x4<S>) {
+    let sum = &mut sums[i as usize];
+    *sum = Vector::of_row((f64x4::simd_from(simd, sum.row()) + force).into());
 }
 
 /// Stores what acts on a touching pair.
 #[inline(always)]
 fn store(columns: &mut Columns, k: usize, touches: bool, vector: Vector) {
-    let [x, y, z, _] = &mut columns.0;
+    let [x, y, z] = &mut columns.0;
     x[k] = if touches { vector.x } else { 0.0 };
     y[k] = if touches { vector.y } else { 0.0 };
     z[k] = if touches { vector.z } else { 0.0 };
