@@ -6,7 +6,7 @@
 //! four rows of four numbers, in registers. No number is changed by it.
 
 use crate::dem::vector::Vector;
-use fearless_simd::{Simd, SimdBase, SimdCombine, SimdSplit, SimdFrom, f64x4, f64x8};
+use fearless_simd::{Simd, SimdBase, SimdCombine, SimdSplit, f64x4, f64x8};
 
 /// Pairs in a block.
 pub(in crate::dem) const BLOCK: usize = 32;
@@ -117,5 +117,5 @@ fn transpose<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
 /// The row of one of the vectors.
 #[inline(always)]
 pub(in crate::dem) fn row<S: Simd>(simd: S, vectors: &[Vector], i: u32) -> f64x4<S> {
-    f64x4::simd_from(simd, vectors[i as usize].row())
+    vectors[i as usize].simd(simd)
 }

@@ -12,6 +12,8 @@ pub(super) struct Limits {
     pub(super) overlap: f64,
     /// Square of the largest speed of each sphere, from the largest displacement per step (m2/s2).
     pub(super) speed_squared: Vec<f64>,
+    /// A sphere none of whose components of velocity is beyond this is slow enough, whichever it is (m/s).
+    pub(super) slow: f64,
     displacement: f64,
     horizontal: f64,
     vertical: f64,
@@ -30,6 +32,7 @@ impl Limits {
         let mut limits = Self {
             overlap: guards.overlap,
             speed_squared: Vec::new(),
+            slow: f64::MAX,
             displacement: guards.displacement,
             horizontal: guards
                 .horizontal
@@ -51,6 +54,8 @@ impl Limits {
     pub(super) fn add_sphere(&mut self, radius: f64, dt: f64) {
         let speed = self.displacement * radius / dt;
         self.speed_squared.push(speed * speed);
+        // A hair less, for what rounding adds.
+        self.slow = self.slow.min(0.577 * speed);
     }
 
     /// Refuses positions that are not a number or out of bounds, and spins whose squares are not finite.

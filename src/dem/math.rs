@@ -18,12 +18,7 @@ pub fn exp(x: f64) -> f64 {
     let shifted = bounded * LOG2_E + ROUND;
     let k = shifted - ROUND;
     let r = (bounded - k * LN2_HIGH) - k * LN2_LOW;
-    let mut series = INVERSE_FACTORIALS[13];
-    let mut order = 13;
-    while order > 0 {
-        order -= 1;
-        series = series * r + INVERSE_FACTORIALS[order];
-    }
+    let series = series(r);
     let power_of_two = f64::from_bits(shifted.to_bits().wrapping_add(1023) << 52);
     if x > HIGHEST {
         f64::INFINITY
@@ -40,22 +35,28 @@ pub fn exp(x: f64) -> f64 {
 /// loop over it takes a third of the time.
 #[inline(always)]
 pub fn inverse_square_root(x: f64) -> f64 {
-    const GUESS: u64 = 0x5fe6_eb50_c7b5_37a9;
-    let half = 0.5 * x;
-    let mut root = f64::from_bits(GUESS.wrapping_sub(x.to_bits() >> 1));
-    let mut step = 0;
-    while step < 4 {
-        root *= 1.5 - half * root * root;
-        step += 1;
-    }
-    root
+    1.0 / x.sqrt()
 }
 
 /// The root of x, zero for x = 0; as exact as [`inverse_square_root`]. That of a negative number is that of its absolute
 /// value with another sign: loops over contacts compute it for pairs that do not touch, and forget it.
 #[inline(always)]
 pub fn square_root(x: f64) -> f64 {
-    x * inverse_square_root(x.abs())
+    x.sqrt()
+}
+
+/// The series up to r^13, in pairs of pairs (Estrin (1960)): Horner's way would be to wait for every term.
+#[inline(always)]
+fn series(r: f64) -> f64 {
+    const C: [f64; 14] = INVERSE_FACTORIALS;
+    let r2 = r * r;
+    let r4 = r2 * r2;
+    let r8 = r4 * r4;
+    let pair = |k: usize| C[k] + C[k + 1] * r;
+    let four = |k: usize| pair(k) + pair(k + 2) * r2;
+    let low = four(0) + four(4) * r4;
+    let high = four(8) + pair(12) * r4;
+    low + high * r8
 }
 
 const INVERSE_FACTORIALS: [f64; 14] = [

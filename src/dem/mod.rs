@@ -6,6 +6,7 @@
 
 mod barrier;
 mod block;
+mod bodies;
 pub mod contact;
 mod effects;
 pub mod friction;

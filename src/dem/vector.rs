@@ -1,5 +1,6 @@
 //! Three-dimensional vectors.
 
+use fearless_simd::{Simd, SimdFrom, f64x4};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
@@ -39,6 +40,12 @@ impl Vector {
     #[inline(always)]
     pub(in crate::dem) const fn of_row([x, y, z, rest]: [f64; 4]) -> Self {
         Self { x, y, z, rest }
+    }
+
+    /// Its row in a register.
+    #[inline(always)]
+    pub(in crate::dem) fn simd<S: Simd>(&self, simd: S) -> f64x4<S> {
+        f64x4::simd_from(simd, self.row())
     }
 
     /// Scalar product.

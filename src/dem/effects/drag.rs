@@ -1,5 +1,7 @@
 //! The drag law that swirl and updraught share.
 
+use crate::dem::block::BLOCK;
+use crate::dem::bodies::Bodies;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use crate::scene::{Drag, DragForm};
@@ -81,19 +83,29 @@ pub(super) fn form(drag: &Drag) -> Form {
     }
 }
 
-/// Coefficients c1 and c2 of every sphere.
+/// Coefficients c1 and c2 of every sphere, in whole blocks.
 pub(super) struct Coefficients {
-    pub(super) linear: Vec<f64>,
-    pub(super) quadratic: Vec<f64>,
+    linear: Vec<f64>,
+    quadratic: Vec<f64>,
 }
 
 impl Coefficients {
     pub(super) fn new(drag: &Drag, particles: &Particles) -> Self {
-        let (linear, quadratic) = particles
+        let (mut linear, mut quadratic): (Vec<f64>, Vec<f64>) = particles
             .radius
             .iter()
             .map(|&radius| drag.coefficients(radius))
             .unzip();
+        let blocks = linear.len().div_ceil(BLOCK);
+        linear.resize(blocks * BLOCK, 0.0);
+        quadratic.resize(blocks * BLOCK, 0.0);
         Self { linear, quadratic }
+    }
+
+    /// Those of a block.
+    #[inline(always)]
+    pub(super) fn of_block(&self, bodies: &Bodies) -> [&[f64]; 2] {
+        let block = bodies.first..bodies.first + BLOCK;
+        [&self.linear[block.clone()], &self.quadratic[block]]
     }
 }

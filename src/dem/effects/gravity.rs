@@ -1,6 +1,8 @@
 //! Gravity: F = m g, straight down or tilted.
 
 use super::OneBody;
+use crate::dem::block::BLOCK;
+use crate::dem::bodies::Bodies;
 use crate::dem::particles::Particles;
 use crate::dem::profile::Part;
 use crate::scene;
@@ -22,14 +24,15 @@ impl OneBody for Gravity {
     const PART: Part = Part::Gravity;
 
     #[inline(always)]
-    fn add(&mut self, particles: &mut Particles, _: &[u32]) {
+    fn add(&mut self, bodies: &mut Bodies, _: &[u32]) {
         let [x, z] = self.acceleration;
-        for (force, mass) in particles.force.iter_mut().zip(&particles.mass) {
-            force.z += mass * z;
+        let ([force_x, _, force_z], mass) = (&mut bodies.force.0, &bodies.mass);
+        for k in 0..BLOCK {
+            force_z[k] += mass[k] * z;
         }
         if x != 0.0 {
-            for (force, mass) in particles.force.iter_mut().zip(&particles.mass) {
-                force.x += mass * x;
+            for k in 0..BLOCK {
+                force_x[k] += mass[k] * x;
             }
         }
     }

@@ -6,6 +6,7 @@ mod spin_damping;
 mod swirl;
 mod updraught;
 
+use super::bodies::Bodies;
 use super::particles::Particles;
 use super::profile::Part;
 use crate::scene::Scene;
@@ -13,9 +14,12 @@ use fearless_simd::Level;
 
 /// An effect adds to the forces and torques of the spheres.
 pub(super) trait Effect: Send {
-    /// Adds its forces and torques. `shielding` holds, where the scene has an updraught, the number
-    /// of spheres that shield each one from below.
-    fn apply(&mut self, level: Level, particles: &mut Particles, shielding: &[u32]);
+    /// Adds its forces and torques to those of a block of spheres. `shielding` holds, where the scene has an
+    /// updraught, the number of spheres that shield each one, of all of them, from below.
+    fn apply(&mut self, level: Level, bodies: &mut Bodies, shielding: &[u32]);
+
+    /// Whether it asks for spins, or adds to torques.
+    fn turns(&self) -> bool;
 
     /// What it is called in a profile.
     fn part(&self) -> Part;
@@ -29,8 +33,11 @@ trait OneBody: Send {
     /// What it is called in a profile.
     const PART: Part;
 
+    /// As [`Effect::turns`].
+    const TURNS: bool = false;
+
     /// As [`Effect::apply`]; implementations must be inlined always.
-    fn add(&mut self, particles: &mut Particles, shielding: &[u32]);
+    fn add(&mut self, bodies: &mut Bodies, shielding: &[u32]);
 
     /// As [`Effect::energy`].
     fn energy(&self, _particles: &Particles) -> Option<f64> {
@@ -39,11 +46,15 @@ trait OneBody: Send {
 }
 
 impl<E: OneBody> Effect for E {
-    fn apply(&mut self, level: Level, particles: &mut Particles, shielding: &[u32]) {
+    fn apply(&mut self, level: Level, bodies: &mut Bodies, shielding: &[u32]) {
         fearless_simd::dispatch!(level, simd => {
             let _ = simd;
-            self.add(particles, shielding);
+            self.add(bodies, shielding);
         });
+    }
+
+    fn turns(&self) -> bool {
+        E::TURNS
     }
 
     fn part(&self) -> Part {

@@ -1,7 +1,8 @@
 //! Viscous damping of spins: torque = -c w.
 
 use super::OneBody;
-use crate::dem::particles::Particles;
+use crate::dem::block::BLOCK;
+use crate::dem::bodies::Bodies;
 use crate::dem::profile::Part;
 use crate::scene;
 
@@ -20,10 +21,14 @@ impl SpinDamping {
 impl OneBody for SpinDamping {
     const PART: Part = Part::SpinDamping;
 
+    const TURNS: bool = true;
+
     #[inline(always)]
-    fn add(&mut self, particles: &mut Particles, _: &[u32]) {
-        for (torque, &spin) in particles.torque.iter_mut().zip(&particles.spin) {
-            *torque -= spin * self.coefficient;
+    fn add(&mut self, bodies: &mut Bodies, _: &[u32]) {
+        for (torque, spin) in bodies.torque.0.iter_mut().zip(&bodies.spin.0) {
+            for k in 0..BLOCK {
+                torque[k] -= spin[k] * self.coefficient;
+            }
         }
     }
 }

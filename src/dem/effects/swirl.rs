@@ -4,6 +4,8 @@ use super::drag::{
     Coefficients, DragKernel, Form, Linear, QuadraticComponents, QuadraticVector, form,
 };
 use super::{Effect, OneBody};
+use crate::dem::block::BLOCK;
+use crate::dem::bodies::Bodies;
 use crate::dem::particles::Particles;
 use crate::dem::profile::Part;
 use crate::dem::vector::Vector;
@@ -42,18 +44,16 @@ impl<K: DragKernel> OneBody for Swirl<K> {
     const PART: Part = Part::Swirl;
 
     #[inline(always)]
-    fn add(&mut self, particles: &mut Particles, _: &[u32]) {
-        let coefficients = self
-            .coefficients
-            .linear
-            .iter()
-            .zip(&self.coefficients.quadratic);
-        let motion = particles.position.iter().zip(&particles.velocity);
-        for ((force, (x, v)), (&c1, &c2)) in
-            particles.force.iter_mut().zip(motion).zip(coefficients)
-        {
-            let air = Vector::new(-self.omega * x.y, self.omega * x.x, 0.0);
-            *force += K::vector(c1, c2, air - *v);
+    fn add(&mut self, bodies: &mut Bodies, _: &[u32]) {
+        let [c1, c2] = self.coefficients.of_block(bodies);
+        let [x, y, _] = &bodies.position.0;
+        let [fx, fy, fz] = &mut bodies.force.0;
+        for k in 0..BLOCK {
+            let air = Vector::new(-self.omega * y[k], self.omega * x[k], 0.0);
+            let force = K::vector(c1[k], c2[k], air - bodies.velocity.vector(k));
+            fx[k] += force.x;
+            fy[k] += force.y;
+            fz[k] += force.z;
         }
     }
 }

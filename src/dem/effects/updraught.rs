@@ -2,6 +2,8 @@
 
 use super::drag::{Coefficients, DragKernel, Form, Linear, QuadraticComponents, form};
 use super::{Effect, OneBody};
+use crate::dem::block::BLOCK;
+use crate::dem::bodies::Bodies;
 use crate::dem::math::exp;
 use crate::dem::particles::Particles;
 use crate::dem::profile::Part;
@@ -16,8 +18,6 @@ struct Updraught<K> {
     coefficients: Coefficients,
     /// alpha^n for every n met so far.
     powers: Vec<f64>,
-    /// s exp(-beta (z - z0)) of every sphere.
-    decay: Vec<f64>,
     kernel: PhantomData<K>,
 }
 
@@ -31,12 +31,10 @@ pub(super) fn of_scene(
         parameters: scene::Updraught,
         coefficients: Coefficients,
     ) -> Box<dyn Effect> {
-        let decay = vec![0.0; coefficients.linear.len()];
         Box::new(Updraught::<K> {
             parameters,
             coefficients,
             powers: vec![1.0],
-            decay,
             kernel: PhantomData,
         })
     }
@@ -56,8 +54,8 @@ impl<K: DragKernel> OneBody for Updraught<K> {
     const PART: Part = Part::Updraught;
 
     #[inline(always)]
-    fn add(&mut self, particles: &mut Particles, shielding: &[u32]) {
-        let count = particles.len();
+    fn add(&mut self, bodies: &mut Bodies, shielding: &[u32]) {
+        let shielding = &shielding[bodies.all()];
         let most = shielding.iter().copied().max().unwrap_or(0) as usize;
         while self.powers.len() <= most {
             self.powers
@@ -70,18 +68,16 @@ impl<K: DragKernel> OneBody for Updraught<K> {
             origin,
             ..
         } = self.parameters;
-        for (factor, centre) in self.decay.iter_mut().zip(&particles.position) {
-            *factor = strength * exp(-decay * (centre.z - origin));
+        let mut shield = [0.0; BLOCK];
+        for (shield, &spheres) in shield.iter_mut().zip(shielding) {
+            *shield = self.powers[spheres as usize];
         }
-        let (velocity, force) = (&particles.velocity[..count], &mut particles.force[..count]);
-        let (c1, c2) = (
-            &self.coefficients.linear[..count],
-            &self.coefficients.quadratic[..count],
-        );
-        let (factor, shielding) = (&self.decay[..count], &shielding[..count]);
-        for i in 0..count {
-            let shield = self.powers[shielding[i] as usize];
-            force[i].z += factor[i] * shield * K::along(c1[i], c2[i], speed - velocity[i].z);
+        let [c1, c2] = self.coefficients.of_block(bodies);
+        let (height, velocity) = (&bodies.position.0[2], &bodies.velocity.0[2]);
+        let force = &mut bodies.force.0[2];
+        for k in 0..BLOCK {
+            let factor = strength * exp(-decay * (height[k] - origin));
+            force[k] += factor * shield[k] * K::along(c1[k], c2[k], speed - velocity[k]);
         }
     }
 }

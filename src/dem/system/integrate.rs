@@ -10,6 +10,7 @@ use crate::dem::profile::{self, Part};
 use crate::dem::vector::Vector;
 use crate::record::Instability;
 use crate::scene::Integrator;
+use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f64x4, mask64x4};
 
 /// Velocities and spins before forces foretell them.
 #[derive(Default)]
@@ -38,19 +39,16 @@ impl Before {
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// v += a dt for a time `dt`, and the same for spins. True if a sphere is too fast.
+    /// v += a dt for a time `dt`, and the same for spins. True if a sphere may be too fast.
     pub(super) fn kick(&mut self, dt: f64) -> bool {
         let level = self.level;
-        let too_fast = fearless_simd::dispatch!(level, simd => {
-            let _ = simd;
-            self.kick_all(dt)
-        });
+        let too_fast = fearless_simd::dispatch!(level, simd => self.kick_all(simd, dt));
         self.mark(Part::Kick);
         too_fast
     }
 
     #[inline(always)]
-    fn kick_all(&mut self, dt: f64) -> bool {
+    fn kick_all<S: Simd>(&mut self, simd: S, dt: f64) -> bool {
         let Particles {
             velocity,
             force,
@@ -60,63 +58,52 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             inverse_inertia,
             ..
         } = &mut self.parts.particles;
-        let mut too_fast = false;
-        let limits = &self.parts.limits.speed_squared;
-        for (((velocity, &force), inverse), &limit) in velocity
+        let most = f64x4::splat(simd, self.parts.limits.slow);
+        let mut slow = mask64x4::splat(simd, true);
+        for ((velocity, force), inverse) in velocity
             .iter_mut()
             .zip(force.iter())
             .zip(inverse_mass.iter())
-            .zip(limits)
         {
-            *velocity += force * (inverse * dt);
-            // Written so that a speed which is not a number counts.
-            too_fast |= !(velocity.norm_squared() <= limit);
+            let row = velocity.simd(simd) + force.simd(simd) * (inverse * dt);
+            *velocity = Vector::of_row(row.into());
+            // What is not a number is not slow.
+            slow &= row.abs().simd_le(most);
         }
-        for ((spin, &torque), inverse) in spin
+        for ((spin, torque), inverse) in spin
             .iter_mut()
             .zip(torque.iter())
             .zip(inverse_inertia.iter())
         {
-            *spin += torque * (inverse * dt);
+            let row = spin.simd(simd) + torque.simd(simd) * (inverse * dt);
+            *spin = Vector::of_row(row.into());
         }
-        too_fast
+        !slow.all_true()
     }
 
     /// x += v dt for a time `dt`. Notes whether a sphere went farther than the near pairs allow.
     fn drift(&mut self, dt: f64) {
         let level = self.level;
-        fearless_simd::dispatch!(level, simd => {
-            let _ = simd;
-            self.drift_all(dt);
-        });
+        fearless_simd::dispatch!(level, simd => self.drift_all(simd, dt));
         self.mark(Part::Drift);
     }
 
     #[inline(always)]
-    fn drift_all(&mut self, dt: f64) {
+    fn drift_all<S: Simd>(&mut self, simd: S, dt: f64) {
         let Particles {
             position, velocity, ..
         } = &mut self.parts.particles;
         self.age.time += dt;
         self.near_age.time += dt;
-        if self.list.is_none() {
-            for (position, &velocity) in position.iter_mut().zip(velocity.iter()) {
-                *position += velocity * dt;
-            }
-            return;
+        for (position, velocity) in position.iter_mut().zip(velocity.iter()) {
+            let row = position.simd(simd) + velocity.simd(simd) * dt;
+            *position = Vector::of_row(row.into());
         }
-        let allowance = self.near.allowance(self.near_age.time);
-        let mut moved = false;
-        for ((position, &velocity), &reference) in position
-            .iter_mut()
-            .zip(velocity.iter())
-            .zip(self.near.anchor().position())
-        {
-            *position += velocity * dt;
-            moved |= !allowance.holds(*position, reference);
+        if self.list.is_some() {
+            let allowance = self.near.allowance(self.near_age.time);
+            // It may be so already: a sphere came or went.
+            self.stale |= !allowance.hold(position, self.near.anchor().position());
         }
-        // It may be so already: a sphere came or went.
-        self.stale |= moved;
     }
 
     pub(super) fn check_speeds(&self, too_fast: bool) -> Result<(), Instability> {

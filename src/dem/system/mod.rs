@@ -18,6 +18,8 @@ pub(in crate::dem) use self::ledger::Work;
 use self::meeting::{Loading, Solid};
 use self::pair_block::{EarlierRows, PairBlock};
 pub(in crate::dem) use self::state::EngineState;
+use super::block::BLOCK;
+use super::bodies::Bodies;
 use super::contact::NormalLaw;
 use super::effects::Effect;
 use super::friction::TangentialLaw;
@@ -30,6 +32,7 @@ use super::walls::{Cylinder, Floor};
 use crate::record::Instability;
 use crate::scene::{Integrator, Neighbours};
 use fearless_simd::{Level, Simd};
+use std::ops::Range;
 
 /// What the rest of the program needs of a system, whatever its laws.
 pub(in crate::dem) trait Engine: Send {
@@ -113,6 +116,7 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     /// What all spheres are like, if they are alike.
     alike: Option<Solid>,
     block: Box<PairBlock<T::History>>,
+    bodies: Box<Bodies>,
     shielding: Vec<u32>,
     /// Spheres that may touch the floor and the cylinder.
     near_floor: Vec<u32>,
@@ -165,6 +169,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             profile: None,
             alike: Solid::of_all(&parts.particles),
             block: Box::new(PairBlock::new()),
+            bodies: Box::new(Bodies::new()),
             shielding: vec![0; if parts.shielded { count } else { 0 }],
             near_floor: Vec::new(),
             near_cylinder: Vec::new(),
@@ -215,20 +220,45 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             near.count_shielding(self.level, particles, &mut self.shielding);
             self.mark(Part::Shield);
         }
+        let effects = self.parts.effects.len();
+        if self.ledger.is_none() {
+            self.act(0..effects);
+            return;
+        }
+        let (particles, all) = (&self.parts.particles, &self.parts.effects);
+        let potential = all.iter().take_while(|it| it.energy(particles).is_some());
+        let potential = potential.count();
+        self.act(0..potential);
+        let particles = &self.parts.particles;
+        let before = [particles.force.clone(), particles.torque.clone()];
+        self.act(potential..effects);
+        if let Some(ledger) = &mut self.ledger {
+            ledger.books.note_air([&before[0], &before[1]], &self.parts.particles);
+        }
+    }
+
+    /// Adds the forces and torques of some effects, block by block.
+    fn act(&mut self, effects: Range<usize>) {
         let Parts {
-            particles, effects, ..
+            particles,
+            effects: all,
+            ..
         } = &mut self.parts;
-        let mut before = None;
-        for effect in effects {
-            if self.ledger.is_some() && before.is_none() && effect.energy(particles).is_none() {
-                before = Some([particles.force.clone(), particles.torque.clone()]);
+        let (effects, bodies) = (&mut all[effects], &mut *self.bodies);
+        if effects.is_empty() {
+            return;
+        }
+        let turn = effects.iter().any(|effect| effect.turns());
+        for first in (0..particles.len()).step_by(BLOCK) {
+            bodies.take(self.level, particles, first, turn);
+            profile::mark(&mut self.profile, Part::Rest);
+            for effect in effects.iter_mut() {
+                effect.apply(self.level, bodies, &self.shielding);
+                profile::mark(&mut self.profile, effect.part());
             }
-            effect.apply(self.level, particles, &self.shielding);
-            profile::mark(&mut self.profile, effect.part());
+            bodies.give(self.level, particles, turn);
         }
-        if let (Some(ledger), Some([force, torque])) = (&mut self.ledger, before) {
-            ledger.books.note_air([&force, &torque], particles);
-        }
+        self.mark(Part::Rest);
     }
 
     /// Reports a contact that the latest forces found too deep.
