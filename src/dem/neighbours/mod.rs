@@ -12,6 +12,7 @@
 
 mod anchor;
 mod cells;
+mod few;
 mod hash;
 mod near;
 mod search;
@@ -19,10 +20,12 @@ mod search;
 pub use near::{Near, NearPair};
 
 use self::anchor::Anchor;
+use self::few::{FEW, FewSpheres};
 use self::search::Search;
 use super::particles::Particles;
 use super::vector::Vector;
 use crate::scene::Neighbours;
+use fearless_simd::Level;
 
 pub use self::anchor::Allowance;
 
@@ -58,6 +61,8 @@ pub struct VerletList {
     /// list holds contacts alone.
     half_diagonal: f64,
     search: Search,
+    few: FewSpheres,
+    level: Level,
     builds: u64,
     /// Whether spheres came or went since the build.
     outdated: bool,
@@ -79,6 +84,8 @@ impl VerletList {
             anchor: Anchor::default(),
             half_diagonal: 0.0,
             search: Search::new(neighbours),
+            few: FewSpheres::default(),
+            level: Level::new(),
             builds: 0,
             outdated: false,
         }
@@ -189,17 +196,28 @@ impl VerletList {
     pub fn build(&mut self, particles: &Particles) {
         let count = particles.len();
         let largest = particles.largest_radius();
-        let columns = self.reach == Reach::Column;
-        self.search
-            .fill(particles, 2.0 * largest + self.skin, columns);
+        let few = count <= FEW && self.search.may_be_replaced();
+        if few {
+            self.few.fill(particles);
+        } else {
+            let columns = self.reach == Reach::Column;
+            let reach = 2.0 * largest + self.skin;
+            self.search.fill(particles, reach, columns);
+        }
         self.start.clear();
         self.neighbour.clear();
         self.owner.clear();
         self.start.push(0);
         for i in 0..count {
-            let first = self.neighbour.len();
-            self.find_partners(i, particles);
-            self.neighbour[first..].sort_unstable();
+            let from = self.neighbour.len();
+            if few {
+                let of = (i, particles.first_partner(i));
+                let reach = (self.reach, self.skin);
+                self.few.find(self.level, of, reach, &mut self.neighbour);
+            } else {
+                self.find_partners(i, particles);
+                self.neighbour[from..].sort_unstable();
+            }
             self.start.push(self.neighbour.len() as u32);
             self.owner.resize(self.neighbour.len(), i as u32);
         }

@@ -28,6 +28,11 @@ impl Search {
         }
     }
 
+    /// Whether another way to find the same pairs will do: the scene does not ask for this one.
+    pub(super) fn may_be_replaced(&self) -> bool {
+        matches!(self, Self::Cells(_, None))
+    }
+
     /// Sorts the spheres, whose pairs reach no farther than `reach` (m); in `columns`, at any height.
     pub(super) fn fill(&mut self, particles: &Particles, reach: f64, columns: bool) {
         // A hair wider: rounding must not put the partners of a pair two cells apart.

@@ -1,0 +1,95 @@
+//! All pairs of a few spheres, looked at many at once: quicker than cells below some thousand spheres, and the
+//! partners of a sphere come out in order.
+
+use super::Reach;
+use crate::dem::particles::Particles;
+use fearless_simd::{Level, Simd, SimdBase, SimdFloat, SimdMask, f64x8};
+
+/// As many spheres are few.
+pub(super) const FEW: usize = 1024;
+
+/// Spheres that are looked at as the bits of one number.
+const WORD: usize = 64;
+/// Of them at once.
+const LANES: usize = 8;
+
+/// Centres and radii of a few spheres (m), one array per quantity.
+#[derive(Clone, Debug, Default)]
+pub(super) struct FewSpheres {
+    coordinates: [Vec<f64>; 3],
+    radius: Vec<f64>,
+}
+
+impl FewSpheres {
+    /// Takes the spheres.
+    pub(super) fn fill(&mut self, particles: &Particles) {
+        // What is not a number is near nothing.
+        let padded = particles.len().next_multiple_of(WORD);
+        let positions = || particles.position.iter();
+        let [x, y, z] = &mut self.coordinates;
+        for column in [&mut *x, &mut *y, &mut *z, &mut self.radius] {
+            column.clear();
+        }
+        x.extend(positions().map(|centre| centre.x));
+        y.extend(positions().map(|centre| centre.y));
+        z.extend(positions().map(|centre| centre.z));
+        self.radius.extend(&particles.radius);
+        for column in [x, y, z, &mut self.radius] {
+            column.resize(padded, f64::NAN);
+        }
+    }
+
+    /// Adds the partners of sphere `i` from `first` on to a list, in order.
+    pub(super) fn find(
+        &self,
+        level: Level,
+        (i, first): (usize, usize),
+        (reach, skin): (Reach, f64),
+        found: &mut Vec<u32>,
+    ) {
+        fearless_simd::dispatch!(level, simd => {
+            for word in first / WORD..self.radius.len() / WORD {
+                let mut near = self.word(simd, i, word * WORD, reach, skin);
+                if word * WORD < first {
+                    near &= u64::MAX << (first - word * WORD);
+                }
+                while near != 0 {
+                    found.push((word * WORD) as u32 + near.trailing_zeros());
+                    near &= near - 1;
+                }
+            }
+        });
+    }
+
+    /// Which of the spheres from `at` on are near sphere `i`.
+    #[inline(always)]
+    fn word<S: Simd>(&self, simd: S, i: usize, at: usize, reach: Reach, skin: f64) -> u64 {
+        let [x, y, z] = &self.coordinates;
+        let all = at..at + WORD;
+        let columns = x[all.clone()]
+            .chunks_exact(LANES)
+            .zip(y[all.clone()].chunks_exact(LANES))
+            .zip(z[all.clone()].chunks_exact(LANES))
+            .zip(self.radius[all].chunks_exact(LANES));
+        let own = self.radius[i];
+        let mut bits = 0;
+        for (lane, (((x_of, y_of), z_of), radius)) in columns.enumerate() {
+            let eight = |column: &[f64]| f64x8::from_slice(simd, column);
+            let (dx, dy) = (eight(x_of) - x[i], eight(y_of) - y[i]);
+            let radius = eight(radius);
+            let near = match reach {
+                Reach::Contact => {
+                    let dz = eight(z_of) - z[i];
+                    let distance = radius + (own + skin);
+                    (dx * dx + dy * dy + dz * dz).simd_lt(distance * distance)
+                }
+                Reach::Column => {
+                    let distance = radius.max(f64x8::splat(simd, own)) * 2.0 + skin;
+                    dx.abs().simd_lt(distance) & dy.abs().simd_lt(distance)
+                }
+            };
+            bits |= near.to_bitmask() << (lane * LANES);
+        }
+        bits
+    }
+}
