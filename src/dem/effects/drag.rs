@@ -1,5 +1,6 @@
 //! The drag law that swirl and updraught share.
 
+use crate::dem::order::reorder;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use crate::scene::{Drag, DragForm};
@@ -95,5 +96,10 @@ impl Coefficients {
             .map(|&radius| drag.coefficients(radius))
             .unzip();
         Self { linear, quadratic }
+    }
+
+    pub(super) fn reorder(&mut self, order: &[u32]) {
+        reorder(&mut self.linear, order);
+        reorder(&mut self.quadratic, order);
     }
 }

@@ -20,6 +20,9 @@ pub(super) trait Effect: Send {
     /// What it is called in a profile.
     fn part(&self) -> Part;
 
+    /// Follows spheres into a new order.
+    fn reorder(&mut self, order: &[u32]);
+
     /// The potential energy (J) of a force that has one; none of the others.
     fn energy(&self, particles: &Particles) -> Option<f64>;
 }
@@ -31,6 +34,9 @@ trait OneBody: Send {
 
     /// As [`Effect::apply`]; implementations must be inlined always.
     fn add(&mut self, particles: &mut Particles, shielding: &[u32]);
+
+    /// As [`Effect::reorder`], of an effect that keeps something per sphere.
+    fn reorder(&mut self, _order: &[u32]) {}
 
     /// As [`Effect::energy`].
     fn energy(&self, _particles: &Particles) -> Option<f64> {
@@ -48,6 +54,10 @@ impl<E: OneBody> Effect for E {
 
     fn part(&self) -> Part {
         E::PART
+    }
+
+    fn reorder(&mut self, order: &[u32]) {
+        OneBody::reorder(self, order);
     }
 
     fn energy(&self, particles: &Particles) -> Option<f64> {

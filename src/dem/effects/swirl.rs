@@ -41,6 +41,10 @@ pub(super) fn of_scene(
 impl<K: DragKernel> OneBody for Swirl<K> {
     const PART: Part = Part::Swirl;
 
+    fn reorder(&mut self, order: &[u32]) {
+        self.coefficients.reorder(order);
+    }
+
     #[inline(always)]
     fn add(&mut self, particles: &mut Particles, _: &[u32]) {
         let coefficients = self

@@ -55,6 +55,10 @@ pub(super) fn of_scene(
 impl<K: DragKernel> OneBody for Updraught<K> {
     const PART: Part = Part::Updraught;
 
+    fn reorder(&mut self, order: &[u32]) {
+        self.coefficients.reorder(order);
+    }
+
     #[inline(always)]
     fn add(&mut self, particles: &mut Particles, shielding: &[u32]) {
         let count = particles.len();

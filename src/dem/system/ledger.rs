@@ -10,6 +10,7 @@ use super::{Engine, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, Spring, TangentialLaw};
 use crate::dem::neighbours::NearPair;
+use crate::dem::order::reorder;
 use crate::dem::particles::{Particles, retain};
 use crate::dem::profile::Part;
 use crate::dem::vector::Vector;
@@ -98,6 +99,15 @@ impl Books {
         let (contacts, air) = self.parts();
         for forces in contacts.into_iter().chain(air) {
             retain(forces, keep);
+        }
+    }
+
+    /// Follows spheres into a new order.
+    pub(super) fn reorder(&mut self, order: &[u32]) {
+        self.resize(order.len());
+        let (contacts, air) = self.parts();
+        for forces in contacts.into_iter().chain(air) {
+            reorder(forces, order);
         }
     }
 

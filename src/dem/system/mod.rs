@@ -7,6 +7,7 @@ mod ledger;
 mod lists;
 mod measure;
 mod meeting;
+mod order;
 mod pair_block;
 mod state;
 
@@ -86,6 +87,8 @@ pub(in crate::dem) struct Parts {
     /// Skin of the neighbour list (m).
     pub(in crate::dem) skin: f64,
     pub(in crate::dem) neighbours: Neighbours,
+    /// Whether spheres are sorted in memory; their numbers then follow them.
+    pub(in crate::dem) sorted: bool,
 }
 
 /// A simulation compiled for its contact laws.

@@ -7,7 +7,8 @@ use super::ledger::Books;
 use super::meeting::Solid;
 use super::{Age, Near, Parts, System};
 use crate::dem::contact::NormalLaw;
-use crate::dem::friction::TangentialLaw;
+use crate::dem::friction::{History, TangentialLaw};
+use crate::dem::order;
 use crate::dem::particles::Particles;
 use crate::dem::state::StateError;
 use crate::record::Instability;
@@ -39,17 +40,7 @@ struct Histories<H> {
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     pub(super) fn save(&self) -> EngineState {
-        let mut pairs = Vec::new();
-        if let Some(list) = self.list.as_ref().filter(|_| Self::REMEMBERS) {
-            let empty = encode(&T::History::default());
-            let entries = list.owner().iter().zip(list.neighbour());
-            for ((&i, &j), &history) in entries.zip(&self.pair_history) {
-                // By its bits: to whom zero and minus zero are equal may not be for the motion.
-                if encode(&history) != empty {
-                    pairs.push((i, j, history));
-                }
-            }
-        }
+        let pairs = self.remembered();
         EngineState {
             step: self.step,
             moves: self.moves,
@@ -61,6 +52,20 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }),
             books: self.ledger.as_ref().map(|ledger| ledger.books.clone()),
         }
+    }
+
+    /// The pairs whose history is not empty: both spheres, in the order of the list.
+    pub(super) fn remembered(&self) -> Vec<(u32, u32, T::History)> {
+        let mut pairs = Vec::new();
+        if let Some(list) = self.list.as_ref().filter(|_| Self::REMEMBERS) {
+            let entries = list.owner().iter().zip(list.neighbour());
+            for ((&i, &j), &history) in entries.zip(&self.pair_history) {
+                if !history.is_new() {
+                    pairs.push((i, j, history));
+                }
+            }
+        }
+        pairs
     }
 
     pub(super) fn take_up(&mut self, state: EngineState) -> Result<(), StateError> {
@@ -82,12 +87,22 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
         self.step = step;
         self.moves = moves;
-        let limits = &mut self.parts.limits;
-        limits.speed_squared.clear();
-        for radius in &particles.radius {
-            limits.add_sphere(*radius, self.parts.dt);
+        let Parts {
+            limits,
+            dt,
+            effects,
+            particles: present,
+            sorted,
+            ..
+        } = &mut self.parts;
+        limits.fit(&particles.radius, *dt);
+        if *sorted {
+            let order = order::between(&present.number, &particles.number, particles.fixed);
+            for effect in effects {
+                effect.reorder(&order);
+            }
         }
-        self.parts.particles = particles;
+        *present = particles;
         self.floor_history = histories.floor;
         self.cylinder_history = histories.cylinder;
         self.make_lists(&histories.pairs)
@@ -110,7 +125,17 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let count = particles.len();
         let at = |present: bool| if present { count } else { 0 };
         let (pairs, known) = (&histories.pairs, |index: u32| (index as usize) < count);
+        let present = &self.parts.particles;
+        let ordered = match self.parts.sorted {
+            true => {
+                count == present.len()
+                    && particles.fixed == present.fixed
+                    && order::is_one(&particles.number, particles.fixed)
+            }
+            false => particles.number.is_empty() == present.number.is_empty(),
+        };
         let fits = particles.fits_together()
+            && ordered
             && histories.floor.len() == at(floor.is_some())
             && histories.cylinder.len() == at(cylinder.is_some())
             && pairs.iter().all(|&(i, j, _)| known(i) && known(j));
@@ -125,12 +150,23 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Makes lists of neighbours for the present spheres, with these histories.
     fn make_lists(&mut self, histories: &[(u32, u32, T::History)]) -> Result<(), Instability> {
         self.stale = true;
+        if self.list.is_none() {
+            return Ok(());
+        }
+        self.alike = Solid::of_all(&self.parts.particles);
+        self.near = Near::new(N::ACTS, self.parts.shielded, 0.3 * self.parts.skin);
+        self.fill_lists(histories)
+    }
+
+    /// The same, after as many steps as these lists hold as a rule.
+    pub(super) fn fill_lists(
+        &mut self,
+        histories: &[(u32, u32, T::History)],
+    ) -> Result<(), Instability> {
         let Some(list) = &mut self.list else {
             return Ok(());
         };
         let particles = &self.parts.particles;
-        self.alike = Solid::of_all(particles);
-        self.near = Near::new(N::ACTS, self.parts.shielded, 0.3 * self.parts.skin);
         self.block.forget();
         self.age = Age::default();
         self.near_age = Age::default();
