@@ -37,8 +37,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         for effect in &mut self.parts.effects {
             effect.reorder(order);
         }
-        reorder(&mut self.floor_history, order);
-        reorder(&mut self.cylinder_history, order);
+        for wall in &mut self.walls {
+            wall.reorder(&places);
+        }
         if let Some(ledger) = &mut self.ledger {
             ledger.books.reorder(order);
         }
