@@ -25,7 +25,7 @@ use super::contact::NormalLaw;
 use super::effects::Effect;
 use super::friction::TangentialLaw;
 use super::guard::Limits;
-use super::neighbours::{Near, Reach, VerletList};
+use super::neighbours::{Near, NearPair, Reach, VerletList};
 use super::particles::{Particles, Sphere, retain};
 use super::profile::{self, Part, Profile};
 use super::state::StateError;
@@ -121,8 +121,10 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     shielding: Vec<u32>,
     /// The walls, and what may touch them.
     walls: Vec<WallContacts<T::History>>,
-    /// Histories of listed pairs. A law without history has one of no size, and these take no memory.
+    /// Histories of near pairs. A law without history has one of no size, and these take no memory.
     pair_history: Vec<T::History>,
+    /// The near pairs of before, for their memory.
+    spare_pairs: Vec<NearPair>,
     step: u64,
     moves: u64,
     level: Level,
@@ -167,6 +169,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             shielding: vec![0; if parts.shielded { count } else { 0 }],
             walls: parts.walls.iter().copied().map(WallContacts::new).collect(),
             pair_history: Vec::new(),
+            spare_pairs: Vec::new(),
             normal,
             tangential,
             parts,
@@ -363,7 +366,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
             ledger.books.add_sphere();
         }
         limits.add_sphere(sphere.radius, *dt);
-        self.list.iter_mut().for_each(VerletList::add_sphere);
+        self.list.iter_mut().for_each(VerletList::outdate);
         self.near.add_sphere(sphere.position);
         self.renumber();
         self.note_exchange(before);
@@ -377,10 +380,8 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         }
         retain(&mut self.parts.limits.speed_squared, keep);
         self.walls.iter_mut().for_each(|wall| wall.retain(keep));
-        if let Some(list) = &mut self.list {
-            retain(&mut self.pair_history, &list.remove_spheres(keep));
-        }
-        self.near.remove_spheres(keep);
+        self.list.iter_mut().for_each(VerletList::outdate);
+        retain(&mut self.pair_history, &self.near.remove_spheres(keep));
         self.block.forget();
         self.renumber();
         self.note_exchange(before);

@@ -47,10 +47,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if self.list.is_none() {
             return Ok(());
         }
-        let parts = &self.parts;
-        parts
-            .limits
-            .check_positions(&parts.particles, self.step, parts.dt)?;
         self.fill_lists(&histories)
     }
 }

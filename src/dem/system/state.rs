@@ -62,16 +62,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// The pairs whose history is not empty: both spheres, in the order of the list.
     pub(super) fn remembered(&self) -> Vec<(u32, u32, T::History)> {
-        let mut pairs = Vec::new();
-        if let Some(list) = self.list.as_ref().filter(|_| Self::REMEMBERS) {
-            let entries = list.owner().iter().zip(list.neighbour());
-            for ((&i, &j), &history) in entries.zip(&self.pair_history) {
-                if !history.is_new() {
-                    pairs.push((i, j, history));
-                }
-            }
-        }
-        pairs
+        let known = self.near.pairs().iter().zip(&self.pair_history);
+        let known = known.filter(|(_, history)| Self::REMEMBERS && !history.is_new());
+        known
+            .map(|(pair, &history)| (pair.i, pair.j, history))
+            .collect()
     }
 
     pub(super) fn take_up(&mut self, state: EngineState) -> Result<(), StateError> {
@@ -163,7 +158,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.fill_lists(histories)
     }
 
-    /// The same, after as many steps as these lists hold as a rule.
+    /// The same, with the margins of the lists of before.
     pub(super) fn fill_lists(
         &mut self,
         histories: &[(u32, u32, T::History)],
@@ -171,20 +166,15 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let Some(list) = &mut self.list else {
             return Ok(());
         };
-        let particles = &self.parts.particles;
+        list.outdate();
         self.block.forget();
         self.age = Age::default();
         self.near_age = Age::default();
-        list.build(particles);
-        let mut known = histories.iter().peekable();
-        let entries = list.owner().iter().zip(list.neighbour());
-        self.pair_history = entries
-            .map(|(&i, &j)| {
-                while known.next_if(|&&(a, b, _)| (a, b) < (i, j)).is_some() {}
-                let known = known.next_if(|&&(a, b, _)| (a, b) == (i, j));
-                known.map_or_else(T::History::default, |&(_, _, history)| history)
-            })
-            .collect();
+        let pairs = histories.iter().map(|&(i, j, _)| (i, j));
+        self.near.set_pairs(pairs);
+        self.pair_history.clear();
+        let histories = histories.iter().map(|&(_, _, history)| history);
+        self.pair_history.extend(histories);
         // A step may begin with a drift, which already goes by the near list.
         self.refresh()
     }
