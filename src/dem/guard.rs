@@ -44,10 +44,16 @@ impl Limits {
                     .map(|floor| 10.0 * floor.abs().max(highest).max(tank_radius.unwrap_or(1.0))))
                 .unwrap_or(f64::MAX),
         };
-        for radius in &particles.radius {
-            limits.add_sphere(*radius, scene.time.dt);
-        }
+        limits.fit(&particles.radius, scene.time.dt);
         limits
+    }
+
+    /// The limits of these spheres instead of those before.
+    pub(super) fn fit(&mut self, radius: &[f64], dt: f64) {
+        self.speed_squared.clear();
+        for &radius in radius {
+            self.add_sphere(radius, dt);
+        }
     }
 
     /// The limits of another sphere.

@@ -13,6 +13,7 @@ pub mod friction;
 mod guard;
 pub mod math;
 pub mod neighbours;
+pub mod order;
 mod particles;
 mod process;
 mod profile;

@@ -1,5 +1,6 @@
 //! The spheres of a simulation, one array per quantity.
 
+use super::order::reorder;
 use super::vector::Vector;
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +11,8 @@ pub struct Particles {
     /// How many of the spheres, the first ones, never move.
     pub fixed: usize,
     /// Number of each sphere in the scene, counted from 0, fixed ones by themselves; empty where no
-    /// sphere comes or goes, which makes numbers and indices the same.
+    /// sphere comes or goes and there are fewer than [`MANY`](super::order::MANY), which makes numbers
+    /// and indices the same.
     pub number: Vec<u32>,
     /// Centres (m).
     pub position: Vec<Vector>,
@@ -128,6 +130,39 @@ impl Particles {
         retain(&mut self.inverse_mass, keep);
         retain(&mut self.inertia, keep);
         retain(&mut self.inverse_inertia, keep);
+    }
+
+    /// Puts the spheres into a new order.
+    pub(super) fn reorder(&mut self, order: &[u32]) {
+        reorder(&mut self.number, order);
+        let vectors = [
+            &mut self.position,
+            &mut self.velocity,
+            &mut self.force,
+            &mut self.spin,
+            &mut self.torque,
+        ];
+        for vectors in vectors {
+            reorder(vectors, order);
+        }
+        let scalars = [
+            &mut self.radius,
+            &mut self.mass,
+            &mut self.inverse_mass,
+            &mut self.inertia,
+            &mut self.inverse_inertia,
+        ];
+        for scalars in scalars {
+            reorder(scalars, order);
+        }
+    }
+
+    /// The place in the scene of the sphere at an index: its number, those of fixed spheres first.
+    pub(super) fn place_in_scene(&self, index: usize) -> usize {
+        match self.number.get(index) {
+            Some(&number) if index >= self.fixed => self.fixed + number as usize,
+            _ => index,
+        }
     }
 
     /// The least index of a partner that sphere `i` may have in a list of pairs: pairs stand with the

@@ -4,17 +4,18 @@ use super::contact::{Hertz, Linear, NoContact, NormalLaw};
 use super::friction::{Coulomb, CundallStrack, Frictionless, Mindlin, SpinFriction, TangentialLaw};
 use super::guard::Limits;
 use super::neighbours::VerletList;
+use super::order;
 use super::particles::{Particles, Sphere};
 use super::process::{Counts, Feed, Process};
 use super::profile::Profile;
 use super::start::{self, StartError};
 use super::system::{Engine, Parts, System};
 use super::vector::Vector;
-use super::walls::{Cylinder, Floor};
+use super::walls::{Cylinder, Floor, TankWall};
 use super::{effects, timestep};
 use crate::observe::{Flow, FrameView, Ledger};
 use crate::record::{Instability, Milestone};
-use crate::scene::{Contact, Friction, Neighbours, Scene, Start};
+use crate::scene::{Contact, Friction, Neighbours, Scene, Start, Tank};
 
 /// Why a scene cannot be run.
 #[derive(Debug, thiserror::Error)]
@@ -45,6 +46,8 @@ pub struct Simulation {
     /// Radius (m) and mass (kg) of every sphere of the scene, those included that are not in yet.
     radius: Vec<f64>,
     mass: Vec<f64>,
+    /// Moments of inertia (kg m2) in the order of the scene, where that is not the order in memory.
+    inertia: Vec<f64>,
     dt: f64,
     components: [[Vec<f64>; 3]; 3],
 }
@@ -73,6 +76,7 @@ impl Simulation {
     pub fn with_skin(scene: &Scene, skin: f64) -> Result<Self, BuildError> {
         let spheres = start::place(scene)?;
         let (radius, mass) = (spheres.radius.clone(), spheres.mass.clone());
+        let inertia = spheres.inertia.clone();
         let mut particles = start::fixed(scene);
         let feed = match scene.start {
             Start::Feed { interval, .. } => Some(Feed::new(
@@ -86,19 +90,15 @@ impl Simulation {
         };
         let present = particles.len() - particles.fixed;
         let process = Process::of_scene(scene, feed, present);
-        if process.is_some() {
+        let sorted = process.is_none() && present >= order::MANY;
+        if sorted || process.is_some() {
             particles.number = (0..particles.fixed as u32)
                 .chain(0..present as u32)
                 .collect();
         }
         let tank = scene.tank.as_ref();
         let parts = Parts {
-            floor: tank
-                .and_then(|tank| tank.floor)
-                .map(|height| Floor { height }),
-            cylinder: tank
-                .and_then(|tank| tank.radius)
-                .map(|radius| Cylinder { radius }),
+            walls: tank.map(walls_of).unwrap_or_default(),
             effects: effects::of_scene(scene, &particles),
             shielded: scene.updraught.is_some(),
             limits: Limits::new(scene, &particles),
@@ -107,6 +107,7 @@ impl Simulation {
             neighbours: scene.neighbours,
             skin: skin * radius.iter().copied().fold(0.0, f64::max),
             particles,
+            sorted,
         };
         let mut engine = engine(scene, parts)?;
         if scene.output.ledger {
@@ -117,6 +118,7 @@ impl Simulation {
             process,
             radius,
             mass,
+            inertia: if sorted { inertia } else { Vec::new() },
             dt: scene.time.dt,
             components: Default::default(),
         })
@@ -128,7 +130,14 @@ impl Simulation {
     /// The guard that was broken; the simulation must not be advanced any further.
     pub fn advance(&mut self, steps: u64) -> Result<(), Instability> {
         let Some(process) = &mut self.process else {
-            return self.engine.advance(steps);
+            let result = self.engine.advance(steps);
+            return result.map_err(|instability| Instability {
+                sphere: self
+                    .engine
+                    .particles()
+                    .place_in_scene(instability.sphere),
+                ..instability
+            });
         };
         let end = self.engine.step() + steps;
         let result = process.advance(self.engine.as_mut(), end);
@@ -182,7 +191,9 @@ impl Simulation {
         self.engine.profile()
     }
 
-    /// The spheres that are in the simulation, the fixed ones first.
+    /// The spheres that are in the simulation, the fixed ones first. The order of the others is that of
+    /// the scene while there are fewer than [`MANY`](order::MANY) or spheres come and go, else that of
+    /// their places: see [`number`](Particles::number).
     pub fn particles(&self) -> &Particles {
         self.engine.particles()
     }
@@ -218,6 +229,7 @@ impl Simulation {
         let (work, counts) = (self.engine.work(), self.counts());
         let particles = self.engine.particles();
         let moving = particles.fixed..;
+        let sorted = self.process.is_none() && !particles.number.is_empty();
         let vectors = [&particles.position, &particles.velocity, &particles.spin];
         for (components, vectors) in self.components.iter_mut().zip(vectors) {
             components[0].clear();
@@ -225,10 +237,23 @@ impl Simulation {
             components[2].clear();
             // Without rotation there are no spins, neither of fixed spheres nor of others.
             let vectors = vectors.get(moving.clone()).unwrap_or_default();
+            if sorted {
+                let numbers = &particles.number[moving.clone()];
+                in_scene_order(components, vectors, numbers);
+                continue;
+            }
             components[0].extend(vectors.iter().map(|vector| vector.x));
             components[1].extend(vectors.iter().map(|vector| vector.y));
             components[2].extend(vectors.iter().map(|vector| vector.z));
         }
+        let [radius, mass, inertia] = match sorted {
+            true => [&self.radius[..], &self.mass, &self.inertia],
+            false => [
+                &particles.radius[moving.clone()],
+                &particles.mass[moving.clone()],
+                particles.inertia.get(moving.clone()).unwrap_or_default(),
+            ],
+        };
         let [position, velocity, spin] = self
             .components
             .each_ref()
@@ -237,9 +262,9 @@ impl Simulation {
             position,
             velocity,
             spin: particles.rotate().then_some(spin),
-            radius: &particles.radius[moving.clone()],
-            mass: &particles.mass[moving.clone()],
-            inertia: particles.inertia.get(moving.clone()).unwrap_or_default(),
+            radius,
+            mass,
+            inertia,
             elastic_energy: contacts.elastic_energy,
             ledger: work.map(|work| Ledger {
                 springs: contacts.spring_energy,
@@ -258,6 +283,28 @@ impl Simulation {
             }),
         }
     }
+}
+
+/// Components of vectors of spheres with these numbers, in the order of the numbers.
+fn in_scene_order(components: &mut [Vec<f64>; 3], vectors: &[Vector], numbers: &[u32]) {
+    for component in components.iter_mut() {
+        component.resize(vectors.len(), 0.0);
+    }
+    for (vector, &number) in vectors.iter().zip(numbers) {
+        let number = number as usize;
+        components[0][number] = vector.x;
+        components[1][number] = vector.y;
+        components[2][number] = vector.z;
+    }
+}
+
+/// The walls of a tank, in the order in which they act.
+fn walls_of(tank: &Tank) -> Vec<TankWall> {
+    let floor = tank.floor.map(|height| TankWall::Floor(Floor { height }));
+    let cylinder = tank
+        .radius
+        .map(|radius| TankWall::Cylinder(Cylinder { radius }));
+    floor.into_iter().chain(cylinder).collect()
 }
 
 /// The spheres of a scene that come in later.

@@ -2,6 +2,7 @@
 
 use crate::dem::block::BLOCK;
 use crate::dem::bodies::Bodies;
+use crate::dem::order::reorder;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use crate::scene::{Drag, DragForm};
@@ -107,5 +108,13 @@ impl Coefficients {
     pub(super) fn of_block(&self, bodies: &Bodies) -> [&[f64]; 2] {
         let block = bodies.first..bodies.first + BLOCK;
         [&self.linear[block.clone()], &self.quadratic[block]]
+    }
+
+    pub(super) fn reorder(&mut self, order: &[u32]) {
+        for coefficients in [&mut self.linear, &mut self.quadratic] {
+            coefficients.truncate(order.len());
+            reorder(coefficients, order);
+            coefficients.resize(order.len().next_multiple_of(BLOCK), 0.0);
+        }
     }
 }

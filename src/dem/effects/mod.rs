@@ -24,6 +24,9 @@ pub(super) trait Effect: Send {
     /// What it is called in a profile.
     fn part(&self) -> Part;
 
+    /// Follows spheres into a new order.
+    fn reorder(&mut self, order: &[u32]);
+
     /// The potential energy (J) of a force that has one; none of the others.
     fn energy(&self, particles: &Particles) -> Option<f64>;
 }
@@ -38,6 +41,9 @@ trait OneBody: Send {
 
     /// As [`Effect::apply`]; implementations must be inlined always.
     fn add(&mut self, bodies: &mut Bodies, shielding: &[u32]);
+
+    /// As [`Effect::reorder`], of an effect that keeps something per sphere.
+    fn reorder(&mut self, _order: &[u32]) {}
 
     /// As [`Effect::energy`].
     fn energy(&self, _particles: &Particles) -> Option<f64> {
@@ -59,6 +65,10 @@ impl<E: OneBody> Effect for E {
 
     fn part(&self) -> Part {
         E::PART
+    }
+
+    fn reorder(&mut self, order: &[u32]) {
+        OneBody::reorder(self, order);
     }
 
     fn energy(&self, particles: &Particles) -> Option<f64> {

@@ -43,6 +43,10 @@ pub(super) fn of_scene(
 impl<K: DragKernel> OneBody for Swirl<K> {
     const PART: Part = Part::Swirl;
 
+    fn reorder(&mut self, order: &[u32]) {
+        self.coefficients.reorder(order);
+    }
+
     #[inline(always)]
     fn add(&mut self, bodies: &mut Bodies, _: &[u32]) {
         let [c1, c2] = self.coefficients.of_block(bodies);

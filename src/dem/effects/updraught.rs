@@ -53,6 +53,10 @@ pub(super) fn of_scene(
 impl<K: DragKernel> OneBody for Updraught<K> {
     const PART: Part = Part::Updraught;
 
+    fn reorder(&mut self, order: &[u32]) {
+        self.coefficients.reorder(order);
+    }
+
     #[inline(always)]
     fn add(&mut self, bodies: &mut Bodies, shielding: &[u32]) {
         let shielding = &shielding[bodies.all()];

@@ -95,6 +95,19 @@ pub trait History: Copy + Default + Send + Serialize + DeserializeOwned {
 
     /// The history of a contact with that spring.
     fn of_spring(spring: Spring) -> Self;
+
+    /// The history of the same contact as the other partner sees it.
+    fn turned_round(self) -> Self {
+        let force = -self.spring().force;
+        Self::of_spring(Spring { force })
+    }
+
+    /// Whether it is that of a new contact, by its bits: to whom zero and minus zero are equal may not be
+    /// for the motion.
+    fn is_new(self) -> bool {
+        let Vector { x, y, z, .. } = self.spring().force;
+        [x, y, z].iter().all(|value| value.to_bits() == 0)
+    }
 }
 
 impl History for () {

@@ -64,7 +64,7 @@ pub struct VerletList {
     few: FewSpheres,
     level: Level,
     builds: u64,
-    /// Whether spheres came or went since the build.
+    /// Whether spheres came, went or changed places since the build.
     outdated: bool,
 }
 
@@ -91,40 +91,9 @@ impl VerletList {
         }
     }
 
-    /// Notes that a sphere was added at the end.
-    pub fn add_sphere(&mut self) {
+    /// Notes that spheres came, went or changed places: the list must be built anew.
+    pub fn outdate(&mut self) {
         self.outdated = true;
-        self.start.extend(self.start.last().copied());
-    }
-
-    /// Notes that some spheres were removed: their pairs go, and the others get new indices. Says
-    /// of each entry whether it is kept.
-    pub fn remove_spheres(&mut self, keep: &[bool]) -> Vec<bool> {
-        self.outdated = true;
-        let mut next = 0;
-        let index: Vec<Option<u32>> = keep
-            .iter()
-            .map(|&keep| {
-                next += u32::from(keep);
-                keep.then(|| next - 1)
-            })
-            .collect();
-        let mut kept = vec![false; self.neighbour.len()];
-        let (mut start, mut neighbour) = (vec![0], Vec::new());
-        for (i, bounds) in self.start.windows(2).enumerate() {
-            if !keep[i] {
-                continue;
-            }
-            for entry in bounds[0] as usize..bounds[1] as usize {
-                if let Some(partner) = index[self.neighbour[entry] as usize] {
-                    kept[entry] = true;
-                    neighbour.push(partner);
-                }
-            }
-            start.push(neighbour.len() as u32);
-        }
-        (self.start, self.neighbour) = (start, neighbour);
-        kept
     }
 
     /// Whether the list still holds `time` (s) after its build, and will until the offset of

@@ -11,18 +11,19 @@
 use super::anchor::{Allowance, Anchor};
 use super::{Particles, VerletList};
 use crate::dem::block::{BLOCK, Column, Columns, row};
+use crate::dem::particles::retain;
 use crate::dem::vector::Vector;
 use fearless_simd::{Level, Simd};
 use std::ops::Range;
 
-/// A pair that may touch, and its entry in the Verlet list.
+/// A pair that may touch, and its entry in this list.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NearPair {
     /// The sphere of lower index.
     pub i: u32,
     /// The other sphere.
     pub j: u32,
-    /// The pair's entry in the Verlet list.
+    /// The pair's entry in the list of near pairs: where its history is.
     pub entry: u32,
 }
 
@@ -81,6 +82,11 @@ impl Near {
         &self.pairs
     }
 
+    /// Takes the pairs out for others, whose memory serves the next ones.
+    pub fn exchange_pairs(&mut self, pairs: Vec<NearPair>) -> Vec<NearPair> {
+        std::mem::replace(&mut self.pairs, pairs)
+    }
+
     /// Takes the pairs out, to be returned.
     pub fn take_pairs(&mut self) -> Vec<NearPair> {
         std::mem::take(&mut self.pairs)
@@ -118,13 +124,36 @@ impl Near {
         self.anchor.add_sphere(position);
     }
 
-    /// Notes that the spheres that are not to be kept were removed. The pairs must be looked for
-    /// anew.
-    pub fn remove_spheres(&mut self, keep: &[bool]) {
-        self.anchor.remove_spheres(keep);
+    /// Takes these pairs for all that are near, until they are looked for anew.
+    pub fn set_pairs(&mut self, pairs: impl Iterator<Item = (u32, u32)>) {
         self.pairs.clear();
+        let entries = (0..).zip(pairs);
+        self.pairs
+            .extend(entries.map(|(entry, (i, j))| NearPair { i, j, entry }));
+    }
+
+    /// Notes that the spheres that are not to be kept were removed: their pairs go, and the others get
+    /// new indices. The pairs must be looked for anew. Says of each whether it is kept.
+    pub fn remove_spheres(&mut self, keep: &[bool]) -> Vec<bool> {
+        self.anchor.remove_spheres(keep);
+        let mut next = 0;
+        let index: Vec<u32> = keep
+            .iter()
+            .map(|&keep| {
+                next += u32::from(keep);
+                next.saturating_sub(1)
+            })
+            .collect();
+        let stays = |pair: &NearPair| keep[pair.i as usize] && keep[pair.j as usize];
+        let kept: Vec<bool> = self.pairs.iter().map(stays).collect();
+        retain(&mut self.pairs, &kept);
+        for (entry, pair) in (0..).zip(&mut self.pairs) {
+            let (i, j) = (index[pair.i as usize], index[pair.j as usize]);
+            *pair = NearPair { i, j, entry };
+        }
         // Lanes without a pair repeat one of the past, whose spheres may be gone.
         self.glance.index = [[0; BLOCK]; 2];
+        kept
     }
 
     /// The displacements that the list allows `time` (s) after its refresh.
@@ -149,17 +178,15 @@ impl Near {
         self.margin = self.margin.clamp(least, least.max(0.5 * skin));
     }
 
-    /// Makes the list anew from a valid Verlet list. `forget` is
-    /// called with each entry that is not near.
+    /// Makes the list anew from a valid Verlet list.
     pub(in crate::dem) fn refresh(
         &mut self,
         level: Level,
         list: &VerletList,
         particles: &Particles,
-        forget: Option<&mut dyn FnMut(u32)>,
     ) {
         self.glance.note_radii(&particles.radius);
-        fearless_simd::dispatch!(level, simd => self.find(simd, list, particles, forget));
+        fearless_simd::dispatch!(level, simd => self.find(simd, list, particles));
         self.anchor.drop(particles);
         self.half_diagonal = list.half_diagonal;
     }
@@ -170,7 +197,6 @@ impl Near {
         simd: S,
         list: &VerletList,
         particles: &Particles,
-        mut forget: Option<&mut dyn FnMut(u32)>,
     ) {
         let (mut near, mut open) = (0, 0);
         self.shielding.clear();
@@ -180,7 +206,7 @@ impl Near {
             .owner()
             .chunks(BLOCK)
             .zip(list.neighbour().chunks(BLOCK));
-        for (first, (owners, partners)) in (0..).step_by(BLOCK).zip(blocks) {
+        for (owners, partners) in blocks {
             glance.index[0][..owners.len()].copy_from_slice(owners);
             glance.index[1][..owners.len()].copy_from_slice(partners);
             glance.gather(simd, particles);
@@ -192,16 +218,13 @@ impl Near {
             let (mut kept, mut left) = (0, 0);
             for (k, (&i, &j)) in owners.iter().zip(partners).enumerate() {
                 let facts = glance.facts[k];
-                let entry = first + k as u32;
+                let entry = (near + kept) as u32;
                 pairs[kept] = NearPair { i, j, entry };
                 undecided[left] = [i, j];
                 kept += has(facts, NEAR) as usize;
                 left += has(facts, UNDECIDED) as usize;
                 self.shielding[i as usize] += has(facts, SHIELDS_FIRST);
                 self.shielding[j as usize] += has(facts, SHIELDS_SECOND);
-                if let Some(forget) = forget.as_mut().filter(|_| facts & NEAR == 0) {
-                    forget(entry);
-                }
             }
             near += kept;
             open += left;

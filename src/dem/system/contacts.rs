@@ -3,6 +3,7 @@
 use super::System;
 use super::meeting::{Couple, Earlier, Laws, Solid};
 use super::pair_block::Memory;
+use super::wall_contacts::{MOST_WALLS, NearSphere};
 use crate::dem::block::BLOCK;
 use crate::dem::block::Row;
 use crate::dem::contact::NormalLaw;
@@ -17,10 +18,8 @@ use fearless_simd::Simd;
 pub(super) struct Among {
     /// Pairs, in the order of the list.
     pub(super) pairs: Vec<NearPair>,
-    /// Spheres near the floor.
-    pub(super) floor: Vec<u32>,
-    /// Spheres near the cylinder.
-    pub(super) cylinder: Vec<u32>,
+    /// Spheres near each wall.
+    pub(super) walls: [Vec<NearSphere>; MOST_WALLS],
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
@@ -111,7 +110,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         &mut self,
         simd: S,
         wall: W,
-        near: &[u32],
+        near: &[NearSphere],
         histories: &mut [T::History],
     ) {
         let laws = self.laws();
@@ -129,12 +128,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     simd,
                     spheres.len(),
                     #[inline(always)]
-                    |k, history| histories[spheres[k] as usize] = history,
+                    |k, history| histories[spheres[k].entry as usize] = history,
                 );
             }
             block.add_to_spheres::<S, T>(simd, spheres.len(), &mut self.parts.particles);
             if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
-                self.too_deep.get_or_insert((spheres[k] as usize, overlap));
+                self.too_deep
+                    .get_or_insert((spheres[k].i as usize, overlap));
             }
         }
     }

@@ -125,6 +125,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.moves += steps * spheres;
         }
         for _ in 0..steps {
+            self.keep_in_order()?;
             profile::begin(&mut self.profile, self.step, spheres as usize);
             match self.parts.integrator {
                 Integrator::SymplecticEuler => self.symplectic_euler()?,

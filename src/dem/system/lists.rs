@@ -3,10 +3,9 @@
 use super::meeting::Solid;
 use super::{Age, Parts, System};
 use crate::dem::contact::NormalLaw;
-use crate::dem::friction::TangentialLaw;
-use crate::dem::particles::Particles;
+use crate::dem::friction::{History, TangentialLaw};
+use crate::dem::neighbours::NearPair;
 use crate::dem::profile::Part;
-use crate::dem::walls::Wall;
 use crate::record::Instability;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
@@ -25,21 +24,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.stale = false;
         if let Some(list) = &self.list {
             let (near, particles) = (&mut self.near, &self.parts.particles);
-            let history = &mut self.pair_history;
-            let mut forget = |entry: u32| history[entry as usize] = T::History::default();
-            let forget: Option<&mut dyn FnMut(u32)> = match Self::REMEMBERS {
-                true => Some(&mut forget),
-                false => None,
-            };
-            near.refresh(self.level, list, particles, forget);
-            let margin = near.margin();
-            if let Some(wall) = self.parts.floor {
-                let (near, history) = (&mut self.near_floor, &mut self.floor_history);
-                find_near_wall(wall, particles, margin, near, history);
+            if Self::REMEMBERS {
+                let before = near.exchange_pairs(std::mem::take(&mut self.spare_pairs));
+                near.refresh(self.level, list, particles);
+                carry_over(&before, near.pairs(), &mut self.pair_history);
+                self.spare_pairs = before;
+            } else {
+                near.refresh(self.level, list, particles);
+                // Histories that take no memory.
+                self.pair_history.resize(near.pairs().len(), T::History::default());
             }
-            if let Some(wall) = self.parts.cylinder {
-                let (near, history) = (&mut self.near_cylinder, &mut self.cylinder_history);
-                find_near_wall(wall, particles, margin, near, history);
+            let margin = near.margin();
+            for wall in &mut self.walls {
+                wall.find(particles, margin);
             }
         }
         self.mark(Part::Near);
@@ -68,62 +65,73 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let Some(list) = &mut self.list else {
             return Ok(());
         };
-        list.adapt(age.steps);
-        if !Self::REMEMBERS {
-            list.build(particles);
-            self.pair_history
-                .resize(list.pairs(), T::History::default());
-            return Ok(());
+        // It says nothing about the skin if the list ended at once, for spheres that changed places.
+        if age.steps > 0 {
+            list.adapt(age.steps);
         }
-        let (start, neighbour) = (list.start().to_vec(), list.neighbour().to_vec());
         list.build(particles);
-        let old = std::mem::take(&mut self.pair_history);
-        self.pair_history = carry_over(&start, &neighbour, &old, list.start(), list.neighbour());
         Ok(())
     }
 }
 
-/// Finds the spheres near a wall that move, and forgets the histories of the others.
-fn find_near_wall<W: Wall, H: Default>(
-    wall: W,
-    particles: &Particles,
-    margin: f64,
-    near: &mut Vec<u32>,
-    histories: &mut [H],
-) {
-    near.clear();
-    for (i, (&centre, &radius)) in particles.position.iter().zip(&particles.radius).enumerate() {
-        if i >= particles.fixed && wall.is_near(centre, radius, margin) {
-            near.push(i as u32);
-        } else {
-            histories[i] = H::default();
+/// Puts the histories of near pairs into the order of those that are near now; who is no longer near is
+/// forgotten. Both lists are sorted, so one pass over each suffices; histories move within their
+/// array, of which a second one would be most of what a large scene takes.
+fn carry_over<H: History>(before: &[NearPair], now: &[NearPair], histories: &mut Vec<H>) {
+    // What is remembered moves to the front; it stands in the order of its places, none of which
+    // comes before the one it then has.
+    let mut places: Vec<u32> = Vec::with_capacity(before.len());
+    let mut rest = now.iter().peekable();
+    for (pair, at) in before.iter().zip(0..) {
+        let history: H = histories[at];
+        if history.is_new() {
+            continue;
         }
+        let key = |pair: &NearPair| (pair.i, pair.j);
+        while rest.next_if(|it| key(it) < key(pair)).is_some() {}
+        if let Some(known) = rest.next_if(|it| key(it) == key(pair)) {
+            histories[places.len()] = history;
+            places.push(known.entry);
+        }
+    }
+    histories.truncate(places.len());
+    histories.resize(now.len(), H::default());
+    for (from, &place) in places.iter().enumerate().rev() {
+        let history = std::mem::take(&mut histories[from]);
+        histories[place as usize] = history;
     }
 }
 
-/// Histories in the order of a new list; both lists are sorted, so one pass over each suffices.
-fn carry_over<H: Copy + Default>(
-    old_start: &[u32],
-    old_neighbour: &[u32],
-    old: &[H],
-    start: &[u32],
-    neighbour: &[u32],
-) -> Vec<H> {
-    let mut histories = vec![H::default(); neighbour.len()];
-    if old.is_empty() {
-        return histories;
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dem::friction::Spring;
+    use crate::dem::vector::Vector;
+
+    fn pairs(of: &[[u32; 2]]) -> Vec<NearPair> {
+        let entries = (0..).zip(of);
+        entries
+            .map(|(entry, &[i, j])| NearPair { i, j, entry })
+            .collect()
     }
-    for i in 0..start.len() - 1 {
-        let mut from = old_start[i] as usize;
-        let end = old_start[i + 1] as usize;
-        for entry in start[i] as usize..start[i + 1] as usize {
-            while from < end && old_neighbour[from] < neighbour[entry] {
-                from += 1;
-            }
-            if from < end && old_neighbour[from] == neighbour[entry] {
-                histories[entry] = old[from];
-            }
-        }
+
+    fn springs(of: &[f64]) -> Vec<Spring> {
+        let spring = |&x: &f64| Spring {
+            force: Vector::new(x, 0.0, 0.0),
+        };
+        of.iter().map(spring).collect()
     }
-    histories
+
+    #[test]
+    fn histories_stay_with_their_pairs() {
+        let before = pairs(&[[0, 1], [0, 2], [1, 2], [1, 4], [2, 4]]);
+        let mut histories = springs(&[1.0, 0.0, 3.0, 4.0, 5.0]);
+        let now = pairs(&[[0, 2], [0, 3], [1, 2], [1, 3], [1, 4], [2, 3], [3, 4]]);
+        carry_over(&before, &now, &mut histories);
+        let found: Vec<f64> = histories.iter().map(|it| it.force.x).collect();
+        assert_eq!(found, [0.0, 0.0, 3.0, 0.0, 4.0, 0.0, 0.0]);
+        carry_over(&now, &before, &mut histories);
+        let found: Vec<f64> = histories.iter().map(|it| it.force.x).collect();
+        assert_eq!(found, [0.0, 0.0, 3.0, 4.0, 0.0]);
+    }
 }

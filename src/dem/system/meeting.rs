@@ -145,7 +145,7 @@ struct Encounter {
 /// finds these first, each in a loop of its own, so that the processor need not wait for one after the other.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Roots {
-    /// 1 / the distance of the centres, or what a [`Wall`] asks for (1/m).
+    /// 1 / the distance of the centres (1/m).
     pub(super) inverse_distance: f64,
     /// The contact radius (m), if a law asks for it.
     pub(super) contact_radius: f64,
@@ -221,59 +221,29 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
     /// A sphere and a wall.
     #[inline(always)]
     pub(super) fn at_wall<W: Wall>(&self, wall: W, couple: &Couple, spring: Spring) -> Meeting {
-        let inverse_distance = wall.inverse_distance(couple.offset);
-        let roots = Roots {
-            inverse_distance,
-            contact_radius: self.contact_radius_at_wall(wall, couple, inverse_distance),
-        };
-        self.at_wall_with(wall, couple, roots, spring)
-    }
-
-    /// The contact radius of a sphere at a wall (m).
-    #[inline(always)]
-    pub(super) fn contact_radius_at_wall<W: Wall>(
-        &self,
-        wall: W,
-        couple: &Couple,
-        inverse_distance: f64,
-    ) -> f64 {
-        if !Self::WIDENS {
-            return 0.0;
-        }
-        let radius = couple.solid[0].radius;
-        let contact = wall.contact(couple.offset, radius, inverse_distance);
-        contact_radius(contact.overlap, radius)
-    }
-
-    /// A sphere and a wall whose roots are known.
-    #[inline(always)]
-    pub(super) fn at_wall_with<W: Wall>(
-        &self,
-        wall: W,
-        couple: &Couple,
-        roots: Roots,
-        spring: Spring,
-    ) -> Meeting {
         let Solid { radius, mass, .. } = couple.solid[0];
         let WallContact {
             touches,
             overlap,
             normal,
-        } = wall.contact(couple.offset, radius, roots.inverse_distance);
+        } = wall.contact(couple.offset, radius);
         let mut encounter = Encounter {
             touches,
             too_deep: touches & (overlap > self.overlap_limit * radius),
             normal,
             overlap,
             effective_radius: radius,
-            contact_radius: roots.contact_radius,
+            contact_radius: match Self::WIDENS {
+                true => contact_radius(overlap, radius),
+                false => 0.0,
+            },
             lever: [radius, 0.0],
             lesser_mass: mass,
             loading: None,
         };
         if let (true, Some(earlier)) = (Self::REMEMBERS, &couple.earlier) {
             let centre = couple.offset - earlier.velocity * self.loading.age;
-            let contact = wall.meet(centre, radius);
+            let contact = wall.contact(centre, radius);
             let lever = encounter.lever;
             let sliding = sliding_velocity(contact.normal, earlier.velocity, earlier.spin, lever);
             encounter.loading = Some((sliding, contact_radius(or_zero(contact.overlap), radius)));

@@ -5,6 +5,7 @@
 //! one by one in the order of the list. Adding zero to a sum that began at +0 changes no bit of it.
 
 use super::meeting::{Couple, Earlier, Laws, Meeting, Roots, Solid};
+use super::wall_contacts::NearSphere;
 use crate::dem::block::{BLOCK, Column, Columns, ROWS, Row, row};
 use crate::dem::contact::NormalLaw;
 use crate::dem::math::inverse_square_root;
@@ -190,11 +191,13 @@ impl<H: History> PairBlock<H> {
     pub(super) fn take_spheres<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        spheres: &[u32],
+        spheres: &[NearSphere],
         particles: &Particles,
         memory: Memory<'_, H>,
     ) {
-        self.index[0][..spheres.len()].copy_from_slice(spheres);
+        for (k, sphere) in spheres.iter().enumerate() {
+            self.index[0][k] = sphere.i;
+        }
         let index = &self.index[0];
         self.offset.fill::<S>(
             #[inline(always)]
@@ -215,9 +218,11 @@ impl<H: History> PairBlock<H> {
         }
         let index = &self.index[0];
         if Self::REMEMBERS {
+            let entries: [u32; BLOCK] =
+                std::array::from_fn(|k| spheres.get(k).map_or(0, |it| it.entry));
             self.spring.fill::<S>(
                 #[inline(always)]
-                |k| f64x4::simd_from(simd, memory.histories[index[k] as usize].spring().force.row()),
+                |k| f64x4::simd_from(simd, memory.histories[entries[k] as usize].spring().force.row()),
             );
         }
         if Self::REMEMBERS && !memory.earlier.is_empty() {
@@ -339,24 +344,12 @@ impl<H: History> PairBlock<H> {
         laws: &Laws<N, T>,
     ) {
         for k in 0..BLOCK {
-            let offset = self.offset.vector(k);
-            self.inverse_distance[k] = wall.inverse_distance(offset);
-        }
-        if N::WIDENS || T::WIDENS {
-            for k in 0..BLOCK {
-                let couple = self.couple::<T, false>(k, Solid::WALL);
-                let inverse_distance = self.inverse_distance[k];
-                self.contact_radius[k] =
-                    laws.contact_radius_at_wall(wall, &couple, inverse_distance);
-            }
-        }
-        for k in 0..BLOCK {
             let mut couple = self.couple::<T, EARLIER>(k, Solid::WALL);
             couple.spin[1] = Vector::ZERO;
             if let Some(earlier) = &mut couple.earlier {
                 earlier.spin[1] = Vector::ZERO;
             }
-            let meeting = laws.at_wall_with(wall, &couple, self.roots(k), self.spring(k));
+            let meeting = laws.at_wall(wall, &couple, self.spring(k));
             self.keep::<T>(k, &meeting);
         }
     }

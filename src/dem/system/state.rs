@@ -5,9 +5,11 @@
 
 use super::ledger::Books;
 use super::meeting::Solid;
+use super::wall_contacts::WallContacts;
 use super::{Age, Near, Parts, System};
 use crate::dem::contact::NormalLaw;
-use crate::dem::friction::TangentialLaw;
+use crate::dem::friction::{History, TangentialLaw};
+use crate::dem::order;
 use crate::dem::particles::Particles;
 use crate::dem::state::StateError;
 use crate::record::Instability;
@@ -32,35 +34,39 @@ pub(in crate::dem) struct EngineState {
 struct Histories<H> {
     /// Of the pairs whose history is not empty: both spheres, in the order of the list.
     pairs: Vec<(u32, u32, H)>,
-    /// Of every sphere with the floor, and with the cylinder, where they are.
-    floor: Vec<H>,
-    cylinder: Vec<H>,
+    /// Of each wall: the spheres whose history with it is not empty, in the order of their indices.
+    walls: Vec<Vec<(u32, H)>>,
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     pub(super) fn save(&self) -> EngineState {
-        let mut pairs = Vec::new();
-        if let Some(list) = self.list.as_ref().filter(|_| Self::REMEMBERS) {
-            let empty = encode(&T::History::default());
-            let entries = list.owner().iter().zip(list.neighbour());
-            for ((&i, &j), &history) in entries.zip(&self.pair_history) {
-                // By its bits: to whom zero and minus zero are equal may not be for the motion.
-                if encode(&history) != empty {
-                    pairs.push((i, j, history));
-                }
-            }
-        }
+        let pairs = self.remembered();
+        let of_wall = |wall: &WallContacts<T::History>| {
+            let known = wall.near.iter().zip(&wall.histories);
+            let known = known.filter(|(_, history)| Self::REMEMBERS && !history.is_new());
+            known
+                .map(|(sphere, &history)| (sphere.i, history))
+                .collect()
+        };
         EngineState {
             step: self.step,
             moves: self.moves,
             particles: self.parts.particles.clone(),
             histories: encode(&Histories {
                 pairs,
-                floor: self.floor_history.clone(),
-                cylinder: self.cylinder_history.clone(),
+                walls: self.walls.iter().map(of_wall).collect(),
             }),
             books: self.ledger.as_ref().map(|ledger| ledger.books.clone()),
         }
+    }
+
+    /// The pairs whose history is not empty: both spheres, in the order of the list.
+    pub(super) fn remembered(&self) -> Vec<(u32, u32, T::History)> {
+        let known = self.near.pairs().iter().zip(&self.pair_history);
+        let known = known.filter(|(_, history)| Self::REMEMBERS && !history.is_new());
+        known
+            .map(|(pair, &history)| (pair.i, pair.j, history))
+            .collect()
     }
 
     pub(super) fn take_up(&mut self, state: EngineState) -> Result<(), StateError> {
@@ -82,14 +88,25 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
         self.step = step;
         self.moves = moves;
-        let limits = &mut self.parts.limits;
-        limits.speed_squared.clear();
-        for radius in &particles.radius {
-            limits.add_sphere(*radius, self.parts.dt);
+        let Parts {
+            limits,
+            dt,
+            effects,
+            particles: present,
+            sorted,
+            ..
+        } = &mut self.parts;
+        limits.fit(&particles.radius, *dt);
+        if *sorted {
+            let order = order::between(&present.number, &particles.number, particles.fixed);
+            for effect in effects {
+                effect.reorder(&order);
+            }
         }
-        self.parts.particles = particles;
-        self.floor_history = histories.floor;
-        self.cylinder_history = histories.cylinder;
+        *present = particles;
+        for (wall, known) in self.walls.iter_mut().zip(histories.walls) {
+            wall.take_up(known);
+        }
         self.make_lists(&histories.pairs)
             .map_err(|_| StateError("a sphere is out of bounds"))
     }
@@ -100,19 +117,27 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         particles: &Particles,
         histories: &Histories<T::History>,
     ) -> Result<(), StateError> {
-        let Parts {
-            floor,
-            cylinder,
-            limits,
-            dt,
-            ..
-        } = &self.parts;
+        let Parts { limits, dt, .. } = &self.parts;
         let count = particles.len();
-        let at = |present: bool| if present { count } else { 0 };
-        let (pairs, known) = (&histories.pairs, |index: u32| (index as usize) < count);
+        let present = &self.parts.particles;
+        let ordered = match self.parts.sorted {
+            true => {
+                count == present.len()
+                    && particles.fixed == present.fixed
+                    && order::is_one(&particles.number, particles.fixed)
+            }
+            false => particles.number.is_empty() == present.number.is_empty(),
+        };
+        let known = |index: u32| (index as usize) < count;
+        let in_order = |wall: &Vec<(u32, T::History)>| {
+            wall.windows(2).all(|pair| pair[0].0 < pair[1].0)
+                && wall.last().is_none_or(|&(i, _)| known(i))
+        };
+        let Histories { pairs, walls } = histories;
         let fits = particles.fits_together()
-            && histories.floor.len() == at(floor.is_some())
-            && histories.cylinder.len() == at(cylinder.is_some())
+            && ordered
+            && walls.len() == self.walls.len()
+            && walls.iter().all(in_order)
             && pairs.iter().all(|&(i, j, _)| known(i) && known(j));
         if !fits {
             return Err(StateError("it has other spheres or contacts"));
@@ -125,25 +150,31 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Makes lists of neighbours for the present spheres, with these histories.
     fn make_lists(&mut self, histories: &[(u32, u32, T::History)]) -> Result<(), Instability> {
         self.stale = true;
+        if self.list.is_none() {
+            return Ok(());
+        }
+        self.alike = Solid::of_all(&self.parts.particles);
+        self.near = Near::new(N::ACTS, self.parts.shielded, 0.3 * self.parts.skin);
+        self.fill_lists(histories)
+    }
+
+    /// The same, with the margins of the lists of before.
+    pub(super) fn fill_lists(
+        &mut self,
+        histories: &[(u32, u32, T::History)],
+    ) -> Result<(), Instability> {
         let Some(list) = &mut self.list else {
             return Ok(());
         };
-        let particles = &self.parts.particles;
-        self.alike = Solid::of_all(particles);
-        self.near = Near::new(N::ACTS, self.parts.shielded, 0.3 * self.parts.skin);
+        list.outdate();
         self.block.forget();
         self.age = Age::default();
         self.near_age = Age::default();
-        list.build(particles);
-        let mut known = histories.iter().peekable();
-        let entries = list.owner().iter().zip(list.neighbour());
-        self.pair_history = entries
-            .map(|(&i, &j)| {
-                while known.next_if(|&&(a, b, _)| (a, b) < (i, j)).is_some() {}
-                let known = known.next_if(|&&(a, b, _)| (a, b) == (i, j));
-                known.map_or_else(T::History::default, |&(_, _, history)| history)
-            })
-            .collect();
+        let pairs = histories.iter().map(|&(i, j, _)| (i, j));
+        self.near.set_pairs(pairs);
+        self.pair_history.clear();
+        let histories = histories.iter().map(|&(_, _, history)| history);
+        self.pair_history.extend(histories);
         // A step may begin with a drift, which already goes by the near list.
         self.refresh()
     }

@@ -13,14 +13,10 @@ pub struct Cylinder {
 
 impl Wall for Cylinder {
     #[inline(always)]
-    fn inverse_distance(&self, centre: Vector) -> f64 {
-        inverse_square_root(centre.x * centre.x + centre.y * centre.y)
-    }
-
-    #[inline(always)]
-    fn contact(&self, centre: Vector, radius: f64, inverse_distance: f64) -> WallContact {
+    fn contact(&self, centre: Vector, radius: f64) -> WallContact {
         let reach = self.radius - radius;
         let distance_squared = centre.x * centre.x + centre.y * centre.y;
+        let inverse_distance = inverse_square_root(distance_squared);
         WallContact {
             touches: !(distance_squared <= reach * reach),
             overlap: distance_squared * inverse_distance - reach,

@@ -12,12 +12,7 @@ pub struct Floor {
 
 impl Wall for Floor {
     #[inline(always)]
-    fn inverse_distance(&self, _: Vector) -> f64 {
-        0.0
-    }
-
-    #[inline(always)]
-    fn contact(&self, centre: Vector, radius: f64, _: f64) -> WallContact {
+    fn contact(&self, centre: Vector, radius: f64) -> WallContact {
         let overlap = radius - (centre.z - self.height);
         WallContact {
             touches: overlap > 0.0,
