@@ -31,10 +31,16 @@ impl Columns {
     #[inline(always)]
     pub(in crate::dem) fn fill<S: Simd>(&mut self, row: impl Fn(usize) -> f64x4<S>) {
         for at in (0..BLOCK).step_by(ROWS) {
-            let (a, b, c, d) = (row(at), row(at + 1), row(at + 2), row(at + 3));
-            let (e, f, g, h) = (row(at + 4), row(at + 5), row(at + 6), row(at + 7));
-            self.put(at, [a, b, c, d, e, f, g, h]);
+            self.fill_from(at, &row);
         }
+    }
+
+    /// Fills the columns from `at` on, as many lanes as rows are turned at once.
+    #[inline(always)]
+    pub(in crate::dem) fn fill_from<S: Simd>(&mut self, at: usize, row: impl Fn(usize) -> f64x4<S>) {
+        let (a, b, c, d) = (row(at), row(at + 1), row(at + 2), row(at + 3));
+        let (e, f, g, h) = (row(at + 4), row(at + 5), row(at + 6), row(at + 7));
+        self.put(at, [a, b, c, d, e, f, g, h]);
     }
 
     /// The vector of a lane.

@@ -141,20 +141,43 @@ impl<H: History> PairBlock<H> {
             self.index[0][k] = pair.i;
             self.index[1][k] = pair.j;
         }
-        let Particles {
-            position, velocity, ..
-        } = particles;
+        // Of one length, so that an index is checked once.
+        let spheres = particles.position.len();
+        let (position, velocity) = (&particles.position[..], &particles.velocity[..spheres]);
+        let spin = if T::ROTATES { &particles.spin[..spheres] } else { position };
         let [one, other] = &self.index;
-        self.offset.fill::<S>(
-            #[inline(always)]
-            |k| row(simd, position, one[k]) - row(simd, position, other[k]),
-        );
-        self.velocity.fill::<S>(
-            #[inline(always)]
-            |k| row(simd, velocity, one[k]) - row(simd, velocity, other[k]),
-        );
-        if T::ROTATES {
-            self.take_spins(simd, &particles.spin);
+        let [first_spin, second_spin] = &mut self.spin;
+        for at in (0..BLOCK).step_by(ROWS) {
+            self.offset.fill_from::<S>(
+                at,
+                #[inline(always)]
+                |k| row(simd, position, one[k]) - row(simd, position, other[k]),
+            );
+            self.velocity.fill_from::<S>(
+                at,
+                #[inline(always)]
+                |k| row(simd, velocity, one[k]) - row(simd, velocity, other[k]),
+            );
+            // Of spheres that are alike, which have the same lever, laws ask for the sum of both spins
+            // alone: the first gets all of it.
+            if T::ROTATES && self.alike {
+                first_spin.fill_from::<S>(
+                    at,
+                    #[inline(always)]
+                    |k| row(simd, spin, one[k]) + row(simd, spin, other[k]),
+                );
+            } else if T::ROTATES {
+                first_spin.fill_from::<S>(
+                    at,
+                    #[inline(always)]
+                    |k| row(simd, spin, one[k]),
+                );
+                second_spin.fill_from::<S>(
+                    at,
+                    #[inline(always)]
+                    |k| row(simd, spin, other[k]),
+                );
+            }
         }
         if !self.alike {
             self.take_solids::<T>(0, particles);
@@ -251,28 +274,6 @@ impl<H: History> PairBlock<H> {
                 inertia[k] = particles.inertia[i as usize];
             }
         }
-    }
-
-    /// Fetches the spins of pairs. Of spheres that are alike, which have the same lever, laws ask for the sum of both
-    /// alone: the first gets all of it.
-    #[inline(always)]
-    fn take_spins<S: Simd>(&mut self, simd: S, spin: &[Vector]) {
-        let [one, other] = &self.index;
-        if self.alike {
-            self.spin[0].fill::<S>(
-                #[inline(always)]
-                |k| row(simd, spin, one[k]) + row(simd, spin, other[k]),
-            );
-            return;
-        }
-        self.spin[0].fill::<S>(
-            #[inline(always)]
-            |k| row(simd, spin, one[k]),
-        );
-        self.spin[1].fill::<S>(
-            #[inline(always)]
-            |k| row(simd, spin, other[k]),
-        );
     }
 
     #[inline(always)]
@@ -459,28 +460,32 @@ impl<H: History> PairBlock<H> {
         particles: &mut Particles,
     ) {
         self.clear_from(contacts);
-        let (forces, torques) = (&mut particles.force[..], &mut particles.torque[..]);
+        // Of one length, so that an index is checked once.
+        let forces = &mut particles.force[..];
+        let turning = if T::ROTATES { forces.len() } else { 0 };
+        let torques = &mut particles.torque[..turning];
         let [one, other] = &self.index;
-        for at in (0..BLOCK).step_by(ROWS) {
-            let force = self.force.rows(simd, at);
-            for k in 0..ROWS {
-                add(simd, forces, one[at + k], force[k]);
-                add(simd, forces, other[at + k], -force[k]);
-            }
-        }
-        if !T::ROTATES {
-            return;
-        }
-        // Both get the same where they are alike.
+        // Both get the same torque where they are alike.
         let second = if self.alike { 0 } else { 1 };
         for at in (0..BLOCK).step_by(ROWS) {
-            let torque = [
-                self.torque[0].rows(simd, at),
-                self.torque[second].rows(simd, at),
-            ];
+            let force = self.force.rows(simd, at);
+            let torque = match T::ROTATES {
+                true => [
+                    self.torque[0].rows(simd, at),
+                    self.torque[second].rows(simd, at),
+                ],
+                false => [force; 2],
+            };
             for k in 0..ROWS {
-                add(simd, torques, one[at + k], torque[0][k]);
-                add(simd, torques, other[at + k], torque[1][k]);
+                let (i, j) = (one[at + k], other[at + k]);
+                add(simd, forces, i, force[k]);
+                if T::ROTATES {
+                    add(simd, torques, i, torque[0][k]);
+                }
+                add(simd, forces, j, -force[k]);
+                if T::ROTATES {
+                    add(simd, torques, j, torque[1][k]);
+                }
             }
         }
     }
