@@ -35,7 +35,15 @@ pub fn exp(x: f64) -> f64 {
 /// loop over it takes a third of the time.
 #[inline(always)]
 pub fn inverse_square_root(x: f64) -> f64 {
-    1.0 / x.sqrt()
+    const GUESS: u64 = 0x5fe6_eb50_c7b5_37a9;
+    let half = 0.5 * x;
+    let mut root = f64::from_bits(GUESS.wrapping_sub(x.to_bits() >> 1));
+    let mut step = 0;
+    while step < 4 {
+        root *= 1.5 - half * root * root;
+        step += 1;
+    }
+    root
 }
 
 /// The root of x, zero for x = 0; as exact as [`inverse_square_root`]. That of a negative number is that of its absolute
