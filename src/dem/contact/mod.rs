@@ -8,7 +8,7 @@ pub use hertz::Hertz;
 pub use linear::Linear;
 
 /// A normal contact law. The engine is compiled for each law by itself.
-pub trait NormalLaw: Copy + Send + 'static {
+pub trait NormalLaw: Copy + Send + Sync + 'static {
     /// Whether there are contacts at all.
     const ACTS: bool = true;
 

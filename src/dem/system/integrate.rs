@@ -1,15 +1,18 @@
 //! Integration schemes: one function each, from kicks and drifts.
 
+use super::division::{in_parallel, split, split_shared};
 use super::meeting::Loading;
 use super::pair_block::EarlierRows;
 use super::{Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
+use crate::dem::neighbours::Allowance;
 use crate::dem::particles::Particles;
 use crate::dem::profile::{self, Part};
 use crate::dem::vector::Vector;
 use crate::record::Instability;
 use crate::scene::Integrator;
+use fearless_simd::Level;
 
 /// Velocities and spins before forces foretell them.
 #[derive(Default)]
@@ -37,20 +40,114 @@ impl Before {
     }
 }
 
+/// A kick of some spheres, or of all.
+struct Kick<'a> {
+    velocity: &'a mut [Vector],
+    force: &'a [Vector],
+    spin: &'a mut [Vector],
+    torque: &'a [Vector],
+    inverse_mass: &'a [f64],
+    inverse_inertia: &'a [f64],
+    limits: &'a [f64],
+    too_fast: bool,
+}
+
+impl<'a> Kick<'a> {
+    /// Takes so many spheres from the front, or all that there are.
+    fn split(&mut self, count: usize) -> Kick<'a> {
+        Kick {
+            velocity: split(&mut self.velocity, count),
+            force: split_shared(&mut self.force, count),
+            spin: split(&mut self.spin, count),
+            torque: split_shared(&mut self.torque, count),
+            inverse_mass: split_shared(&mut self.inverse_mass, count),
+            inverse_inertia: split_shared(&mut self.inverse_inertia, count),
+            limits: split_shared(&mut self.limits, count),
+            too_fast: false,
+        }
+    }
+
+    fn by(&mut self, level: Level, dt: f64) {
+        fearless_simd::dispatch!(level, simd => {
+            let _ = simd;
+            self.all(dt)
+        });
+    }
+
+    #[inline(always)]
+    fn all(&mut self, dt: f64) {
+        let mut too_fast = false;
+        for (((velocity, &force), inverse), &limit) in (self.velocity.iter_mut())
+            .zip(self.force)
+            .zip(self.inverse_mass)
+            .zip(self.limits)
+        {
+            *velocity += force * (inverse * dt);
+            // Written so that a speed which is not a number counts.
+            too_fast |= !(velocity.norm_squared() <= limit);
+        }
+        for ((spin, &torque), inverse) in (self.spin.iter_mut())
+            .zip(self.torque)
+            .zip(self.inverse_inertia)
+        {
+            *spin += torque * (inverse * dt);
+        }
+        self.too_fast = too_fast;
+    }
+}
+
+/// A drift of some spheres, or of all.
+struct Drift<'a> {
+    position: &'a mut [Vector],
+    velocity: &'a [Vector],
+    /// Where they were when near pairs were looked for, and how far they may be from there; where none are
+    /// looked for, nothing.
+    reference: &'a [Vector],
+    allowance: Option<Allowance>,
+    moved: bool,
+}
+
+impl<'a> Drift<'a> {
+    /// Takes so many spheres from the front, or all that there are.
+    fn split(&mut self, count: usize) -> Drift<'a> {
+        Drift {
+            position: split(&mut self.position, count),
+            velocity: split_shared(&mut self.velocity, count),
+            reference: split_shared(&mut self.reference, count),
+            allowance: self.allowance,
+            moved: false,
+        }
+    }
+
+    fn by(&mut self, level: Level, dt: f64) {
+        fearless_simd::dispatch!(level, simd => {
+            let _ = simd;
+            self.all(dt)
+        });
+    }
+
+    #[inline(always)]
+    fn all(&mut self, dt: f64) {
+        let motion = self.position.iter_mut().zip(self.velocity);
+        let Some(allowance) = self.allowance else {
+            for (position, &velocity) in motion {
+                *position += velocity * dt;
+            }
+            return;
+        };
+        let mut moved = false;
+        for ((position, &velocity), &reference) in motion.zip(self.reference) {
+            *position += velocity * dt;
+            moved |= !allowance.holds(*position, reference);
+        }
+        self.moved = moved;
+    }
+}
+
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// v += a dt for a time `dt`, and the same for spins. True if a sphere is too fast.
     pub(super) fn kick(&mut self, dt: f64) -> bool {
         let level = self.level;
-        let too_fast = fearless_simd::dispatch!(level, simd => {
-            let _ = simd;
-            self.kick_all(dt)
-        });
-        self.mark(Part::Kick);
-        too_fast
-    }
-
-    #[inline(always)]
-    fn kick_all(&mut self, dt: f64) -> bool {
         let Particles {
             velocity,
             force,
@@ -60,63 +157,72 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             inverse_inertia,
             ..
         } = &mut self.parts.particles;
-        let mut too_fast = false;
-        let limits = &self.parts.limits.speed_squared;
-        for (((velocity, &force), inverse), &limit) in velocity
-            .iter_mut()
-            .zip(force.iter())
-            .zip(inverse_mass.iter())
-            .zip(limits)
-        {
-            *velocity += force * (inverse * dt);
-            // Written so that a speed which is not a number counts.
-            too_fast |= !(velocity.norm_squared() <= limit);
-        }
-        for ((spin, &torque), inverse) in spin
-            .iter_mut()
-            .zip(torque.iter())
-            .zip(inverse_inertia.iter())
-        {
-            *spin += torque * (inverse * dt);
-        }
+        let limits = &self.parts.limits.speed_squared[..];
+        let mut rest = Kick {
+            velocity,
+            force,
+            spin,
+            torque,
+            inverse_mass,
+            inverse_inertia,
+            limits,
+            too_fast: false,
+        };
+        let too_fast = match &self.division {
+            None => {
+                rest.by(level, dt);
+                rest.too_fast
+            }
+            Some(division) => {
+                let length = rest.velocity.len().div_ceil(division.threads());
+                let mut shares: Vec<_> = (0..division.threads())
+                    .map(|_| rest.split(length))
+                    .collect();
+                in_parallel(&mut shares, &|share| share.by(level, dt));
+                shares.iter().any(|share| share.too_fast)
+            }
+        };
+        self.mark(Part::Kick);
         too_fast
     }
 
     /// x += v dt for a time `dt`. Notes whether a sphere went farther than the near pairs allow.
     fn drift(&mut self, dt: f64) {
         let level = self.level;
-        fearless_simd::dispatch!(level, simd => {
-            let _ = simd;
-            self.drift_all(dt);
-        });
-        self.mark(Part::Drift);
-    }
-
-    #[inline(always)]
-    fn drift_all(&mut self, dt: f64) {
+        self.age.time += dt;
+        self.near_age.time += dt;
         let Particles {
             position, velocity, ..
         } = &mut self.parts.particles;
-        self.age.time += dt;
-        self.near_age.time += dt;
-        if self.list.is_none() {
-            for (position, &velocity) in position.iter_mut().zip(velocity.iter()) {
-                *position += velocity * dt;
+        let is_listed = self.list.is_some();
+        let mut rest = Drift {
+            position,
+            velocity,
+            reference: if is_listed {
+                self.near.anchor().position()
+            } else {
+                &[]
+            },
+            allowance: is_listed.then(|| self.near.allowance(self.near_age.time)),
+            moved: false,
+        };
+        let moved = match &self.division {
+            None => {
+                rest.by(level, dt);
+                rest.moved
             }
-            return;
-        }
-        let allowance = self.near.allowance(self.near_age.time);
-        let mut moved = false;
-        for ((position, &velocity), &reference) in position
-            .iter_mut()
-            .zip(velocity.iter())
-            .zip(self.near.anchor().position())
-        {
-            *position += velocity * dt;
-            moved |= !allowance.holds(*position, reference);
-        }
+            Some(division) => {
+                let length = rest.position.len().div_ceil(division.threads());
+                let mut shares: Vec<_> = (0..division.threads())
+                    .map(|_| rest.split(length))
+                    .collect();
+                in_parallel(&mut shares, &|share| share.by(level, dt));
+                shares.iter().any(|share| share.moved)
+            }
+        };
         // It may be so already: a sphere came or went.
         self.stale |= moved;
+        self.mark(Part::Drift);
     }
 
     pub(super) fn check_speeds(&self, too_fast: bool) -> Result<(), Instability> {

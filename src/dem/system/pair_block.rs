@@ -73,7 +73,7 @@ pub(super) struct PairBlock<H> {
 
 impl<H: History> PairBlock<H> {
     /// Whether the law has a history.
-    const REMEMBERS: bool = size_of::<H>() > 0;
+    pub(super) const REMEMBERS: bool = size_of::<H>() > 0;
 
     pub(super) fn new() -> Self {
         let pair = || [Columns::ZERO, Columns::ZERO];
@@ -245,29 +245,30 @@ impl<H: History> PairBlock<H> {
         );
     }
 
-    /// Takes pairs, up to a block of them, with what they remember.
+    /// Takes pairs, up to a block of them, with what they remember: histories are those from entry
+    /// `first` on.
     #[inline(always)]
-    pub(super) fn take_pairs(&mut self, pairs: &[NearPair], histories: &[H]) {
+    pub(super) fn take_pairs(&mut self, pairs: &[NearPair], histories: &[H], first: usize) {
         for (k, pair) in pairs.iter().enumerate() {
             self.index[0][k] = pair.i;
             self.index[1][k] = pair.j;
         }
         if Self::REMEMBERS {
             for (k, pair) in pairs.iter().enumerate() {
-                self.take_spring(k, histories[pair.entry as usize]);
+                self.take_spring(k, histories[pair.entry as usize - first]);
             }
         }
     }
 
     /// The same with spheres near a wall.
     #[inline(always)]
-    pub(super) fn take_spheres(&mut self, spheres: &[NearSphere], histories: &[H]) {
+    pub(super) fn take_spheres(&mut self, spheres: &[NearSphere], histories: &[H], first: usize) {
         for (k, sphere) in spheres.iter().enumerate() {
             self.index[0][k] = sphere.i;
         }
         if Self::REMEMBERS {
             for (k, sphere) in spheres.iter().enumerate() {
-                self.take_spring(k, histories[sphere.entry as usize]);
+                self.take_spring(k, histories[sphere.entry as usize - first]);
             }
         }
     }
@@ -401,7 +402,7 @@ impl<H: History> PairBlock<H> {
         &self,
         simd: S,
         spheres: &[NearSphere],
-        particles: &mut Particles,
+        sums: &mut Sums<'_>,
     ) {
         for (at, four) in (0..BLOCK).step_by(4).zip(spheres.chunks(4)) {
             let force = self.force.rows(simd, at);
@@ -411,22 +412,18 @@ impl<H: History> PairBlock<H> {
                 force
             };
             for (k, sphere) in four.iter().enumerate() {
-                let i = sphere.i as usize;
-                add(simd, &mut particles.force[i], force[k]);
-                if T::ROTATES {
-                    add(simd, &mut particles.torque[i], torque[k]);
-                }
+                sums.add::<S, T>(simd, sphere.i, force[k], torque[k]);
             }
         }
     }
 
-    /// Adds forces and torques to the partners, pair by pair.
+    /// Adds forces and torques to those partners whose sums these are, pair by pair.
     #[inline(always)]
     pub(super) fn scatter<S: Simd, T: TangentialLaw<History = H>>(
         &self,
         simd: S,
         pairs: &[NearPair],
-        particles: &mut Particles,
+        sums: &mut Sums<'_>,
     ) {
         for (at, four) in (0..BLOCK).step_by(4).zip(pairs.chunks(4)) {
             let force = self.force.rows(simd, at);
@@ -436,13 +433,40 @@ impl<H: History> PairBlock<H> {
                 [force; 2]
             };
             for (k, pair) in four.iter().enumerate() {
-                let (i, j) = (pair.i as usize, pair.j as usize);
-                add(simd, &mut particles.force[i], force[k]);
-                add(simd, &mut particles.force[j], -force[k]);
-                if T::ROTATES {
-                    add(simd, &mut particles.torque[i], torque[0][k]);
-                    add(simd, &mut particles.torque[j], torque[1][k]);
-                }
+                sums.add::<S, T>(simd, pair.i, force[k], torque[0][k]);
+                sums.add::<S, T>(simd, pair.j, -force[k], torque[1][k]);
+            }
+        }
+    }
+}
+
+/// Forces and torques of the spheres from one on, or of all.
+pub(super) struct Sums<'a> {
+    /// The index of the first one.
+    pub(super) first: usize,
+    /// Forces (N).
+    pub(super) force: &'a mut [Vector],
+    /// Torques (N m), of spheres that turn.
+    pub(super) torque: &'a mut [Vector],
+}
+
+impl Sums<'_> {
+    /// Adds to a sphere, if it is one of these.
+    #[inline(always)]
+    fn add<S: Simd, T: TangentialLaw>(
+        &mut self,
+        simd: S,
+        sphere: u32,
+        force: f64x4<S>,
+        torque: f64x4<S>,
+    ) {
+        let at = (sphere as usize).wrapping_sub(self.first);
+        if let Some(sum) = self.force.get_mut(at) {
+            add(simd, sum, force);
+        }
+        if T::ROTATES {
+            if let Some(sum) = self.torque.get_mut(at) {
+                add(simd, sum, torque);
             }
         }
     }
