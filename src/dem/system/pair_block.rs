@@ -404,6 +404,7 @@ impl<H: History> PairBlock<H> {
         spheres: &[NearSphere],
         sums: &mut Sums<'_>,
     ) {
+        let mut sums = sums.here();
         for (at, four) in (0..BLOCK).step_by(4).zip(spheres.chunks(4)) {
             let force = self.force.rows(simd, at);
             let torque = if T::ROTATES {
@@ -425,6 +426,7 @@ impl<H: History> PairBlock<H> {
         pairs: &[NearPair],
         sums: &mut Sums<'_>,
     ) {
+        let mut sums = sums.here();
         for (at, four) in (0..BLOCK).step_by(4).zip(pairs.chunks(4)) {
             let force = self.force.rows(simd, at);
             let torque = if T::ROTATES {
@@ -451,6 +453,16 @@ pub(super) struct Sums<'a> {
 }
 
 impl Sums<'_> {
+    /// The same, for a loop: whose bounds then stay in registers, whatever is written.
+    #[inline(always)]
+    fn here(&mut self) -> Sums<'_> {
+        Sums {
+            first: self.first,
+            force: self.force,
+            torque: self.torque,
+        }
+    }
+
     /// Adds to a sphere, if it is one of these.
     #[inline(always)]
     fn add<S: Simd, T: TangentialLaw>(

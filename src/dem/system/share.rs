@@ -117,22 +117,19 @@ impl<H: History> Share<'_, H> {
             earlier,
             alike,
         } = scenery;
-        let Known {
-            contacts,
-            histories,
-            first,
-        } = match crossing {
+        let known = match crossing {
             true => &mut self.crossing,
             false => &mut self.pairs,
         };
+        let (contacts, histories, first) = (known.contacts, &mut *known.histories, known.first);
         let block = &mut *self.block;
         for pairs in contacts.chunks(BLOCK) {
-            block.take_pairs(pairs, histories, *first);
+            block.take_pairs(pairs, histories, first);
             block.gather_pairs::<S, T>(simd, particles, earlier, alike.is_some());
             block.interact(laws);
             if PairBlock::<H>::REMEMBERS {
                 for (k, pair) in pairs.iter().enumerate() {
-                    histories[pair.entry as usize - *first] = block.history(k);
+                    histories[pair.entry as usize - first] = block.history(k);
                 }
             }
             block.scatter::<S, T>(simd, pairs, &mut self.sums);
@@ -159,14 +156,10 @@ impl<H: History> Share<'_, H> {
         let Some((_, near)) = &mut self.walls[place] else {
             return;
         };
-        let Known {
-            contacts,
-            histories,
-            first,
-        } = near;
+        let (contacts, histories, first) = (near.contacts, &mut *near.histories, near.first);
         let block = &mut *self.block;
         for spheres in contacts.chunks(BLOCK) {
-            block.take_spheres(spheres, histories, *first);
+            block.take_spheres(spheres, histories, first);
             block.gather_spheres::<S, T>(
                 simd,
                 scenery.particles,
@@ -176,7 +169,7 @@ impl<H: History> Share<'_, H> {
             block.interact_with_wall(wall, &scenery.laws);
             if PairBlock::<H>::REMEMBERS {
                 for (k, sphere) in spheres.iter().enumerate() {
-                    histories[sphere.entry as usize - *first] = block.history(k);
+                    histories[sphere.entry as usize - first] = block.history(k);
                 }
             }
             block.scatter_to_spheres::<S, T>(simd, spheres, &mut self.sums);
