@@ -13,6 +13,7 @@ use super::system::{Engine, Parts, System};
 use super::vector::Vector;
 use super::walls::{Cylinder, Floor, TankWall};
 use super::{effects, timestep};
+use crate::cpu_time;
 use crate::observe::{Flow, FrameView, Ledger};
 use crate::record::{Instability, Milestone};
 use crate::scene::{Contact, Friction, Neighbours, Scene, Start, Tank};
@@ -192,13 +193,18 @@ impl Simulation {
     /// # Errors
     /// If the system gives no threads.
     pub fn use_threads(&mut self, threads: usize) -> Result<(), ThreadPoolBuildError> {
-        let divides = threads > 1 && self.process.is_none();
-        self.pool = match divides {
+        self.pool = match self.engine.use_threads(threads) {
             true => Some(ThreadPoolBuilder::new().num_threads(threads).build()?),
             false => None,
         };
-        self.engine.use_threads(threads);
         Ok(())
+    }
+
+    /// Processor time of the threads that it was asked to use besides the caller's (s).
+    pub(crate) fn seconds_of_threads(&self) -> f64 {
+        let pool = self.pool.iter();
+        pool.flat_map(|pool| pool.broadcast(|_| cpu_time::of_this_thread()))
+            .sum()
     }
 
     /// Begins to measure what the parts of a step take. Never changes the motion.

@@ -149,11 +149,12 @@ impl<H: History> Division<H> {
     }
 }
 
-/// Does the work of each item, on as many threads as there are.
+/// Does the work of each item, on the threads of the pool that runs this, if one does.
 pub(super) fn in_parallel<I: Send>(items: &mut [I], work: &(impl Fn(&mut I) + Sync)) {
     match items {
         [] => {}
         [item] => work(item),
+        _ if rayon::current_thread_index().is_none() => items.iter_mut().for_each(work),
         _ => {
             let (one, other) = items.split_at_mut(items.len() / 2);
             rayon::join(|| in_parallel(one, work), || in_parallel(other, work));

@@ -50,7 +50,8 @@ pub(in crate::dem) trait Engine: Send {
     fn contacts(&mut self) -> Contacts;
     fn use_baseline_instructions(&mut self);
     /// Divides the work of a sorted scene among so many threads, of the pool that the engine then runs in.
-    fn use_threads(&mut self, threads: usize);
+    /// Whether it does.
+    fn use_threads(&mut self, threads: usize) -> bool;
     /// Begins to keep the books of energy; never changes the motion.
     fn keep_ledger(&mut self);
     /// Begins to measure what the parts of a step take; never changes the motion.
@@ -362,10 +363,11 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.level = Level::baseline();
     }
 
-    fn use_threads(&mut self, threads: usize) {
+    fn use_threads(&mut self, threads: usize) -> bool {
         let divides = self.parts.sorted && threads > 1;
         self.division = divides.then(|| Division::new(threads));
         self.stale = true;
+        divides
     }
 
     fn particles(&self) -> &Particles {
