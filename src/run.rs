@@ -5,6 +5,7 @@ use crate::dem::{BuildError, Counts, Profile, Simulation, SimulationState, State
 use crate::observe::{Observer, Snapshot};
 use crate::record::{Outcome, Program, RunRecord};
 use crate::scene::Scene;
+use rayon::ThreadPoolBuildError;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -67,7 +68,7 @@ pub fn run(
     Ok(run.finish())
 }
 
-/// A run under way, to be advanced frame by frame on one thread.
+/// A run under way, to be advanced frame by frame; on one thread, if it is not asked to use more.
 ///
 /// ```
 /// # let scene: phase::scene::Scene = toml::from_str(r#"
@@ -185,6 +186,14 @@ impl Run {
         self.look();
     }
 
+    /// Goes on with so many threads, as [`Simulation::use_threads`]. No bit of the record depends on it.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub fn use_threads(&mut self, threads: usize) -> Result<(), ThreadPoolBuildError> {
+        self.simulation.use_threads(threads)
+    }
+
     /// Begins to measure what the parts of a step take. Never changes the run.
     pub(crate) fn keep_profile(&mut self, profile: Profile) {
         self.simulation.keep_profile(profile);
@@ -273,7 +282,8 @@ impl Run {
     }
 
     fn cpu_seconds(&self) -> f64 {
-        self.cpu_seconds_before + (cpu_time::of_this_thread() - self.started)
+        let of_others = self.simulation.seconds_of_threads();
+        self.cpu_seconds_before + (cpu_time::of_this_thread() - self.started) + of_others
     }
 
     /// Looks at the present frame, and keeps of it what the scene's output asks for.

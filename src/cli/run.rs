@@ -22,6 +22,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+/// More threads than any machine has use for.
+const MOST_THREADS: usize = 256;
+
 /// Run one scene, or one job of a sweep again, and store its record.
 ///
 /// More output never changes the motion: a job that is run again gives the same bits as in the
@@ -75,9 +78,21 @@ pub(crate) struct Arguments {
     /// Time between two checkpoints (s); 0 for one at every frame [default: 120].
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     checkpoint_interval: Option<Duration>,
+    /// Threads for the one simulation. Pays from 4096 spheres on, none of which come or go; fewer stay on one.
+    /// The bits do not depend on it.
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = threads)]
+    threads: usize,
     /// Print the result as one JSON object (docs/json.md) instead of text.
     #[arg(long)]
     pub(super) json: bool,
+}
+
+/// Parses a number of threads.
+fn threads(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(threads @ 1..=MOST_THREADS) => Ok(threads),
+        _ => Err(format!("give a number from 1 to {MOST_THREADS}")),
+    }
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
@@ -115,7 +130,13 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         let signature = store::CHECKPOINT_SIGNATURE;
         folders::refuse_to_replace(checkpoints.path(), "a checkpoint", signature)?;
     }
-    let ran = interruptible::run(&scene, &checkpoints, arguments.resume, console)?;
+    let ran = interruptible::run(
+        &scene,
+        arguments.threads,
+        &checkpoints,
+        arguments.resume,
+        console,
+    )?;
     let Some(Ran {
         record,
         seconds,

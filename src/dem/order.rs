@@ -75,9 +75,7 @@ pub(super) fn between(from: &[u32], to: &[u32], fixed: usize) -> Vec<u32> {
         let numbers = numbers[fixed..].iter();
         numbers.map(|number| number + fixed as u32).collect()
     };
-    let all = |numbers: &[u32]| -> Vec<u32> {
-        (0..fixed as u32).chain(moving(numbers)).collect()
-    };
+    let all = |numbers: &[u32]| -> Vec<u32> { (0..fixed as u32).chain(moving(numbers)).collect() };
     let mut order = all(to);
     let places = places(&all(from));
     for number in &mut order {

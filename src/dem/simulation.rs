@@ -13,9 +13,11 @@ use super::system::{Engine, Parts, System};
 use super::vector::Vector;
 use super::walls::{Cylinder, Floor, TankWall};
 use super::{effects, timestep};
+use crate::cpu_time;
 use crate::observe::{Flow, FrameView, Ledger};
 use crate::record::{Instability, Milestone};
 use crate::scene::{Contact, Friction, Neighbours, Scene, Start, Tank};
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 /// Why a scene cannot be run.
 #[derive(Debug, thiserror::Error)]
@@ -50,6 +52,8 @@ pub struct Simulation {
     inertia: Vec<f64>,
     dt: f64,
     components: [[Vec<f64>; 3]; 3],
+    /// The threads that the engine runs on, if there are several.
+    pool: Option<ThreadPool>,
 }
 
 impl Simulation {
@@ -121,6 +125,7 @@ impl Simulation {
             inertia: if sorted { inertia } else { Vec::new() },
             dt: scene.time.dt,
             components: Default::default(),
+            pool: None,
         })
     }
 
@@ -130,12 +135,13 @@ impl Simulation {
     /// The guard that was broken; the simulation must not be advanced any further.
     pub fn advance(&mut self, steps: u64) -> Result<(), Instability> {
         let Some(process) = &mut self.process else {
-            let result = self.engine.advance(steps);
+            let engine = &mut self.engine;
+            let result = match &self.pool {
+                Some(pool) => pool.install(|| engine.advance(steps)),
+                None => engine.advance(steps),
+            };
             return result.map_err(|instability| Instability {
-                sphere: self
-                    .engine
-                    .particles()
-                    .place_in_scene(instability.sphere),
+                sphere: self.engine.particles().place_in_scene(instability.sphere),
                 ..instability
             });
         };
@@ -179,6 +185,26 @@ impl Simulation {
     /// same bits: a test compares the two.
     pub fn use_baseline_instructions(&mut self) {
         self.engine.use_baseline_instructions();
+    }
+
+    /// Advances on so many threads from now on, where it pays: in scenes of [`MANY`](order::MANY) spheres or
+    /// more, where none comes or goes. The bits do not depend on it.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub fn use_threads(&mut self, threads: usize) -> Result<(), ThreadPoolBuildError> {
+        self.pool = match self.engine.use_threads(threads) {
+            true => Some(ThreadPoolBuilder::new().num_threads(threads).build()?),
+            false => None,
+        };
+        Ok(())
+    }
+
+    /// Processor time of the threads that it was asked to use besides the caller's (s).
+    pub(crate) fn seconds_of_threads(&self) -> f64 {
+        let pool = self.pool.iter();
+        pool.flat_map(|pool| pool.broadcast(|_| cpu_time::of_this_thread()))
+            .sum()
     }
 
     /// Begins to measure what the parts of a step take. Never changes the motion.

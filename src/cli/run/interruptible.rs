@@ -23,15 +23,17 @@ pub(super) struct Ran {
     pub(super) resumed_from: Option<f64>,
 }
 
-/// Runs a scene, with a progress bar and checkpoints. None if it was interrupted: says how to go on.
+/// Runs a scene on so many threads, with a progress bar and checkpoints. None if it was interrupted: says how to go on.
 pub(super) fn run(
     scene: &Scene,
+    threads: usize,
     checkpoints: &Checkpoints,
     resume: bool,
     console: &Console,
 ) -> Result<Option<Ran>, Failure> {
     let stop = interrupt::stop_on_signal(console)?;
     let mut run = Run::new(scene).map_err(Failure::failed)?;
+    run.use_threads(threads).map_err(Failure::failed)?;
     let resumed = begin(&mut run, checkpoints, resume, console)?;
     let resumed_from = resumed.then(|| run.time());
     let steps = work::sphere_steps(scene);

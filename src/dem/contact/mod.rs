@@ -17,7 +17,7 @@ pub fn contact_radius(overlap: f64, effective_radius: f64) -> f64 {
 }
 
 /// A normal contact law. The engine is compiled for each law by itself.
-pub trait NormalLaw: Copy + Send + 'static {
+pub trait NormalLaw: Copy + Send + Sync + 'static {
     /// Whether there are contacts at all.
     const ACTS: bool = true;
 

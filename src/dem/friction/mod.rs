@@ -89,7 +89,7 @@ pub struct Traction {
 }
 
 /// What a contact remembers: a spring, or nothing.
-pub trait History: Copy + Default + Send + Serialize + DeserializeOwned {
+pub trait History: Copy + Default + Send + Sync + Serialize + DeserializeOwned {
     /// Its spring.
     fn spring(self) -> Spring;
 
@@ -133,7 +133,7 @@ impl History for Spring {
 }
 
 /// A tangential contact law. The engine is compiled for each law by itself.
-pub trait TangentialLaw: Copy + Send + 'static {
+pub trait TangentialLaw: Copy + Send + Sync + 'static {
     /// Whether spheres rotate, which costs spins and torques.
     const ROTATES: bool = true;
     /// Whether the law asks for masses and moments of inertia; a [`Touch`] need not have them otherwise.

@@ -192,12 +192,7 @@ impl Near {
     }
 
     #[inline(always)]
-    fn find<S: Simd>(
-        &mut self,
-        simd: S,
-        list: &VerletList,
-        particles: &Particles,
-    ) {
+    fn find<S: Simd>(&mut self, simd: S, list: &VerletList, particles: &Particles) {
         let (mut near, mut open) = (0, 0);
         self.shielding.clear();
         self.shielding.resize(particles.len(), 0);

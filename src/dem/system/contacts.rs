@@ -1,17 +1,13 @@
-//! Forces at contacts, block by block: which near pairs touch, and what acts on whom.
+//! What may touch, and what the laws of contacts ask about it.
 
 use super::System;
 use super::meeting::{Couple, Earlier, Laws, Solid};
-use super::pair_block::Memory;
 use super::wall_contacts::{MOST_WALLS, NearSphere};
-use crate::dem::block::BLOCK;
 use crate::dem::block::Row;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
 use crate::dem::neighbours::NearPair;
 use crate::dem::vector::Vector;
-use crate::dem::walls::Wall;
-use fearless_simd::Simd;
 
 /// Contacts, possible ones included.
 #[derive(Default)]
@@ -71,71 +67,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 velocity: Vector::of_row(velocity),
                 spin: [Vector::of_row(spin), Vector::ZERO],
             }),
-        }
-    }
-
-    #[inline(always)]
-    pub(super) fn pair_forces<S: Simd>(&mut self, simd: S, pairs: &[NearPair]) {
-        let laws = self.laws();
-        let block = &mut self.block;
-        block.set_alike(self.alike);
-        for pairs in pairs.chunks(BLOCK) {
-            let memory = Memory {
-                histories: &self.pair_history,
-                earlier: &self.earlier,
-            };
-            block.take_pairs::<S, T>(simd, pairs, &self.parts.particles, memory);
-            block.interact(&laws);
-            if Self::REMEMBERS {
-                let histories = &mut self.pair_history;
-                block.remember(
-                    simd,
-                    pairs.len(),
-                    #[inline(always)]
-                    |k, history| histories[pairs[k].entry as usize] = history,
-                );
-            }
-            block.add_to_pairs::<S, T>(simd, pairs.len(), &mut self.parts.particles);
-            if let Some((k, overlap)) = block.first_too_deep(pairs.len()) {
-                let NearPair { i, j, .. } = pairs[k];
-                let sphere = self.parts.particles.moving_partner(i, j);
-                self.too_deep.get_or_insert((sphere, overlap));
-            }
-        }
-    }
-
-    /// Forces of a wall on the spheres near it.
-    #[inline(always)]
-    pub(super) fn wall_forces<S: Simd, W: Wall>(
-        &mut self,
-        simd: S,
-        wall: W,
-        near: &[NearSphere],
-        histories: &mut [T::History],
-    ) {
-        let laws = self.laws();
-        let block = &mut self.block;
-        block.set_alike(self.alike);
-        for spheres in near.chunks(BLOCK) {
-            let memory = Memory {
-                histories,
-                earlier: &self.earlier,
-            };
-            block.take_spheres::<S, T>(simd, spheres, &self.parts.particles, memory);
-            block.interact_with_wall(wall, &laws);
-            if Self::REMEMBERS {
-                block.remember(
-                    simd,
-                    spheres.len(),
-                    #[inline(always)]
-                    |k, history| histories[spheres[k].entry as usize] = history,
-                );
-            }
-            block.add_to_spheres::<S, T>(simd, spheres.len(), &mut self.parts.particles);
-            if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
-                self.too_deep
-                    .get_or_insert((spheres[k].i as usize, overlap));
-            }
         }
     }
 }

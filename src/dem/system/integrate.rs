@@ -1,16 +1,18 @@
 //! Integration schemes: one function each, from kicks and drifts.
 
+use super::division::{in_parallel, split, split_shared};
 use super::meeting::Loading;
 use super::pair_block::EarlierRows;
 use super::{Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
+use crate::dem::neighbours::Allowance;
 use crate::dem::particles::Particles;
 use crate::dem::profile::{self, Part};
 use crate::dem::vector::Vector;
 use crate::record::Instability;
 use crate::scene::Integrator;
-use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f64x4, mask64x4};
+use fearless_simd::{Level, Simd, SimdBase, SimdFloat, SimdMask, f64x4, mask64x4};
 
 /// Velocities and spins before forces foretell them.
 #[derive(Default)]
@@ -38,17 +40,105 @@ impl Before {
     }
 }
 
+/// A kick of some spheres, or of all.
+struct Kick<'a> {
+    velocity: &'a mut [Vector],
+    force: &'a [Vector],
+    spin: &'a mut [Vector],
+    torque: &'a [Vector],
+    inverse_mass: &'a [f64],
+    inverse_inertia: &'a [f64],
+    /// [`Limits::slow`](crate::dem::guard::Limits::slow).
+    slow: f64,
+    too_fast: bool,
+}
+
+impl<'a> Kick<'a> {
+    /// Takes so many spheres from the front, or all that there are.
+    fn split(&mut self, count: usize) -> Kick<'a> {
+        Kick {
+            velocity: split(&mut self.velocity, count),
+            force: split_shared(&mut self.force, count),
+            spin: split(&mut self.spin, count),
+            torque: split_shared(&mut self.torque, count),
+            inverse_mass: split_shared(&mut self.inverse_mass, count),
+            inverse_inertia: split_shared(&mut self.inverse_inertia, count),
+            slow: self.slow,
+            too_fast: false,
+        }
+    }
+
+    fn by(&mut self, level: Level, dt: f64) {
+        fearless_simd::dispatch!(level, simd => self.all(simd, dt));
+    }
+
+    #[inline(always)]
+    fn all<S: Simd>(&mut self, simd: S, dt: f64) {
+        let most = f64x4::splat(simd, self.slow);
+        let mut slow = mask64x4::splat(simd, true);
+        for ((velocity, force), inverse) in (self.velocity.iter_mut())
+            .zip(self.force)
+            .zip(self.inverse_mass)
+        {
+            let row = velocity.simd(simd) + force.simd(simd) * (inverse * dt);
+            *velocity = Vector::of_row(row.into());
+            // What is not a number is not slow.
+            slow &= row.abs().simd_le(most);
+        }
+        for ((spin, torque), inverse) in (self.spin.iter_mut())
+            .zip(self.torque)
+            .zip(self.inverse_inertia)
+        {
+            let row = spin.simd(simd) + torque.simd(simd) * (inverse * dt);
+            *spin = Vector::of_row(row.into());
+        }
+        self.too_fast = !slow.all_true();
+    }
+}
+
+/// A drift of some spheres, or of all.
+struct Drift<'a> {
+    position: &'a mut [Vector],
+    velocity: &'a [Vector],
+    /// Where they were when near pairs were looked for, and how far they may be from there; where none are
+    /// looked for, nothing.
+    reference: &'a [Vector],
+    allowance: Option<Allowance>,
+    moved: bool,
+}
+
+impl<'a> Drift<'a> {
+    /// Takes so many spheres from the front, or all that there are.
+    fn split(&mut self, count: usize) -> Drift<'a> {
+        Drift {
+            position: split(&mut self.position, count),
+            velocity: split_shared(&mut self.velocity, count),
+            reference: split_shared(&mut self.reference, count),
+            allowance: self.allowance,
+            moved: false,
+        }
+    }
+
+    fn by(&mut self, level: Level, dt: f64) {
+        fearless_simd::dispatch!(level, simd => self.all(simd, dt));
+    }
+
+    #[inline(always)]
+    fn all<S: Simd>(&mut self, simd: S, dt: f64) {
+        for (position, velocity) in self.position.iter_mut().zip(self.velocity) {
+            let row = position.simd(simd) + velocity.simd(simd) * dt;
+            *position = Vector::of_row(row.into());
+        }
+        if let Some(allowance) = self.allowance {
+            self.moved = !allowance.hold(self.position, self.reference);
+        }
+    }
+}
+
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// v += a dt for a time `dt`, and the same for spins. True if a sphere may be too fast.
     pub(super) fn kick(&mut self, dt: f64) -> bool {
         let level = self.level;
-        let too_fast = fearless_simd::dispatch!(level, simd => self.kick_all(simd, dt));
-        self.mark(Part::Kick);
-        too_fast
-    }
-
-    #[inline(always)]
-    fn kick_all<S: Simd>(&mut self, simd: S, dt: f64) -> bool {
         let Particles {
             velocity,
             force,
@@ -58,52 +148,71 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             inverse_inertia,
             ..
         } = &mut self.parts.particles;
-        let most = f64x4::splat(simd, self.parts.limits.slow);
-        let mut slow = mask64x4::splat(simd, true);
-        for ((velocity, force), inverse) in velocity
-            .iter_mut()
-            .zip(force.iter())
-            .zip(inverse_mass.iter())
-        {
-            let row = velocity.simd(simd) + force.simd(simd) * (inverse * dt);
-            *velocity = Vector::of_row(row.into());
-            // What is not a number is not slow.
-            slow &= row.abs().simd_le(most);
-        }
-        for ((spin, torque), inverse) in spin
-            .iter_mut()
-            .zip(torque.iter())
-            .zip(inverse_inertia.iter())
-        {
-            let row = spin.simd(simd) + torque.simd(simd) * (inverse * dt);
-            *spin = Vector::of_row(row.into());
-        }
-        !slow.all_true()
+        let mut rest = Kick {
+            velocity,
+            force,
+            spin,
+            torque,
+            inverse_mass,
+            inverse_inertia,
+            slow: self.parts.limits.slow,
+            too_fast: false,
+        };
+        let too_fast = match &self.division {
+            None => {
+                rest.by(level, dt);
+                rest.too_fast
+            }
+            Some(division) => {
+                let length = rest.velocity.len().div_ceil(division.threads());
+                let mut shares: Vec<_> = (0..division.threads())
+                    .map(|_| rest.split(length))
+                    .collect();
+                in_parallel(&mut shares, &|share| share.by(level, dt));
+                shares.iter().any(|share| share.too_fast)
+            }
+        };
+        self.mark(Part::Kick);
+        too_fast
     }
 
     /// x += v dt for a time `dt`. Notes whether a sphere went farther than the near pairs allow.
     fn drift(&mut self, dt: f64) {
         let level = self.level;
-        fearless_simd::dispatch!(level, simd => self.drift_all(simd, dt));
-        self.mark(Part::Drift);
-    }
-
-    #[inline(always)]
-    fn drift_all<S: Simd>(&mut self, simd: S, dt: f64) {
+        self.age.time += dt;
+        self.near_age.time += dt;
         let Particles {
             position, velocity, ..
         } = &mut self.parts.particles;
-        self.age.time += dt;
-        self.near_age.time += dt;
-        for (position, velocity) in position.iter_mut().zip(velocity.iter()) {
-            let row = position.simd(simd) + velocity.simd(simd) * dt;
-            *position = Vector::of_row(row.into());
-        }
-        if self.list.is_some() {
-            let allowance = self.near.allowance(self.near_age.time);
-            // It may be so already: a sphere came or went.
-            self.stale |= !allowance.hold(position, self.near.anchor().position());
-        }
+        let is_listed = self.list.is_some();
+        let mut rest = Drift {
+            position,
+            velocity,
+            reference: if is_listed {
+                self.near.anchor().position()
+            } else {
+                &[]
+            },
+            allowance: is_listed.then(|| self.near.allowance(self.near_age.time)),
+            moved: false,
+        };
+        let moved = match &self.division {
+            None => {
+                rest.by(level, dt);
+                rest.moved
+            }
+            Some(division) => {
+                let length = rest.position.len().div_ceil(division.threads());
+                let mut shares: Vec<_> = (0..division.threads())
+                    .map(|_| rest.split(length))
+                    .collect();
+                in_parallel(&mut shares, &|share| share.by(level, dt));
+                shares.iter().any(|share| share.moved)
+            }
+        };
+        // It may be so already: a sphere came or went.
+        self.stale |= moved;
+        self.mark(Part::Drift);
     }
 
     pub(super) fn check_speeds(&self, too_fast: bool) -> Result<(), Instability> {

@@ -32,11 +32,16 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             } else {
                 near.refresh(self.level, list, particles);
                 // Histories that take no memory.
-                self.pair_history.resize(near.pairs().len(), T::History::default());
+                self.pair_history
+                    .resize(near.pairs().len(), T::History::default());
             }
             let margin = near.margin();
             for wall in &mut self.walls {
                 wall.find(particles, margin);
+            }
+            if let Some(division) = &mut self.division {
+                let (pairs, histories) = (self.near.pairs(), &self.pair_history);
+                division.divide(particles.len(), pairs, histories, &self.walls);
             }
         }
         self.mark(Part::Near);

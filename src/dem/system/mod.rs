@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod contacts;
+mod division;
 mod integrate;
 mod ledger;
 mod lists;
@@ -9,20 +10,23 @@ mod measure;
 mod meeting;
 mod order;
 mod pair_block;
+mod share;
 mod state;
 mod wall_contacts;
 
 use self::adaptive::Workspace;
 use self::contacts::Among;
+use self::division::Division;
 use self::integrate::Before;
 use self::ledger::Ledger;
 pub(in crate::dem) use self::ledger::Work;
 use self::meeting::{Loading, Solid};
-use self::pair_block::{EarlierRows, PairBlock};
+use self::pair_block::{EarlierRows, PairBlock, Sums};
+use self::share::{Known, Scenery, Share};
 pub(in crate::dem) use self::state::EngineState;
+use self::wall_contacts::{MOST_WALLS, WallContacts};
 use super::block::BLOCK;
 use super::bodies::Bodies;
-use self::wall_contacts::WallContacts;
 use super::contact::NormalLaw;
 use super::effects::Effect;
 use super::friction::TangentialLaw;
@@ -34,7 +38,7 @@ use super::state::StateError;
 use super::walls::TankWall;
 use crate::record::Instability;
 use crate::scene::{Integrator, Neighbours};
-use fearless_simd::{Level, Simd};
+use fearless_simd::Level;
 use std::ops::Range;
 
 /// What the rest of the program needs of a system, whatever its laws.
@@ -48,6 +52,9 @@ pub(in crate::dem) trait Engine: Send {
     /// What the contacts hold at the present positions.
     fn contacts(&mut self) -> Contacts;
     fn use_baseline_instructions(&mut self);
+    /// Divides the work of a sorted scene among so many threads, of the pool that the engine then runs in.
+    /// Whether it does.
+    fn use_threads(&mut self, threads: usize) -> bool;
     /// Begins to keep the books of energy; never changes the motion.
     fn keep_ledger(&mut self);
     /// Begins to measure what the parts of a step take; never changes the motion.
@@ -127,6 +134,8 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     walls: Vec<WallContacts<T::History>>,
     /// Histories of near pairs. A law without history has one of no size, and these take no memory.
     pair_history: Vec<T::History>,
+    /// Who answers for which spheres, if it is not one thread for all.
+    division: Option<Division<T::History>>,
     /// The near pairs of before, for their memory.
     spare_pairs: Vec<NearPair>,
     step: u64,
@@ -174,6 +183,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             shielding: vec![0; if parts.shielded { count } else { 0 }],
             walls: parts.walls.iter().copied().map(WallContacts::new).collect(),
             pair_history: Vec::new(),
+            division: None,
             spare_pairs: Vec::new(),
             normal,
             tangential,
@@ -186,10 +196,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Evaluates all forces and torques at the present positions and velocities.
-    ///
-    /// The hot loops are compiled once per instruction set, and no more than once: this is most of
-    /// what a build has to do. Wider vectors change no bit: every lane computes what the scalar code
-    /// would.
     fn evaluate(&mut self) -> Result<(), Instability> {
         if self.stale {
             self.refresh()?;
@@ -197,10 +203,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let among = self.take_all();
         self.note_all_contacts(&among);
         self.mark_ledger();
-        self.parts.particles.clear_forces();
-        self.mark(Part::Rest);
-        if self.list.is_some() {
-            self.forces_among(&among);
+        match self.list.is_some() {
+            true => self.forces_among(&among, true),
+            false => self.parts.particles.clear_forces(),
         }
         self.return_all(among);
         self.apply_effects();
@@ -306,29 +311,63 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
-    /// Adds the forces and torques of contacts.
-    fn forces_among(&mut self, among: &Among) {
-        let level = self.level;
-        fearless_simd::dispatch!(level, simd => self.contact_forces(simd, among));
-    }
-
-    #[inline(always)]
-    fn contact_forces<S: Simd>(&mut self, simd: S, among: &Among) {
-        self.pair_forces(simd, &among.pairs);
-        if !N::ACTS {
-            return;
-        }
-        self.mark(Part::Pairs);
-        for (place, near) in (0..self.walls.len()).zip(&among.walls) {
-            let wall = self.walls[place].wall;
-            let mut histories = std::mem::take(&mut self.walls[place].histories);
-            match wall {
-                TankWall::Floor(wall) => self.wall_forces(simd, wall, near, &mut histories),
-                TankWall::Cylinder(wall) => self.wall_forces(simd, wall, near, &mut histories),
+    /// Adds the forces and torques of contacts, or evaluates those of all anew.
+    fn forces_among(&mut self, among: &Among, anew: bool) {
+        let Particles { force, torque, .. } = &mut self.parts.particles;
+        let (mut force, mut torque) = (std::mem::take(force), std::mem::take(torque));
+        let scenery = Scenery {
+            laws: self.laws(),
+            particles: &self.parts.particles,
+            earlier: &self.earlier,
+            alike: self.alike,
+        };
+        let pairs = Known {
+            contacts: &among.pairs[..],
+            histories: &mut self.pair_history[..],
+        };
+        let walls = self.walls.iter_mut().zip(&among.walls);
+        let walls = walls.map(|(wall, near)| {
+            let known = Known {
+                contacts: &near[..],
+                histories: &mut wall.histories[..],
+            };
+            (wall.wall, known)
+        });
+        let too_deep = match self.division.as_mut().filter(|_| anew) {
+            Some(division) => {
+                let sums = [&mut force[..], &mut torque[..]];
+                let mut walls: Vec<_> = walls.collect();
+                let too_deep = division.evaluate(self.level, &scenery, sums, pairs, &mut walls);
+                profile::mark(&mut self.profile, Part::Pairs);
+                too_deep
             }
-            self.walls[place].histories = histories;
-            self.mark(wall.part());
-        }
+            None => {
+                let mut at_walls = [const { None }; MOST_WALLS];
+                for (place, wall) in at_walls.iter_mut().zip(walls) {
+                    *place = Some(wall);
+                }
+                let mut share = Share {
+                    sums: Sums {
+                        first: 0,
+                        force: &mut force,
+                        torque: &mut torque,
+                    },
+                    clear: anew,
+                    block: &mut self.block,
+                    crossing: Known {
+                        contacts: &[],
+                        histories: &mut [],
+                    },
+                    pairs,
+                    walls: at_walls,
+                    too_deep: [None; 1 + MOST_WALLS],
+                };
+                share.add_contacts(self.level, &scenery, &mut self.profile);
+                share.too_deep.into_iter().flatten().next()
+            }
+        };
+        self.too_deep = self.too_deep.or(too_deep);
+        (self.parts.particles.force, self.parts.particles.torque) = (force, torque);
     }
 }
 
@@ -349,6 +388,13 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
 
     fn use_baseline_instructions(&mut self) {
         self.level = Level::baseline();
+    }
+
+    fn use_threads(&mut self, threads: usize) -> bool {
+        let divides = self.parts.sorted && threads > 1;
+        self.division = divides.then(|| Division::new(threads));
+        self.stale = true;
+        divides
     }
 
     fn particles(&self) -> &Particles {
@@ -412,7 +458,6 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.walls.iter_mut().for_each(|wall| wall.retain(keep));
         self.list.iter_mut().for_each(VerletList::outdate);
         retain(&mut self.pair_history, &self.near.remove_spheres(keep));
-        self.block.forget();
         self.renumber();
         self.note_exchange(before);
     }

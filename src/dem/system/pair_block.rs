@@ -23,13 +23,6 @@ const NOT_DEEP: f64 = -1.0;
 /// Velocity and spin of a sphere before an evaluation of forces, in rows.
 pub(super) type EarlierRows = [Row; 2];
 
-/// What contacts remember, and the velocities and spins that load their springs, if not those of now.
-#[derive(Clone, Copy)]
-pub(super) struct Memory<'a, H> {
-    pub(super) histories: &'a [H],
-    pub(super) earlier: &'a [EarlierRows],
-}
-
 /// What of the spheres of a block does not change.
 struct Solids {
     radius: Column,
@@ -88,7 +81,7 @@ pub(super) struct PairBlock<H> {
 
 impl<H: History> PairBlock<H> {
     /// Whether the law has a history.
-    const REMEMBERS: bool = size_of::<H>() > 0;
+    pub(super) const REMEMBERS: bool = size_of::<H>() > 0;
 
     pub(super) fn new() -> Self {
         let pair = || [Columns::ZERO, Columns::ZERO];
@@ -112,11 +105,6 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Forgets the pairs of the past, which lanes without a pair repeat.
-    pub(super) fn forget(&mut self) {
-        self.index = [[0; BLOCK]; 2];
-    }
-
     /// Says what all spheres are like, if they are alike: it is then not fetched.
     pub(super) fn set_alike(&mut self, alike: Option<Solid>) {
         self.alike = alike.is_some();
@@ -127,20 +115,19 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Fetches pairs, up to a block of them, with what they remember. Lanes without a pair repeat one of the
-    /// past.
+    /// Fetches pairs, up to a block of them, with what they remember. Lanes without a pair repeat the first.
     #[inline(always)]
     pub(super) fn take_pairs<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
         pairs: &[NearPair],
+        histories: &[H],
         particles: &Particles,
-        memory: Memory<'_, H>,
+        earlier: &[EarlierRows],
     ) {
-        for (k, pair) in pairs.iter().enumerate() {
-            self.index[0][k] = pair.i;
-            self.index[1][k] = pair.j;
-        }
+        let [one, other] = &mut self.index;
+        fill_lanes(one, pairs, |pair| pair.i);
+        fill_lanes(other, pairs, |pair| pair.j);
         // Of one length, so that an index is checked once.
         let spheres = particles.position.len();
         let (position, velocity) = (&particles.position[..], &particles.velocity[..spheres]);
@@ -187,15 +174,8 @@ impl<H: History> PairBlock<H> {
                 *inverse = 1.0 / (one.radius[k] + other.radius[k]);
             }
         }
-        if Self::REMEMBERS {
-            let entries: [u32; BLOCK] = std::array::from_fn(|k| pairs.get(k).map_or(0, |it| it.entry));
-            self.spring.fill::<S>(
-                #[inline(always)]
-                |k| f64x4::simd_from(simd, memory.histories[entries[k] as usize].spring().force.row()),
-            );
-        }
-        if Self::REMEMBERS && !memory.earlier.is_empty() {
-            let earlier = memory.earlier;
+        self.take_springs(simd, histories);
+        if Self::REMEMBERS && !earlier.is_empty() {
             let [one, other] = &self.index;
             self.earlier_velocity.fill::<S>(
                 #[inline(always)]
@@ -209,18 +189,36 @@ impl<H: History> PairBlock<H> {
         }
     }
 
+    /// Fetches springs, up to a block of them.
+    #[inline(always)]
+    fn take_springs<S: Simd>(&mut self, simd: S, histories: &[H]) {
+        if !Self::REMEMBERS {
+            return;
+        }
+        if let Ok(all) = <&[H; BLOCK]>::try_from(histories) {
+            self.spring.fill::<S>(
+                #[inline(always)]
+                |k| all[k].spring().force.simd(simd),
+            );
+        } else {
+            self.spring.fill::<S>(
+                #[inline(always)]
+                |k| histories.get(k).copied().unwrap_or_default().spring().force.simd(simd),
+            );
+        }
+    }
+
     /// Fetches spheres near a wall, up to a block of them, with what they remember.
     #[inline(always)]
     pub(super) fn take_spheres<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
         spheres: &[NearSphere],
+        histories: &[H],
         particles: &Particles,
-        memory: Memory<'_, H>,
+        earlier: &[EarlierRows],
     ) {
-        for (k, sphere) in spheres.iter().enumerate() {
-            self.index[0][k] = sphere.i;
-        }
+        fill_lanes(&mut self.index[0], spheres, |sphere| sphere.i);
         let index = &self.index[0];
         self.offset.fill::<S>(
             #[inline(always)]
@@ -239,21 +237,14 @@ impl<H: History> PairBlock<H> {
         if !self.alike {
             self.take_solids::<T>(0, particles);
         }
-        let index = &self.index[0];
-        if Self::REMEMBERS {
-            let entries: [u32; BLOCK] =
-                std::array::from_fn(|k| spheres.get(k).map_or(0, |it| it.entry));
-            self.spring.fill::<S>(
-                #[inline(always)]
-                |k| f64x4::simd_from(simd, memory.histories[entries[k] as usize].spring().force.row()),
-            );
-        }
-        if Self::REMEMBERS && !memory.earlier.is_empty() {
+        self.take_springs(simd, histories);
+        if Self::REMEMBERS && !earlier.is_empty() {
+            let index = &self.index[0];
             self.earlier_velocity.fill::<S>(
                 #[inline(always)]
-                |k| f64x4::simd_from(simd, memory.earlier[index[k] as usize][0]),
+                |k| f64x4::simd_from(simd, earlier[index[k] as usize][0]),
             );
-            self.take_earlier_spin(simd, 0, memory.earlier);
+            self.take_earlier_spin(simd, 0, earlier);
         }
     }
 
@@ -427,43 +418,38 @@ impl<H: History> PairBlock<H> {
             .map(|k| (k, self.too_deep[k]))
     }
 
-    /// Adds forces and torques of a wall to so many spheres.
+    /// Adds forces and torques of a wall to those of so many spheres whose sums these are.
     #[inline(always)]
     pub(super) fn add_to_spheres<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
         contacts: usize,
-        particles: &mut Particles,
+        sums: &mut Sums<'_>,
     ) {
         self.clear_from(contacts);
-        let (forces, torques) = (&mut particles.force[..], &mut particles.torque[..]);
+        let mut sums = sums.here();
         for at in (0..BLOCK).step_by(ROWS) {
             let force = self.force.rows(simd, at);
+            let torque = match T::ROTATES {
+                true => self.torque[0].rows(simd, at),
+                false => force,
+            };
             for k in 0..ROWS {
-                add(simd, forces, self.index[0][at + k], force[k]);
-            }
-            if T::ROTATES {
-                let torque = self.torque[0].rows(simd, at);
-                for k in 0..ROWS {
-                    add(simd, torques, self.index[0][at + k], torque[k]);
-                }
+                sums.add::<S, T>(simd, self.index[0][at + k], force[k], torque[k]);
             }
         }
     }
 
-    /// Adds forces and torques to the partners of so many pairs, one after the other.
+    /// Adds forces and torques to those partners of so many pairs whose sums these are, one after the other.
     #[inline(always)]
     pub(super) fn add_to_pairs<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
         contacts: usize,
-        particles: &mut Particles,
+        sums: &mut Sums<'_>,
     ) {
         self.clear_from(contacts);
-        // Of one length, so that an index is checked once.
-        let forces = &mut particles.force[..];
-        let turning = if T::ROTATES { forces.len() } else { 0 };
-        let torques = &mut particles.torque[..turning];
+        let mut sums = sums.here();
         let [one, other] = &self.index;
         // Both get the same torque where they are alike.
         let second = if self.alike { 0 } else { 1 };
@@ -477,15 +463,8 @@ impl<H: History> PairBlock<H> {
                 false => [force; 2],
             };
             for k in 0..ROWS {
-                let (i, j) = (one[at + k], other[at + k]);
-                add(simd, forces, i, force[k]);
-                if T::ROTATES {
-                    add(simd, torques, i, torque[0][k]);
-                }
-                add(simd, forces, j, -force[k]);
-                if T::ROTATES {
-                    add(simd, torques, j, torque[1][k]);
-                }
+                sums.add::<S, T>(simd, one[at + k], force[k], torque[0][k]);
+                sums.add::<S, T>(simd, other[at + k], -force[k], torque[1][k]);
             }
         }
     }
@@ -495,29 +474,95 @@ impl<H: History> PairBlock<H> {
     fn clear_from(&mut self, contacts: usize) {
         if contacts < BLOCK {
             let [one, other] = &mut self.torque;
-            for column in [&mut self.force, one, other].into_iter().flat_map(|it| &mut it.0) {
-                column[contacts..].fill(0.0);
+            for columns in [&mut self.force, one, other] {
+                for column in &mut columns.0 {
+                    column[contacts..].fill(0.0);
+                }
             }
         }
     }
 
-    /// Calls `keep` with what every contact of so many remembers.
+    /// Writes down what the contacts remember.
     #[inline(always)]
-    pub(super) fn remember<S: Simd>(&self, simd: S, contacts: usize, mut keep: impl FnMut(usize, H)) {
-        for at in (0..contacts).step_by(ROWS) {
+    pub(super) fn remember<S: Simd>(&self, simd: S, histories: &mut [H]) {
+        if !Self::REMEMBERS {
+            return;
+        }
+        for (at, histories) in (0..BLOCK).step_by(ROWS).zip(histories.chunks_mut(ROWS)) {
             let rows = self.spring.rows(simd, at);
-            for (k, &row) in (at..contacts).zip(&rows) {
-                let force = Vector::of_row(row.into());
-                keep(k, H::of_spring(Spring { force }));
+            let spring = |row: f64x4<S>| Spring {
+                force: Vector::of_row(row.into()),
+            };
+            if let Ok(all) = <&mut [H; ROWS]>::try_from(&mut *histories) {
+                for k in 0..ROWS {
+                    all[k] = H::of_spring(spring(rows[k]));
+                }
+            } else {
+                for (history, &row) in histories.iter_mut().zip(&rows) {
+                    *history = H::of_spring(spring(row));
+                }
+            }
+        }
+    }
+}
+
+/// Forces and torques of the spheres from one on, or of all.
+pub(super) struct Sums<'a> {
+    /// The index of the first one.
+    pub(super) first: usize,
+    /// Forces (N).
+    pub(super) force: &'a mut [Vector],
+    /// Torques (N m), of spheres that turn.
+    pub(super) torque: &'a mut [Vector],
+}
+
+impl Sums<'_> {
+    /// The same, for a loop: whose bounds then stay in registers, whatever is written.
+    #[inline(always)]
+    fn here(&mut self) -> Sums<'_> {
+        Sums {
+            first: self.first,
+            force: self.force,
+            torque: self.torque,
+        }
+    }
+
+    /// Adds to a sphere, if it is one of these.
+    #[inline(always)]
+    fn add<S: Simd, T: TangentialLaw>(
+        &mut self,
+        simd: S,
+        sphere: u32,
+        force: f64x4<S>,
+        torque: f64x4<S>,
+    ) {
+        let at = (sphere as usize).wrapping_sub(self.first);
+        if at < self.force.len() {
+            add(simd, &mut self.force[at], force);
+            if T::ROTATES {
+                add(simd, &mut self.torque[at], torque);
             }
         }
     }
 }
 
 #[inline(always)]
-fn add<S: Simd>(simd: S, sums: &mut [Vector], i: u32, force: f64x4<S>) {
-    let sum = &mut sums[i as usize];
-    *sum = Vector::of_row((f64x4::simd_from(simd, sum.row()) + force).into());
+fn add<S: Simd>(simd: S, sum: &mut Vector, force: f64x4<S>) {
+    *sum = Vector::of_row((sum.simd(simd) + force).into());
+}
+
+/// Writes down a sphere of every contact; lanes without one repeat the first.
+#[inline(always)]
+fn fill_lanes<C>(lanes: &mut [u32; BLOCK], contacts: &[C], sphere: impl Fn(&C) -> u32) {
+    if let Ok(all) = <&[C; BLOCK]>::try_from(contacts) {
+        for k in 0..BLOCK {
+            lanes[k] = sphere(&all[k]);
+        }
+    } else {
+        for (k, lane) in lanes.iter_mut().enumerate() {
+            *lane = contacts.get(k).or(contacts.first()).map_or(0, &sphere);
+        }
+    }
 }
 
 /// Stores what acts on a touching pair.

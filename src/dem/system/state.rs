@@ -167,7 +167,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return Ok(());
         };
         list.outdate();
-        self.block.forget();
         self.age = Age::default();
         self.near_age = Age::default();
         let pairs = histories.iter().map(|&(i, j, _)| (i, j));

@@ -304,7 +304,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
             self.note_contacts(&island.among);
             self.mark_ledger();
-            self.forces_among(&island.among);
+            self.forces_among(&island.among, false);
             self.check_overlaps()?;
             for &i in &island.spheres {
                 self.complete(i as usize, time, work);
@@ -330,7 +330,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             let torques = spheres().map(|i| particles.torque[i]);
             work.held.torque.extend(torques);
         }
-        self.forces_among(&island.among);
+        self.forces_among(&island.among, false);
         // Forces of spheres that move are those of the last middle still, and the next step finds what is
         // too deep, if it matters.
         let particles = &mut self.parts.particles;

@@ -1,0 +1,168 @@
+//! Forces at contacts, block by block: which of them touch, and what acts on whom. One thread answers for all,
+//! or each for a share of the spheres.
+
+use super::meeting::{Laws, Solid};
+use super::pair_block::{EarlierRows, PairBlock, Sums};
+use super::wall_contacts::{MOST_WALLS, NearSphere};
+use crate::dem::block::BLOCK;
+use crate::dem::contact::NormalLaw;
+use crate::dem::friction::{History, TangentialLaw};
+use crate::dem::neighbours::NearPair;
+use crate::dem::particles::Particles;
+use crate::dem::profile::{self, Part, Profile};
+use crate::dem::vector::Vector;
+use crate::dem::walls::{TankWall, Wall};
+use fearless_simd::{Level, Simd};
+
+/// What contacts depend on besides their own memory; the particles are without their forces and torques.
+#[derive(Clone, Copy)]
+pub(super) struct Scenery<'a, N, T> {
+    pub(super) laws: Laws<N, T>,
+    pub(super) particles: &'a Particles,
+    pub(super) earlier: &'a [EarlierRows],
+    /// What all spheres are like, if they are alike.
+    pub(super) alike: Option<Solid>,
+}
+
+/// Contacts, possible ones included, and what they remember.
+pub(super) struct Known<'a, C, H> {
+    pub(super) contacts: &'a [C],
+    /// Of each of them.
+    pub(super) histories: &'a mut [H],
+}
+
+/// A wall and the spheres near it.
+pub(super) type AtWall<'a, H> = (TankWall, Known<'a, NearSphere, H>);
+
+/// A sphere whose contact is beyond the overlap limit, and the overlap (m).
+pub(super) type TooDeep = Option<(usize, f64)>;
+
+/// What a thread answers for: forces and torques of some spheres, or of all.
+pub(super) struct Share<'a, H> {
+    pub(super) sums: Sums<'a>,
+    /// Whether sums begin anew.
+    pub(super) clear: bool,
+    pub(super) block: &'a mut PairBlock<H>,
+    /// Pairs whose first sphere is another share's, which answers for its force and the pair's history: here
+    /// is a copy.
+    pub(super) crossing: Known<'a, NearPair, H>,
+    /// Pairs whose first sphere is one of these.
+    pub(super) pairs: Known<'a, NearPair, H>,
+    pub(super) walls: [Option<AtWall<'a, H>>; MOST_WALLS],
+    /// The first contact found too deep among pairs and at each wall.
+    pub(super) too_deep: [TooDeep; 1 + MOST_WALLS],
+}
+
+impl<H: History> Share<'_, H> {
+    /// Adds the forces and torques of all its contacts, in the order of the list.
+    ///
+    /// The hot loops are compiled once per instruction set, and no more than once: this is most of what a build
+    /// has to do. Wider vectors change no bit: every lane computes what the scalar code would.
+    pub(super) fn add_contacts<N: NormalLaw, T: TangentialLaw<History = H>>(
+        &mut self,
+        level: Level,
+        scenery: &Scenery<'_, N, T>,
+        profile: &mut Option<Box<Profile>>,
+    ) {
+        fearless_simd::dispatch!(level, simd => self.add_all(simd, scenery, profile));
+    }
+
+    #[inline(always)]
+    fn add_all<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
+        &mut self,
+        simd: S,
+        scenery: &Scenery<'_, N, T>,
+        profile: &mut Option<Box<Profile>>,
+    ) {
+        if self.clear {
+            self.sums.force.fill(Vector::ZERO);
+            self.sums.torque.fill(Vector::ZERO);
+            profile::mark(profile, Part::Rest);
+        }
+        self.block.set_alike(scenery.alike);
+        // In one loop, as all that stands in it is compiled for every instruction set.
+        for crossing in [true, false] {
+            self.pair_forces::<S, N, T>(simd, scenery, crossing);
+        }
+        if !N::ACTS {
+            return;
+        }
+        profile::mark(profile, Part::Pairs);
+        for place in 0..MOST_WALLS {
+            let Some((wall, _)) = &self.walls[place] else {
+                break;
+            };
+            let wall = *wall;
+            match wall {
+                TankWall::Floor(wall) => self.wall_forces::<S, _, N, T>(simd, wall, place, scenery),
+                TankWall::Cylinder(wall) => {
+                    self.wall_forces::<S, _, N, T>(simd, wall, place, scenery);
+                }
+            }
+            profile::mark(profile, wall.part());
+        }
+    }
+
+    #[inline(always)]
+    fn pair_forces<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
+        &mut self,
+        simd: S,
+        scenery: &Scenery<'_, N, T>,
+        crossing: bool,
+    ) {
+        let Scenery {
+            laws,
+            particles,
+            earlier,
+            ..
+        } = scenery;
+        let known = match crossing {
+            true => &mut self.crossing,
+            false => &mut self.pairs,
+        };
+        let block = &mut *self.block;
+        let blocks = (known.contacts.chunks(BLOCK)).zip(known.histories.chunks_mut(BLOCK));
+        for (pairs, histories) in blocks {
+            block.take_pairs::<S, T>(simd, pairs, histories, particles, earlier);
+            block.interact(laws);
+            block.remember(simd, histories);
+            block.add_to_pairs::<S, T>(simd, pairs.len(), &mut self.sums);
+            if let Some((k, overlap)) = block.first_too_deep(pairs.len()) {
+                let NearPair { i, j, .. } = pairs[k];
+                let sphere = particles.moving_partner(i, j);
+                // The other share says so of one that crosses.
+                if !crossing {
+                    self.too_deep[0].get_or_insert((sphere, overlap));
+                }
+            }
+        }
+    }
+
+    /// Forces of a wall on the spheres near it.
+    #[inline(always)]
+    fn wall_forces<S: Simd, W: Wall, N: NormalLaw, T: TangentialLaw<History = H>>(
+        &mut self,
+        simd: S,
+        wall: W,
+        place: usize,
+        scenery: &Scenery<'_, N, T>,
+    ) {
+        let Some((_, near)) = &mut self.walls[place] else {
+            return;
+        };
+        let block = &mut *self.block;
+        let blocks = (near.contacts.chunks(BLOCK)).zip(near.histories.chunks_mut(BLOCK));
+        for (spheres, histories) in blocks {
+            let Scenery {
+                particles, earlier, ..
+            } = scenery;
+            block.take_spheres::<S, T>(simd, spheres, histories, particles, earlier);
+            block.interact_with_wall(wall, &scenery.laws);
+            block.remember(simd, histories);
+            block.add_to_spheres::<S, T>(simd, spheres.len(), &mut self.sums);
+            if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
+                self.too_deep[1 + place].get_or_insert((spheres[k].i as usize, overlap));
+            }
+        }
+    }
+}

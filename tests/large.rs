@@ -1,0 +1,257 @@
+//! Large scenes, whose spheres are sorted in memory: what leaves the engine is in the order of the scene, and no bit
+//! depends on how a run is interrupted, on the numbers of spheres, or on the threads that it runs on.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on should panic")]
+
+mod scenes;
+mod support;
+
+use phase::dem::Simulation;
+use phase::dem::order::MANY;
+use phase::record::Guard;
+use phase::scene::{Friction, Integrator, Scene, Start, StartSphere};
+use phase::store::{content_digest, read_record};
+use scenes::{INTEGRATORS, tank};
+use support::Workplace;
+
+const COUNT: usize = MANY + 404;
+
+/// Steps after which the spheres have been sorted three times.
+const STEPS: u64 = 520;
+
+/// The small tank made larger, without its updraught, with spheres that mix.
+fn large(friction: Option<Friction>, integrator: Integrator) -> Scene {
+    let mut scene = tank(friction, integrator);
+    scene.updraught = None;
+    scene.swirl.as_mut().unwrap().omega = 30.0;
+    let tank = scene.tank.as_mut().unwrap();
+    let factor = (COUNT as f64 / scene.spheres.count as f64).cbrt();
+    tank.radius = tank.radius.map(|radius| radius * factor);
+    scene.spheres.count = COUNT;
+    scene.start = Start::Random {
+        z_min: -0.04,
+        z_max: -0.04 + 0.1 * factor,
+        speed: 1.0,
+        spin: 50.0,
+    };
+    scene
+}
+
+fn mindlin() -> Option<Friction> {
+    Some(Friction::Mindlin { coefficient: 0.3 })
+}
+
+/// Places, velocities and spins in the order of the scene.
+fn places(simulation: &mut Simulation) -> Vec<[f64; 9]> {
+    let frame = simulation.frame();
+    let none = vec![0.0; frame.count()];
+    let spin = frame.spin.unwrap_or([&none; 3]);
+    let of = |i: usize| {
+        let all = [frame.position, frame.velocity, spin];
+        std::array::from_fn(|k| all[k / 3][k % 3][i])
+    };
+    (0..frame.count()).map(of).collect()
+}
+
+fn bits(simulation: &mut Simulation) -> Vec<[u64; 9]> {
+    let places = places(simulation).into_iter();
+    places.map(|place| place.map(f64::to_bits)).collect()
+}
+
+/// The scene with its random start written out.
+fn listed(mut scene: Scene) -> Scene {
+    let mut simulation = Simulation::new(&scene).unwrap();
+    let radius = simulation.radius().to_vec();
+    let spheres = places(&mut simulation).into_iter().zip(radius);
+    let triple = |place: &[f64], at: usize| [place[at], place[at + 1], place[at + 2]];
+    let spheres = spheres.map(|(place, radius)| StartSphere {
+        position: triple(&place, 0),
+        velocity: triple(&place, 3),
+        spin: triple(&place, 6),
+        radius: Some(radius),
+    });
+    scene.start = Start::List {
+        spheres: spheres.collect(),
+    };
+    scene
+}
+
+#[test]
+fn frames_are_in_the_order_of_the_scene() {
+    let mut simulation = Simulation::new(&large(mindlin(), Integrator::VelocityVerlet)).unwrap();
+    let mut before = places(&mut simulation);
+    let radius = simulation.radius().to_vec();
+    for _ in 0..STEPS / 10 {
+        simulation.advance(10).unwrap();
+        let now = places(&mut simulation);
+        // In a millisecond none gets farther than with 5 m/s.
+        let way = |one: &[f64; 9], other: &[f64; 9]| {
+            let squares = (0..3).map(|k| (one[k] - other[k]).powi(2));
+            squares.sum::<f64>().sqrt()
+        };
+        assert!(
+            now.iter()
+                .zip(&before)
+                .all(|(now, before)| way(now, before) < 5e-3)
+        );
+        before = now;
+        assert_eq!(simulation.frame().radius, radius);
+    }
+    // In memory they stand elsewhere.
+    let particles = simulation.particles();
+    assert!(
+        particles
+            .number
+            .iter()
+            .zip(0..)
+            .any(|(&number, i)| number != i)
+    );
+    for (at, &number) in particles.number.iter().enumerate() {
+        assert_eq!(particles.position[at].x, before[number as usize][0]);
+        assert_eq!(particles.radius[at], radius[number as usize]);
+    }
+}
+
+#[test]
+fn few_spheres_stay_in_the_order_of_the_scene() {
+    let mut scene = large(None, Integrator::SymplecticEuler);
+    scene.spheres.count = MANY - 1;
+    let mut simulation = Simulation::new(&scene).unwrap();
+    simulation.advance(1).unwrap();
+    assert!(simulation.particles().number.is_empty());
+}
+
+#[test]
+fn an_interrupted_run_goes_on_with_the_same_bits() {
+    for integrator in INTEGRATORS {
+        for ledger in [false, true] {
+            let mut scene = large(mindlin(), integrator);
+            scene.output.ledger = ledger;
+            let mut whole = Simulation::new(&scene).unwrap();
+            whole.advance(STEPS).unwrap();
+            let mut latest = Simulation::new(&scene).unwrap();
+            // At the moment of a sort, before one and after one.
+            for step in [100, 250, 251, STEPS] {
+                latest.advance(step - latest.step()).unwrap();
+                let mut next = Simulation::new(&scene).unwrap();
+                next.restore(latest.state()).unwrap();
+                assert_eq!(bits(&mut next), bits(&mut latest));
+                latest = next;
+            }
+            assert!(bits(&mut latest) == bits(&mut whole), "{integrator:?}");
+            let work = |simulation: &mut Simulation| simulation.frame().ledger;
+            assert_eq!(work(&mut latest), work(&mut whole), "{integrator:?}");
+        }
+    }
+}
+
+#[test]
+fn bits_do_not_depend_on_the_threads() {
+    for integrator in INTEGRATORS {
+        for friction in [None, mindlin()] {
+            let scene = large(friction.clone(), integrator);
+            let mut one = Simulation::new(&scene).unwrap();
+            one.advance(STEPS).unwrap();
+            let expected = bits(&mut one);
+            for threads in [2, 3, 7] {
+                let mut several = Simulation::new(&scene).unwrap();
+                several.use_threads(threads).unwrap();
+                several.advance(STEPS / 2).unwrap();
+                // It may change on the way.
+                several.frame();
+                several.use_threads(threads + 1).unwrap();
+                several.advance(STEPS - STEPS / 2).unwrap();
+                assert!(
+                    bits(&mut several) == expected,
+                    "{threads} threads, {integrator:?}, {friction:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn bits_do_not_depend_on_lists_or_on_being_watched() {
+    let mut scene = large(mindlin(), Integrator::SymplecticEuler);
+    for updraught in [None, tank(None, Integrator::VelocityVerlet).updraught] {
+        scene.updraught = updraught;
+        let mut expected = Simulation::new(&scene).unwrap();
+        expected.advance(STEPS).unwrap();
+        let mut other = Simulation::with_skin(&scene, 0.05).unwrap();
+        other.use_baseline_instructions();
+        other.use_threads(2).unwrap();
+        for _ in 0..STEPS {
+            other.advance(1).unwrap();
+            other.frame();
+        }
+        assert!(bits(&mut other) == bits(&mut expected));
+    }
+}
+
+#[test]
+fn the_numbers_of_spheres_change_no_bit() {
+    let mut scene = listed(large(mindlin(), Integrator::SynchronisedVerlet));
+    let mut one = Simulation::new(&scene).unwrap();
+    one.advance(STEPS).unwrap();
+    let Start::List { spheres } = &mut scene.start else {
+        panic!("a list")
+    };
+    spheres.reverse();
+    let mut other = Simulation::new(&scene).unwrap();
+    other.use_threads(2).unwrap();
+    other.advance(STEPS).unwrap();
+    let mut found = bits(&mut other);
+    found.reverse();
+    assert!(found == bits(&mut one));
+}
+
+#[test]
+fn a_broken_guard_names_the_sphere_of_the_scene() {
+    let mut scene = listed(large(mindlin(), Integrator::SymplecticEuler));
+    let Start::List { spheres } = &mut scene.start else {
+        panic!("a list")
+    };
+    spheres[1234].velocity = [1e3, 0.0, 0.0];
+    for threads in [1, 2] {
+        let mut simulation = Simulation::new(&scene).unwrap();
+        simulation.use_threads(threads).unwrap();
+        let instability = simulation.advance(5).unwrap_err();
+        assert_eq!(
+            (instability.guard, instability.sphere),
+            (Guard::Displacement, 1234)
+        );
+    }
+    let Start::List { spheres } = &mut scene.start else {
+        panic!("a list")
+    };
+    spheres[1234] = spheres[321].clone();
+    for threads in [1, 2] {
+        let mut simulation = Simulation::new(&scene).unwrap();
+        simulation.use_threads(threads).unwrap();
+        let instability = simulation.advance(5).unwrap_err();
+        assert_eq!(instability.guard, Guard::Overlap);
+        assert!([321, 1234].contains(&instability.sphere), "{instability}");
+    }
+}
+
+#[test]
+fn the_program_runs_on_threads_and_writes_the_same_record() {
+    let place = Workplace::new();
+    let mut scene = large(mindlin(), Integrator::SymplecticEuler);
+    scene.time.duration = 0.03;
+    scene.time.frame_interval = 0.01;
+    place.write("large.toml", &toml::to_string(&scene).unwrap());
+    let digest = |name: &str| content_digest(&read_record(&place.path(name)).unwrap()).unwrap();
+    for (record, threads) in [("one.h5", "1"), ("two.h5", "2")] {
+        place
+            .phase(&["run", "large.toml", "--out", record, "--threads", threads])
+            .code(0);
+    }
+    assert_eq!(digest("one.h5"), digest("two.h5"));
+    for wrong in ["0", "many"] {
+        place
+            .phase(&["run", "large.toml", "--threads", wrong])
+            .code(2)
+            .complains("--threads");
+    }
+}
