@@ -39,6 +39,20 @@ impl Solids {
         }
     }
 
+    /// Fetches it of the sphere of every lane.
+    #[inline(always)]
+    fn take<T: TangentialLaw>(&mut self, particles: &Particles, sphere: impl Fn(usize) -> u32) {
+        for k in 0..BLOCK {
+            self.radius[k] = particles.radius[sphere(k) as usize];
+        }
+        if T::WEIGHS {
+            for k in 0..BLOCK {
+                self.mass[k] = particles.mass[sphere(k) as usize];
+                self.inertia[k] = particles.inertia[sphere(k) as usize];
+            }
+        }
+    }
+
     #[inline(always)]
     fn at(&self, k: usize) -> Solid {
         Solid {
@@ -51,7 +65,6 @@ impl Solids {
 
 /// Everything about the pairs of a block.
 pub(super) struct PairBlock<H> {
-    index: [[u32; BLOCK]; 2],
     /// Centre of the first partner from that of the second, or from the origin at a wall (m).
     offset: Columns,
     /// Velocity of the first relative to the second (m/s).
@@ -86,7 +99,6 @@ impl<H: History> PairBlock<H> {
     pub(super) fn new() -> Self {
         let pair = || [Columns::ZERO, Columns::ZERO];
         Self {
-            index: [[0; BLOCK]; 2],
             offset: Columns::ZERO,
             velocity: Columns::ZERO,
             spin: pair(),
@@ -115,35 +127,31 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Fetches pairs, up to a block of them, with what they remember. Lanes without a pair repeat the first.
+    /// Fetches pairs, with what they remember.
     #[inline(always)]
     pub(super) fn take_pairs<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        pairs: &[NearPair],
+        pairs: &[NearPair; BLOCK],
         histories: &[H],
         particles: &Particles,
         earlier: &[EarlierRows],
     ) {
-        let [one, other] = &mut self.index;
-        fill_lanes(one, pairs, |pair| pair.i);
-        fill_lanes(other, pairs, |pair| pair.j);
         // Of one length, so that an index is checked once.
         let spheres = particles.position.len();
         let (position, velocity) = (&particles.position[..], &particles.velocity[..spheres]);
         let spin = if T::ROTATES { &particles.spin[..spheres] } else { position };
-        let [one, other] = &self.index;
         let [first_spin, second_spin] = &mut self.spin;
         for at in (0..BLOCK).step_by(ROWS) {
             self.offset.fill_from::<S>(
                 at,
                 #[inline(always)]
-                |k| row(simd, position, one[k]) - row(simd, position, other[k]),
+                |k| row(simd, position, pairs[k].i) - row(simd, position, pairs[k].j),
             );
             self.velocity.fill_from::<S>(
                 at,
                 #[inline(always)]
-                |k| row(simd, velocity, one[k]) - row(simd, velocity, other[k]),
+                |k| row(simd, velocity, pairs[k].i) - row(simd, velocity, pairs[k].j),
             );
             // Of spheres that are alike, which have the same lever, laws ask for the sum of both spins
             // alone: the first gets all of it.
@@ -151,24 +159,24 @@ impl<H: History> PairBlock<H> {
                 first_spin.fill_from::<S>(
                     at,
                     #[inline(always)]
-                    |k| row(simd, spin, one[k]) + row(simd, spin, other[k]),
+                    |k| row(simd, spin, pairs[k].i) + row(simd, spin, pairs[k].j),
                 );
             } else if T::ROTATES {
                 first_spin.fill_from::<S>(
                     at,
                     #[inline(always)]
-                    |k| row(simd, spin, one[k]),
+                    |k| row(simd, spin, pairs[k].i),
                 );
                 second_spin.fill_from::<S>(
                     at,
                     #[inline(always)]
-                    |k| row(simd, spin, other[k]),
+                    |k| row(simd, spin, pairs[k].j),
                 );
             }
         }
         if !self.alike {
-            self.take_solids::<T>(0, particles);
-            self.take_solids::<T>(1, particles);
+            self.solid[0].take::<T>(particles, |k| pairs[k].i);
+            self.solid[1].take::<T>(particles, |k| pairs[k].j);
             let [one, other] = &self.solid;
             for (k, inverse) in self.inverse_sum.iter_mut().enumerate() {
                 *inverse = 1.0 / (one.radius[k] + other.radius[k]);
@@ -176,16 +184,23 @@ impl<H: History> PairBlock<H> {
         }
         self.take_springs(simd, histories);
         if Self::REMEMBERS && !earlier.is_empty() {
-            let [one, other] = &self.index;
             self.earlier_velocity.fill::<S>(
                 #[inline(always)]
                 |k| {
-                    let [one, other] = [one[k], other[k]].map(|i| earlier[i as usize][0]);
+                    let one = earlier[pairs[k].i as usize][0];
+                    let other = earlier[pairs[k].j as usize][0];
                     f64x4::simd_from(simd, one) - f64x4::simd_from(simd, other)
                 },
             );
-            self.take_earlier_spin(simd, 0, earlier);
-            self.take_earlier_spin(simd, 1, earlier);
+            let [one, other] = &mut self.earlier_spin;
+            one.fill::<S>(
+                #[inline(always)]
+                |k| f64x4::simd_from(simd, earlier[pairs[k].i as usize][1]),
+            );
+            other.fill::<S>(
+                #[inline(always)]
+                |k| f64x4::simd_from(simd, earlier[pairs[k].j as usize][1]),
+            );
         }
     }
 
@@ -208,72 +223,44 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Fetches spheres near a wall, up to a block of them, with what they remember.
+    /// Fetches spheres near a wall, with what they remember.
     #[inline(always)]
     pub(super) fn take_spheres<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        spheres: &[NearSphere],
+        spheres: &[NearSphere; BLOCK],
         histories: &[H],
         particles: &Particles,
         earlier: &[EarlierRows],
     ) {
-        fill_lanes(&mut self.index[0], spheres, |sphere| sphere.i);
-        let index = &self.index[0];
         self.offset.fill::<S>(
             #[inline(always)]
-            |k| row(simd, &particles.position, index[k]),
+            |k| row(simd, &particles.position, spheres[k].i),
         );
         self.velocity.fill::<S>(
             #[inline(always)]
-            |k| row(simd, &particles.velocity, index[k]),
+            |k| row(simd, &particles.velocity, spheres[k].i),
         );
         if T::ROTATES {
             self.spin[0].fill::<S>(
                 #[inline(always)]
-                |k| row(simd, &particles.spin, index[k]),
+                |k| row(simd, &particles.spin, spheres[k].i),
             );
         }
         if !self.alike {
-            self.take_solids::<T>(0, particles);
+            self.solid[0].take::<T>(particles, |k| spheres[k].i);
         }
         self.take_springs(simd, histories);
         if Self::REMEMBERS && !earlier.is_empty() {
-            let index = &self.index[0];
             self.earlier_velocity.fill::<S>(
                 #[inline(always)]
-                |k| f64x4::simd_from(simd, earlier[index[k] as usize][0]),
+                |k| f64x4::simd_from(simd, earlier[spheres[k].i as usize][0]),
             );
-            self.take_earlier_spin(simd, 0, earlier);
+            self.earlier_spin[0].fill::<S>(
+                #[inline(always)]
+                |k| f64x4::simd_from(simd, earlier[spheres[k].i as usize][1]),
+            );
         }
-    }
-
-    /// Fetches what of the spheres of one side does not change.
-    #[inline(always)]
-    fn take_solids<T: TangentialLaw>(&mut self, side: usize, particles: &Particles) {
-        let Solids {
-            radius,
-            mass,
-            inertia,
-        } = &mut self.solid[side];
-        for (k, &i) in self.index[side].iter().enumerate() {
-            radius[k] = particles.radius[i as usize];
-        }
-        if T::WEIGHS {
-            for (k, &i) in self.index[side].iter().enumerate() {
-                mass[k] = particles.mass[i as usize];
-                inertia[k] = particles.inertia[i as usize];
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn take_earlier_spin<S: Simd>(&mut self, simd: S, side: usize, earlier: &[EarlierRows]) {
-        let index = &self.index[side];
-        self.earlier_spin[side].fill::<S>(
-            #[inline(always)]
-            |k| f64x4::simd_from(simd, earlier[index[k] as usize][1]),
-        );
     }
 
     /// Computes the laws for every pair.
@@ -423,6 +410,7 @@ impl<H: History> PairBlock<H> {
     pub(super) fn add_to_spheres<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
+        spheres: &[NearSphere; BLOCK],
         contacts: usize,
         sums: &mut Sums<'_>,
     ) {
@@ -435,7 +423,7 @@ impl<H: History> PairBlock<H> {
                 false => force,
             };
             for k in 0..ROWS {
-                sums.add::<S, T>(simd, self.index[0][at + k], force[k], torque[k]);
+                sums.add::<S, T>(simd, spheres[at + k].i, force[k], torque[k]);
             }
         }
     }
@@ -445,12 +433,12 @@ impl<H: History> PairBlock<H> {
     pub(super) fn add_to_pairs<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
+        pairs: &[NearPair; BLOCK],
         contacts: usize,
         sums: &mut Sums<'_>,
     ) {
         self.clear_from(contacts);
         let mut sums = sums.here();
-        let [one, other] = &self.index;
         // Both get the same torque where they are alike.
         let second = if self.alike { 0 } else { 1 };
         for at in (0..BLOCK).step_by(ROWS) {
@@ -463,8 +451,8 @@ impl<H: History> PairBlock<H> {
                 false => [force; 2],
             };
             for k in 0..ROWS {
-                sums.add::<S, T>(simd, one[at + k], force[k], torque[0][k]);
-                sums.add::<S, T>(simd, other[at + k], -force[k], torque[1][k]);
+                sums.add::<S, T>(simd, pairs[at + k].i, force[k], torque[0][k]);
+                sums.add::<S, T>(simd, pairs[at + k].j, -force[k], torque[1][k]);
             }
         }
     }
@@ -551,16 +539,16 @@ fn add<S: Simd>(simd: S, sum: &mut Vector, force: f64x4<S>) {
     *sum = Vector::of_row((sum.simd(simd) + force).into());
 }
 
-/// Writes down a sphere of every contact; lanes without one repeat the first.
+/// A block of contacts; lanes without one repeat the first.
 #[inline(always)]
-fn fill_lanes<C>(lanes: &mut [u32; BLOCK], contacts: &[C], sphere: impl Fn(&C) -> u32) {
-    if let Ok(all) = <&[C; BLOCK]>::try_from(contacts) {
-        for k in 0..BLOCK {
-            lanes[k] = sphere(&all[k]);
-        }
-    } else {
-        for (k, lane) in lanes.iter_mut().enumerate() {
-            *lane = contacts.get(k).or(contacts.first()).map_or(0, &sphere);
+pub(super) fn whole<'a, C: Copy>(contacts: &'a [C], rest: &'a mut [C; BLOCK]) -> &'a [C; BLOCK] {
+    match <&[C; BLOCK]>::try_from(contacts) {
+        Ok(all) => all,
+        Err(_) => {
+            for (k, lane) in rest.iter_mut().enumerate() {
+                *lane = contacts[if k < contacts.len() { k } else { 0 }];
+            }
+            rest
         }
     }
 }

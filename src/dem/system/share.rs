@@ -2,7 +2,7 @@
 //! or each for a share of the spheres.
 
 use super::meeting::{Laws, Solid};
-use super::pair_block::{EarlierRows, PairBlock, Sums};
+use super::pair_block::{EarlierRows, PairBlock, Sums, whole};
 use super::wall_contacts::{MOST_WALLS, NearSphere};
 use crate::dem::block::BLOCK;
 use crate::dem::contact::NormalLaw;
@@ -122,11 +122,13 @@ impl<H: History> Share<'_, H> {
         };
         let block = &mut *self.block;
         let blocks = (known.contacts.chunks(BLOCK)).zip(known.histories.chunks_mut(BLOCK));
+        let mut rest = [NearPair::default(); BLOCK];
         for (pairs, histories) in blocks {
-            block.take_pairs::<S, T>(simd, pairs, histories, particles, earlier);
+            let lanes = whole(pairs, &mut rest);
+            block.take_pairs::<S, T>(simd, lanes, histories, particles, earlier);
             block.interact(laws);
             block.remember(simd, histories);
-            block.add_to_pairs::<S, T>(simd, pairs.len(), &mut self.sums);
+            block.add_to_pairs::<S, T>(simd, lanes, pairs.len(), &mut self.sums);
             if let Some((k, overlap)) = block.first_too_deep(pairs.len()) {
                 let NearPair { i, j, .. } = pairs[k];
                 let sphere = particles.moving_partner(i, j);
@@ -152,14 +154,16 @@ impl<H: History> Share<'_, H> {
         };
         let block = &mut *self.block;
         let blocks = (near.contacts.chunks(BLOCK)).zip(near.histories.chunks_mut(BLOCK));
+        let mut rest = [NearSphere::default(); BLOCK];
         for (spheres, histories) in blocks {
+            let lanes = whole(spheres, &mut rest);
             let Scenery {
                 particles, earlier, ..
             } = scenery;
-            block.take_spheres::<S, T>(simd, spheres, histories, particles, earlier);
+            block.take_spheres::<S, T>(simd, lanes, histories, particles, earlier);
             block.interact_with_wall(wall, &scenery.laws);
             block.remember(simd, histories);
-            block.add_to_spheres::<S, T>(simd, spheres.len(), &mut self.sums);
+            block.add_to_spheres::<S, T>(simd, lanes, spheres.len(), &mut self.sums);
             if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
                 self.too_deep[1 + place].get_or_insert((spheres[k].i as usize, overlap));
             }
