@@ -2,6 +2,7 @@
 
 use super::System;
 use super::meeting::{Couple, Earlier, Laws, Solid};
+use super::wall_contacts::{MOST_WALLS, NearSphere};
 use crate::dem::block::BLOCK;
 use crate::dem::block::Row;
 use crate::dem::contact::NormalLaw;
@@ -16,10 +17,8 @@ use fearless_simd::Simd;
 pub(super) struct Among {
     /// Pairs, in the order of the list.
     pub(super) pairs: Vec<NearPair>,
-    /// Spheres near the floor.
-    pub(super) floor: Vec<u32>,
-    /// Spheres near the cylinder.
-    pub(super) cylinder: Vec<u32>,
+    /// Spheres near each wall.
+    pub(super) walls: [Vec<NearSphere>; MOST_WALLS],
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
@@ -106,7 +105,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         &mut self,
         simd: S,
         wall: W,
-        near: &[u32],
+        near: &[NearSphere],
         histories: &mut [T::History],
     ) {
         let laws = self.laws();
@@ -122,13 +121,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             );
             block.interact_with_wall(wall, &laws);
             if Self::REMEMBERS {
-                for (k, &i) in spheres.iter().enumerate() {
-                    histories[i as usize] = block.history(k);
+                for (k, sphere) in spheres.iter().enumerate() {
+                    histories[sphere.entry as usize] = block.history(k);
                 }
             }
             block.scatter_to_spheres::<S, T>(simd, spheres, &mut self.parts.particles);
             if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
-                self.too_deep.get_or_insert((spheres[k] as usize, overlap));
+                self.too_deep
+                    .get_or_insert((spheres[k].i as usize, overlap));
             }
         }
     }

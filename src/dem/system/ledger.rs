@@ -6,6 +6,7 @@
 
 use super::contacts::Among;
 use super::meeting::Meeting;
+use super::wall_contacts::{NearSphere, WallContacts};
 use super::{Engine, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, Spring, TangentialLaw};
@@ -13,7 +14,6 @@ use crate::dem::neighbours::NearPair;
 use crate::dem::particles::{Particles, retain};
 use crate::dem::profile::Part;
 use crate::dem::vector::Vector;
-use crate::dem::walls::Wall;
 use serde::{Deserialize, Serialize};
 
 /// Work since the start (J).
@@ -204,11 +204,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return;
         };
         self.note_pairs(among, &mut ledger);
-        if let Some(wall) = self.parts.floor {
-            self.note_wall(wall, &among.floor, &self.floor_history, &mut ledger);
-        }
-        if let Some(wall) = self.parts.cylinder {
-            self.note_wall(wall, &among.cylinder, &self.cylinder_history, &mut ledger);
+        for (wall, near) in self.walls.iter().zip(&among.walls) {
+            self.note_wall(wall, near, &mut ledger);
         }
         self.ledger = Some(ledger);
     }
@@ -230,17 +227,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
-    fn note_wall<W: Wall>(
-        &self,
-        wall: W,
-        near: &[u32],
-        histories: &[T::History],
-        ledger: &mut Ledger,
-    ) {
+    fn note_wall(&self, wall: &WallContacts<T::History>, near: &[NearSphere], ledger: &mut Ledger) {
         let laws = self.laws();
-        for &i in near {
-            let spring = histories[i as usize].spring();
-            let meeting = laws.at_wall(wall, &self.alone(i), spring);
+        for &NearSphere { i, entry } in near {
+            let spring = wall.histories[entry as usize].spring();
+            let meeting = laws.at_wall(wall.wall, &self.alone(i), spring);
             if meeting.touches {
                 let [damping, tangential] = self.parts_of(&meeting);
                 ledger.books.add(i, damping, tangential, meeting.torque[0]);

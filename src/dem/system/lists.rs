@@ -4,9 +4,7 @@ use super::meeting::Solid;
 use super::{Age, Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
-use crate::dem::particles::Particles;
 use crate::dem::profile::Part;
-use crate::dem::walls::Wall;
 use crate::record::Instability;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
@@ -33,13 +31,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             };
             near.refresh(self.level, list, particles, forget);
             let margin = near.margin();
-            if let Some(wall) = self.parts.floor {
-                let (near, history) = (&mut self.near_floor, &mut self.floor_history);
-                find_near_wall(wall, particles, margin, near, history);
-            }
-            if let Some(wall) = self.parts.cylinder {
-                let (near, history) = (&mut self.near_cylinder, &mut self.cylinder_history);
-                find_near_wall(wall, particles, margin, near, history);
+            for wall in &mut self.walls {
+                wall.find(particles, margin);
             }
         }
         self.mark(Part::Near);
@@ -80,24 +73,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let old = std::mem::take(&mut self.pair_history);
         self.pair_history = carry_over(&start, &neighbour, &old, list.start(), list.neighbour());
         Ok(())
-    }
-}
-
-/// Finds the spheres near a wall that move, and forgets the histories of the others.
-fn find_near_wall<W: Wall, H: Default>(
-    wall: W,
-    particles: &Particles,
-    margin: f64,
-    near: &mut Vec<u32>,
-    histories: &mut [H],
-) {
-    near.clear();
-    for (i, (&centre, &radius)) in particles.position.iter().zip(&particles.radius).enumerate() {
-        if i >= particles.fixed && wall.is_near(centre, radius, margin) {
-            near.push(i as u32);
-        } else {
-            histories[i] = H::default();
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! What the contacts hold.
 
-use super::{Contacts, Parts, System};
+use super::{Contacts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
 use crate::dem::particles::Particles;
@@ -35,6 +35,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         };
         let count = &mut contacts.of_moving_spheres;
         let mut pairs = self.near.pairs().iter().peekable();
+        let mut walls: Vec<_> = self
+            .walls
+            .iter()
+            .map(|it| (it, it.near.iter().peekable()))
+            .collect();
         for i in 0..radius.len() {
             let (centre, ri) = (position[i], radius[i]);
             while let Some(pair) = pairs.next_if(|pair| pair.i as usize == i) {
@@ -50,23 +55,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     *count += usize::from(i >= *fixed) + usize::from(j >= *fixed);
                 }
             }
-            let Parts {
-                floor, cylinder, ..
-            } = &self.parts;
-            let walls = [
-                (
-                    floor.map(|wall| wall.contact(centre, ri)),
-                    &self.floor_history,
-                ),
-                (
-                    cylinder.map(|wall| wall.contact(centre, ri)),
-                    &self.cylinder_history,
-                ),
-            ];
-            for (contact, history) in walls {
-                if let Some(contact) = contact.filter(|contact| contact.touches && i >= *fixed) {
+            for (wall, near) in &mut walls {
+                let Some(sphere) = near.next_if(|sphere| sphere.i as usize == i) else {
+                    continue;
+                };
+                let contact = wall.wall.contact(centre, ri);
+                if contact.touches {
                     energy += self.normal.elastic_energy(contact.overlap, ri);
-                    springs += spring(history, i, contact.overlap, ri);
+                    springs += spring(&wall.histories, sphere.entry as usize, contact.overlap, ri);
                     *count += 1;
                 }
             }

@@ -9,6 +9,7 @@ mod measure;
 mod meeting;
 mod pair_block;
 mod state;
+mod wall_contacts;
 
 use self::adaptive::Workspace;
 use self::contacts::Among;
@@ -18,6 +19,7 @@ pub(in crate::dem) use self::ledger::Work;
 use self::meeting::{Loading, Solid};
 use self::pair_block::{EarlierRows, PairBlock};
 pub(in crate::dem) use self::state::EngineState;
+use self::wall_contacts::WallContacts;
 use super::contact::NormalLaw;
 use super::effects::Effect;
 use super::friction::TangentialLaw;
@@ -26,7 +28,7 @@ use super::neighbours::{Near, Reach, VerletList};
 use super::particles::{Particles, Sphere, retain};
 use super::profile::{self, Part, Profile};
 use super::state::StateError;
-use super::walls::{Cylinder, Floor};
+use super::walls::TankWall;
 use crate::record::Instability;
 use crate::scene::{Integrator, Neighbours};
 use fearless_simd::{Level, Simd};
@@ -74,8 +76,8 @@ pub(in crate::dem) struct Contacts {
 /// What a system is made of besides its laws.
 pub(in crate::dem) struct Parts {
     pub(in crate::dem) particles: Particles,
-    pub(in crate::dem) floor: Option<Floor>,
-    pub(in crate::dem) cylinder: Option<Cylinder>,
+    /// In the order in which they act.
+    pub(in crate::dem) walls: Vec<TankWall>,
     /// Those of a potential first.
     pub(in crate::dem) effects: Vec<Box<dyn Effect>>,
     /// Whether an effect needs the number of spheres below each sphere.
@@ -114,14 +116,10 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     alike: Option<Solid>,
     block: Box<PairBlock<T::History>>,
     shielding: Vec<u32>,
-    /// Spheres that may touch the floor and the cylinder.
-    near_floor: Vec<u32>,
-    near_cylinder: Vec<u32>,
-    /// Histories of listed pairs, of the floor and of the cylinder. A law without history has one
-    /// of no size, and these take no memory.
+    /// The walls, and what may touch them.
+    walls: Vec<WallContacts<T::History>>,
+    /// Histories of listed pairs. A law without history has one of no size, and these take no memory.
     pair_history: Vec<T::History>,
-    floor_history: Vec<T::History>,
-    cylinder_history: Vec<T::History>,
     step: u64,
     moves: u64,
     level: Level,
@@ -148,8 +146,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         } else {
             Reach::Contact
         };
-        let histories =
-            |present: bool| vec![T::History::default(); if present { count } else { 0 }];
         let interact = N::ACTS || parts.shielded;
         Self {
             list: interact.then(|| VerletList::new(reach, parts.skin, parts.neighbours)),
@@ -166,11 +162,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             alike: Solid::of_all(&parts.particles),
             block: Box::new(PairBlock::new()),
             shielding: vec![0; if parts.shielded { count } else { 0 }],
-            near_floor: Vec::new(),
-            near_cylinder: Vec::new(),
+            walls: parts.walls.iter().copied().map(WallContacts::new).collect(),
             pair_history: Vec::new(),
-            floor_history: histories(parts.floor.is_some()),
-            cylinder_history: histories(parts.cylinder.is_some()),
             normal,
             tangential,
             parts,
@@ -260,17 +253,21 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Takes out what may touch, all of it.
     fn take_all(&mut self) -> Among {
-        Among {
+        let mut among = Among {
             pairs: self.near.take_pairs(),
-            floor: std::mem::take(&mut self.near_floor),
-            cylinder: std::mem::take(&mut self.near_cylinder),
+            ..Among::default()
+        };
+        for (all, wall) in among.walls.iter_mut().zip(&mut self.walls) {
+            *all = std::mem::take(&mut wall.near);
         }
+        among
     }
 
     fn return_all(&mut self, among: Among) {
         self.near.return_pairs(among.pairs);
-        self.near_floor = among.floor;
-        self.near_cylinder = among.cylinder;
+        for (wall, all) in self.walls.iter_mut().zip(among.walls) {
+            wall.near = all;
+        }
     }
 
     /// Adds the forces and torques of contacts.
@@ -282,20 +279,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     #[inline(always)]
     fn contact_forces<S: Simd>(&mut self, simd: S, among: &Among) {
         self.pair_forces(simd, &among.pairs);
-        if N::ACTS {
-            self.mark(Part::Pairs);
+        if !N::ACTS {
+            return;
         }
-        if let (true, Some(floor)) = (N::ACTS, self.parts.floor) {
-            let mut history = std::mem::take(&mut self.floor_history);
-            self.wall_forces(simd, floor, &among.floor, &mut history);
-            self.floor_history = history;
-            self.mark(Part::Floor);
-        }
-        if let (true, Some(cylinder)) = (N::ACTS, self.parts.cylinder) {
-            let mut history = std::mem::take(&mut self.cylinder_history);
-            self.wall_forces(simd, cylinder, &among.cylinder, &mut history);
-            self.cylinder_history = history;
-            self.mark(Part::Cylinder);
+        self.mark(Part::Pairs);
+        for (place, near) in (0..self.walls.len()).zip(&among.walls) {
+            let wall = self.walls[place].wall;
+            let mut histories = std::mem::take(&mut self.walls[place].histories);
+            match wall {
+                TankWall::Floor(wall) => self.wall_forces(simd, wall, near, &mut histories),
+                TankWall::Cylinder(wall) => self.wall_forces(simd, wall, near, &mut histories),
+            }
+            self.walls[place].histories = histories;
+            self.mark(wall.part());
         }
     }
 }
@@ -357,8 +353,6 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
             particles,
             limits,
             dt,
-            floor,
-            cylinder,
             ..
         } = &mut self.parts;
         particles.push(sphere);
@@ -366,12 +360,6 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
             ledger.books.add_sphere();
         }
         limits.add_sphere(sphere.radius, *dt);
-        if floor.is_some() {
-            self.floor_history.push(T::History::default());
-        }
-        if cylinder.is_some() {
-            self.cylinder_history.push(T::History::default());
-        }
         self.list.iter_mut().for_each(VerletList::add_sphere);
         self.near.add_sphere(sphere.position);
         self.renumber();
@@ -385,8 +373,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
             ledger.books.retain(keep);
         }
         retain(&mut self.parts.limits.speed_squared, keep);
-        retain(&mut self.floor_history, keep);
-        retain(&mut self.cylinder_history, keep);
+        self.walls.iter_mut().for_each(|wall| wall.retain(keep));
         if let Some(list) = &mut self.list {
             retain(&mut self.pair_history, &list.remove_spheres(keep));
         }

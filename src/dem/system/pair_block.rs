@@ -5,6 +5,7 @@
 //! one by one in the order of the list. Adding zero to a sum that began at +0 changes no bit of it.
 
 use super::meeting::{Couple, Earlier, Laws, Meeting, Solid};
+use super::wall_contacts::NearSphere;
 use crate::dem::block::{BLOCK, Column, Columns, Row};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, Spring, TangentialLaw};
@@ -260,11 +261,13 @@ impl<H: History> PairBlock<H> {
 
     /// The same with spheres near a wall.
     #[inline(always)]
-    pub(super) fn take_spheres(&mut self, spheres: &[u32], histories: &[H]) {
-        self.index[0][..spheres.len()].copy_from_slice(spheres);
+    pub(super) fn take_spheres(&mut self, spheres: &[NearSphere], histories: &[H]) {
+        for (k, sphere) in spheres.iter().enumerate() {
+            self.index[0][k] = sphere.i;
+        }
         if Self::REMEMBERS {
-            for (k, &i) in spheres.iter().enumerate() {
-                self.take_spring(k, histories[i as usize]);
+            for (k, sphere) in spheres.iter().enumerate() {
+                self.take_spring(k, histories[sphere.entry as usize]);
             }
         }
     }
@@ -397,7 +400,7 @@ impl<H: History> PairBlock<H> {
     pub(super) fn scatter_to_spheres<S: Simd, T: TangentialLaw<History = H>>(
         &self,
         simd: S,
-        spheres: &[u32],
+        spheres: &[NearSphere],
         particles: &mut Particles,
     ) {
         for (at, four) in (0..BLOCK).step_by(4).zip(spheres.chunks(4)) {
@@ -407,8 +410,8 @@ impl<H: History> PairBlock<H> {
             } else {
                 force
             };
-            for (k, &i) in four.iter().enumerate() {
-                let i = i as usize;
+            for (k, sphere) in four.iter().enumerate() {
+                let i = sphere.i as usize;
                 add(simd, &mut particles.force[i], force[k]);
                 if T::ROTATES {
                     add(simd, &mut particles.torque[i], torque[k]);

@@ -5,6 +5,7 @@
 
 use super::ledger::Books;
 use super::meeting::Solid;
+use super::wall_contacts::WallContacts;
 use super::{Age, Near, Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
@@ -32,32 +33,38 @@ pub(in crate::dem) struct EngineState {
 struct Histories<H> {
     /// Of the pairs whose history is not empty: both spheres, in the order of the list.
     pairs: Vec<(u32, u32, H)>,
-    /// Of every sphere with the floor, and with the cylinder, where they are.
-    floor: Vec<H>,
-    cylinder: Vec<H>,
+    /// Of each wall: the spheres whose history with it is not empty, in the order of their indices.
+    walls: Vec<Vec<(u32, H)>>,
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     pub(super) fn save(&self) -> EngineState {
+        // By its bits: to whom zero and minus zero are equal may not be for the motion.
+        let empty = encode(&T::History::default());
+        let holds = |history: &T::History| Self::REMEMBERS && encode(history) != empty;
         let mut pairs = Vec::new();
         if let Some(list) = self.list.as_ref().filter(|_| Self::REMEMBERS) {
-            let empty = encode(&T::History::default());
             let entries = list.owner().iter().zip(list.neighbour());
             for ((&i, &j), &history) in entries.zip(&self.pair_history) {
-                // By its bits: to whom zero and minus zero are equal may not be for the motion.
-                if encode(&history) != empty {
+                if holds(&history) {
                     pairs.push((i, j, history));
                 }
             }
         }
+        let of_wall = |wall: &WallContacts<T::History>| {
+            let known = wall.near.iter().zip(&wall.histories);
+            let known = known.filter(|(_, history)| holds(history));
+            known
+                .map(|(sphere, &history)| (sphere.i, history))
+                .collect()
+        };
         EngineState {
             step: self.step,
             moves: self.moves,
             particles: self.parts.particles.clone(),
             histories: encode(&Histories {
                 pairs,
-                floor: self.floor_history.clone(),
-                cylinder: self.cylinder_history.clone(),
+                walls: self.walls.iter().map(of_wall).collect(),
             }),
             books: self.ledger.as_ref().map(|ledger| ledger.books.clone()),
         }
@@ -88,8 +95,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             limits.add_sphere(*radius, self.parts.dt);
         }
         self.parts.particles = particles;
-        self.floor_history = histories.floor;
-        self.cylinder_history = histories.cylinder;
+        for (wall, known) in self.walls.iter_mut().zip(histories.walls) {
+            wall.take_up(known);
+        }
         self.make_lists(&histories.pairs)
             .map_err(|_| StateError("a sphere is out of bounds"))
     }
@@ -100,19 +108,17 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         particles: &Particles,
         histories: &Histories<T::History>,
     ) -> Result<(), StateError> {
-        let Parts {
-            floor,
-            cylinder,
-            limits,
-            dt,
-            ..
-        } = &self.parts;
+        let Parts { limits, dt, .. } = &self.parts;
         let count = particles.len();
-        let at = |present: bool| if present { count } else { 0 };
-        let (pairs, known) = (&histories.pairs, |index: u32| (index as usize) < count);
+        let known = |index: u32| (index as usize) < count;
+        let in_order = |wall: &Vec<(u32, T::History)>| {
+            wall.windows(2).all(|pair| pair[0].0 < pair[1].0)
+                && wall.last().is_none_or(|&(i, _)| known(i))
+        };
+        let Histories { pairs, walls } = histories;
         let fits = particles.fits_together()
-            && histories.floor.len() == at(floor.is_some())
-            && histories.cylinder.len() == at(cylinder.is_some())
+            && walls.len() == self.walls.len()
+            && walls.iter().all(in_order)
             && pairs.iter().all(|&(i, j, _)| known(i) && known(j));
         if !fits {
             return Err(StateError("it has other spheres or contacts"));

@@ -6,6 +6,7 @@ mod plane;
 pub use cylinder::Cylinder;
 pub use plane::Floor;
 
+use super::profile::Part;
 use super::vector::Vector;
 
 /// Where a sphere is with respect to a wall.
@@ -26,4 +27,42 @@ pub trait Wall: Copy + Send + 'static {
 
     /// Whether a sphere there touches the wall, or will after a way of `margin` (m).
     fn is_near(&self, centre: Vector, radius: f64, margin: f64) -> bool;
+}
+
+/// A wall of a tank, whichever it is. Loops over contacts are compiled for each kind by itself; this is
+/// for all else.
+#[derive(Clone, Copy, Debug)]
+pub enum TankWall {
+    /// The floor.
+    Floor(Floor),
+    /// The cylindrical wall.
+    Cylinder(Cylinder),
+}
+
+impl TankWall {
+    /// What it is called in a profile.
+    pub fn part(&self) -> Part {
+        match self {
+            Self::Floor(_) => Part::Floor,
+            Self::Cylinder(_) => Part::Cylinder,
+        }
+    }
+}
+
+impl Wall for TankWall {
+    #[inline(always)]
+    fn contact(&self, centre: Vector, radius: f64) -> WallContact {
+        match self {
+            Self::Floor(wall) => wall.contact(centre, radius),
+            Self::Cylinder(wall) => wall.contact(centre, radius),
+        }
+    }
+
+    #[inline(always)]
+    fn is_near(&self, centre: Vector, radius: f64, margin: f64) -> bool {
+        match self {
+            Self::Floor(wall) => wall.is_near(centre, radius, margin),
+            Self::Cylinder(wall) => wall.is_near(centre, radius, margin),
+        }
+    }
 }

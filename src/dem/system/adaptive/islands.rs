@@ -2,6 +2,7 @@
 
 use crate::dem::neighbours::NearPair;
 use crate::dem::system::contacts::Among;
+use crate::dem::system::wall_contacts::NearSphere;
 
 /// Spheres that may touch one another within a step, directly or through others, and all that they
 /// may touch.
@@ -17,8 +18,7 @@ impl Island {
     fn clear(&mut self) {
         self.spheres.clear();
         self.among.pairs.clear();
-        self.among.floor.clear();
-        self.among.cylinder.clear();
+        self.among.walls.iter_mut().for_each(Vec::clear);
     }
 }
 
@@ -85,7 +85,12 @@ impl Islands {
     }
 
     /// Puts what may touch into islands, in the order of the indices.
-    pub(super) fn collect(&mut self, pairs: &[NearPair], walls: [&[u32]; 2], fixed: usize) {
+    pub(super) fn collect<'a>(
+        &mut self,
+        pairs: &[NearPair],
+        walls: impl Iterator<Item = &'a [NearSphere]>,
+        fixed: usize,
+    ) {
         self.islands[..self.used].iter_mut().for_each(Island::clear);
         self.used = 0;
         self.island_of.resize(self.parent.len(), 0);
@@ -109,12 +114,11 @@ impl Islands {
                 self.island(first).among.pairs.push(*pair);
             }
         }
-        for (wall, near) in walls.into_iter().enumerate() {
+        for (wall, near) in walls.enumerate() {
             for &sphere in near {
-                if !self.is_free(sphere as usize) && sphere as usize >= fixed {
-                    let first = self.first(sphere);
-                    let among = &mut self.island(first).among;
-                    [&mut among.floor, &mut among.cylinder][wall].push(sphere);
+                if !self.is_free(sphere.i as usize) && sphere.i as usize >= fixed {
+                    let first = self.first(sphere.i);
+                    self.island(first).among.walls[wall].push(sphere);
                 }
             }
         }

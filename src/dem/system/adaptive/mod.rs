@@ -9,6 +9,7 @@ use self::islands::Island;
 use self::workspace::Start;
 use super::contacts::Among;
 use super::meeting::Loading;
+use super::wall_contacts::{NearSphere, WallContacts};
 use super::{Engine, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
@@ -129,17 +130,18 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     fn keep_histories(&self, start: &mut Start<T::History>) {
         if Self::REMEMBERS {
             start.pair_history.clone_from(&self.pair_history);
-            start.wall_history[0].clone_from(&self.floor_history);
-            start.wall_history[1].clone_from(&self.cylinder_history);
+            for (kept, wall) in start.wall_history.iter_mut().zip(&self.walls) {
+                kept.clone_from(&wall.histories);
+            }
         }
     }
 
     fn put_back_histories(&mut self, start: &Start<T::History>) {
         if Self::REMEMBERS {
             self.pair_history.copy_from_slice(&start.pair_history);
-            self.floor_history.copy_from_slice(&start.wall_history[0]);
-            self.cylinder_history
-                .copy_from_slice(&start.wall_history[1]);
+            for (wall, kept) in self.walls.iter_mut().zip(&start.wall_history) {
+                wall.histories.copy_from_slice(kept);
+            }
         }
     }
 
@@ -158,9 +160,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         for &NearPair { i, j, .. } in self.near.pairs() {
             self.look_at_pair(i as usize, j as usize, work);
         }
-        self.look_at_wall(self.parts.floor, &self.near_floor, work);
-        self.look_at_wall(self.parts.cylinder, &self.near_cylinder, work);
-        let walls = [&self.near_floor[..], &self.near_cylinder[..]];
+        for wall in &self.walls {
+            self.look_at_wall(wall, work);
+        }
+        let walls = self.walls.iter().map(|wall| &wall.near[..]);
         work.islands.collect(self.near.pairs(), walls, fixed);
     }
 
@@ -192,16 +195,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         work.add(j, rates);
     }
 
-    fn look_at_wall<W: Wall>(
-        &self,
-        wall: Option<W>,
-        near: &[u32],
-        work: &mut Workspace<T::History>,
-    ) {
-        let Some(wall) = wall else { return };
+    fn look_at_wall(&self, wall: &WallContacts<T::History>, work: &mut Workspace<T::History>) {
         let particles = &self.parts.particles;
-        for &sphere in near {
-            let i = sphere as usize;
+        for &NearSphere { i: sphere, .. } in &wall.near {
+            let (wall, i) = (wall.wall, sphere as usize);
             let (centre, radius) = (particles.position[i], particles.radius[i]);
             if i < particles.fixed || !wall.is_near(centre, radius, work.reach[i]) {
                 continue;

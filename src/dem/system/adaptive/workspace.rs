@@ -2,6 +2,7 @@
 
 use super::islands::{Island, Islands};
 use crate::dem::particles::Particles;
+use crate::dem::system::wall_contacts::MOST_WALLS;
 use crate::dem::vector::Vector;
 
 /// What a sub-step may take of an island's fastest oscillation, h (w + g) with angular frequency w and
@@ -53,7 +54,7 @@ pub(super) struct Start<H> {
     pub(super) force: Vec<Vector>,
     pub(super) torque: Vec<Vector>,
     pub(super) pair_history: Vec<H>,
-    pub(super) wall_history: [Vec<H>; 2],
+    pub(super) wall_history: [Vec<H>; MOST_WALLS],
 }
 
 impl<H: Copy> Start<H> {

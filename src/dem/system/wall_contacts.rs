@@ -1,0 +1,138 @@
+//! A wall, the spheres near it, and what their contacts with it remember.
+
+use crate::dem::particles::Particles;
+use crate::dem::walls::{TankWall, Wall};
+
+/// Most walls that a tank has.
+pub(super) const MOST_WALLS: usize = 2;
+
+/// A sphere that may touch a wall, and its entry in the wall's list.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct NearSphere {
+    /// Its index.
+    pub(super) i: u32,
+    /// Where the wall keeps the history of their contact.
+    pub(super) entry: u32,
+}
+
+/// A wall, the spheres near it, and what their contacts with it remember. Only these have an entry: of a
+/// heap few spheres are near a wall.
+pub(super) struct WallContacts<H> {
+    pub(super) wall: TankWall,
+    /// In the order of their indices; while forces are evaluated it is elsewhere.
+    pub(super) near: Vec<NearSphere>,
+    /// In the same order. Histories of a law that has none take no memory.
+    pub(super) histories: Vec<H>,
+    /// The lists of before, for their memory.
+    spare: (Vec<NearSphere>, Vec<H>),
+}
+
+impl<H: Copy + Default> WallContacts<H> {
+    const REMEMBERS: bool = size_of::<H>() > 0;
+
+    pub(super) fn new(wall: TankWall) -> Self {
+        Self {
+            wall,
+            near: Vec::new(),
+            histories: Vec::new(),
+            spare: (Vec::new(), Vec::new()),
+        }
+    }
+
+    /// Finds the spheres that move and touch the wall, or will after a way of `margin` (m), and forgets
+    /// the histories of the others. Both lists are sorted, so one pass over each suffices.
+    pub(super) fn find(&mut self, particles: &Particles, margin: f64) {
+        let (near, histories) = &mut self.spare;
+        near.clear();
+        histories.clear();
+        let mut known = self.near.iter().zip(&self.histories).peekable();
+        for i in particles.fixed..particles.len() {
+            if !(self.wall).is_near(particles.position[i], particles.radius[i], margin) {
+                continue;
+            }
+            let i = i as u32;
+            let mut history = H::default();
+            if Self::REMEMBERS {
+                while known.next_if(|(known, _)| known.i < i).is_some() {}
+                if let Some((_, &known)) = known.next_if(|(known, _)| known.i == i) {
+                    history = known;
+                }
+            }
+            let entry = near.len() as u32;
+            near.push(NearSphere { i, entry });
+            histories.push(history);
+        }
+        std::mem::swap(&mut self.near, near);
+        std::mem::swap(&mut self.histories, histories);
+    }
+
+    /// Follows the spheres that stay to their new places when others are removed.
+    pub(super) fn retain(&mut self, keep: &[bool]) {
+        let (near, histories) = (&self.near, &self.histories);
+        let known = near
+            .iter()
+            .zip(histories)
+            .map(|(it, history)| (it.i, *history));
+        let mut place = 0;
+        let mut next = 0;
+        let staying: Vec<(u32, H)> = known
+            .filter_map(|(i, history)| {
+                place += keep[next..i as usize].iter().filter(|it| **it).count() as u32;
+                next = i as usize;
+                keep[next].then_some((place, history))
+            })
+            .collect();
+        self.take_up(staying);
+    }
+
+    /// Takes these histories for all that there are: of spheres in the order of their indices.
+    pub(super) fn take_up(&mut self, known: impl IntoIterator<Item = (u32, H)>) {
+        self.near.clear();
+        self.histories.clear();
+        for (entry, (i, history)) in (0..).zip(known) {
+            self.near.push(NearSphere { i, entry });
+            self.histories.push(history);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dem::vector::Vector;
+    use crate::dem::walls::Floor;
+
+    fn heights(heights: &[f64]) -> Particles {
+        Particles {
+            position: heights.iter().map(|&z| Vector::new(0.0, 0.0, z)).collect(),
+            radius: vec![1.0; heights.len()],
+            ..Particles::default()
+        }
+    }
+
+    fn known(contacts: &WallContacts<u8>) -> Vec<(u32, u8)> {
+        let near = contacts.near.iter().enumerate();
+        near.map(|(entry, it)| {
+            assert_eq!(it.entry as usize, entry);
+            (it.i, contacts.histories[entry])
+        })
+        .collect()
+    }
+
+    #[test]
+    fn histories_stay_with_their_spheres() {
+        let mut contacts = WallContacts::new(TankWall::Floor(Floor { height: 0.0 }));
+        contacts.find(&heights(&[0.9, 5.0, 0.9, 0.9, 5.0]), 0.1);
+        assert_eq!(known(&contacts), [(0, 0), (2, 0), (3, 0)]);
+        contacts.histories.copy_from_slice(&[7, 8, 9]);
+        // One comes near, one leaves.
+        contacts.find(&heights(&[0.9, 1.05, 5.0, 0.9, 5.0]), 0.1);
+        assert_eq!(known(&contacts), [(0, 7), (1, 0), (3, 9)]);
+        contacts.find(&heights(&[0.9, 1.05, 0.9, 0.9, 5.0]), 0.1);
+        assert_eq!(known(&contacts), [(0, 7), (1, 0), (2, 0), (3, 9)]);
+        contacts.retain(&[true, false, false, true, true]);
+        assert_eq!(known(&contacts), [(0, 7), (1, 9)]);
+        contacts.retain(&[false, true, true]);
+        assert_eq!(known(&contacts), [(0, 9)]);
+    }
+}
