@@ -94,6 +94,8 @@ pub const SCENE_KEYS: &[Notation] = &[
     row("friction.damping", "b_t", "N s/m", "tangential drag constant"),
     row("friction.regularisation", "v_μ", "m/s", "sliding speed of full friction"),
     row("tank.radius", "R", "m", "radius of the tank"),
+    row("tank.width", "W", "m", "width of the tank"),
+    row("tank.depth", "H_y", "m", "depth of the tank"),
     row("tank.floor", "z_{floor}", "m", "height of the floor"),
     row("geometry.half_width", "W / 2", "m", "half the width of the silo"),
     row("geometry.top", "z_{top}", "m", "top of the walls"),

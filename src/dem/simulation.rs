@@ -10,11 +10,11 @@ use super::profile::Profile;
 use super::start::{self, StartError};
 use super::system::{Engine, Parts, System};
 use super::vector::Vector;
-use super::walls::{Cylinder, Floor, TankWall};
+use super::walls::TankWall;
 use super::{effects, timestep};
 use crate::observe::{Flow, FrameView, Ledger};
 use crate::record::{Instability, Milestone};
-use crate::scene::{Contact, Friction, Neighbours, Scene, Start, Tank};
+use crate::scene::{Contact, Friction, Neighbours, Scene, Start};
 
 /// Why a scene cannot be run.
 #[derive(Debug, thiserror::Error)]
@@ -93,7 +93,7 @@ impl Simulation {
         }
         let tank = scene.tank.as_ref();
         let parts = Parts {
-            walls: tank.map(walls_of).unwrap_or_default(),
+            walls: tank.map(TankWall::of_tank).unwrap_or_default(),
             effects: effects::of_scene(scene, &particles),
             shielded: scene.updraught.is_some(),
             limits: Limits::new(scene, &particles),
@@ -253,15 +253,6 @@ impl Simulation {
             }),
         }
     }
-}
-
-/// The walls of a tank, in the order in which they act.
-fn walls_of(tank: &Tank) -> Vec<TankWall> {
-    let floor = tank.floor.map(|height| TankWall::Floor(Floor { height }));
-    let cylinder = tank
-        .radius
-        .map(|radius| TankWall::Cylinder(Cylinder { radius }));
-    floor.into_iter().chain(cylinder).collect()
 }
 
 /// The spheres of a scene that come in later.

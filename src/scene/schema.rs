@@ -130,7 +130,12 @@ const FRICTION: Kind = Kind::Tagged(
     ],
 );
 
-const TANK: Kind = Kind::Table(&[optional("radius", LENGTH), optional("floor", PLACE)]);
+const TANK: Kind = Kind::Table(&[
+    optional("radius", LENGTH),
+    optional("width", LENGTH),
+    optional("depth", LENGTH),
+    optional("floor", PLACE),
+]);
 
 const GEOMETRY: Kind = Kind::Tagged(
     "kind",

@@ -87,8 +87,8 @@ pub(super) fn downward(acceleration: f64) -> Gravity {
 /// No walls but a floor at height zero.
 pub(super) fn floor() -> Tank {
     Tank {
-        radius: None,
         floor: Some(0.0),
+        ..Tank::default()
     }
 }
 

@@ -51,6 +51,7 @@ impl Family for Tripod {
             tank: Some(Tank {
                 radius: Some(distance + self.radius),
                 floor: Some(0.0),
+                ..Tank::default()
             }),
             ..bench.scene(self.material.density, self.radius, spheres, self.dt)
         };

@@ -2,14 +2,14 @@
 
 use super::System;
 use super::meeting::{Couple, Earlier, Laws, Solid};
-use super::wall_contacts::{MOST_WALLS, NearSphere};
+use super::wall_contacts::NearSphere;
 use crate::dem::block::BLOCK;
 use crate::dem::block::Row;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
 use crate::dem::neighbours::NearPair;
 use crate::dem::vector::Vector;
-use crate::dem::walls::Wall;
+use crate::dem::walls::{TankWall, Wall};
 use fearless_simd::Simd;
 
 /// Contacts, possible ones included.
@@ -18,7 +18,7 @@ pub(super) struct Among {
     /// Pairs, in the order of the list.
     pub(super) pairs: Vec<NearPair>,
     /// Spheres near each wall.
-    pub(super) walls: [Vec<NearSphere>; MOST_WALLS],
+    pub(super) walls: [Vec<NearSphere>; TankWall::MOST],
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {

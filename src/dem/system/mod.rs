@@ -287,7 +287,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             let wall = self.walls[place].wall;
             let mut histories = std::mem::take(&mut self.walls[place].histories);
             match wall {
-                TankWall::Floor(wall) => self.wall_forces(simd, wall, near, &mut histories),
+                TankWall::Floor(wall) | TankWall::Side(wall) => {
+                    self.wall_forces(simd, wall, near, &mut histories);
+                }
                 TankWall::Cylinder(wall) => self.wall_forces(simd, wall, near, &mut histories),
             }
             self.walls[place].histories = histories;

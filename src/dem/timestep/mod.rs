@@ -24,7 +24,7 @@ pub use hertz::{Impact, dissipation_time, rayleigh_time};
 pub use linear::LinearImpact;
 pub use standing::Standing;
 
-use crate::scene::{Integrator, Scene, Start, StartSphere};
+use crate::scene::{Integrator, Scene, Start, StartSphere, Tank};
 
 /// A limit of the time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +69,7 @@ pub fn fastest_impact(scene: &Scene) -> f64 {
         _ => free_fall,
     };
     let updraught = scene.updraught.as_ref().map_or(0.0, |air| air.speed.abs());
-    let wall = tank.and_then(|tank| tank.radius).unwrap_or(widest);
+    let wall = tank.and_then(farthest_wall).unwrap_or(widest);
     let swirl = scene
         .swirl
         .as_ref()
@@ -77,6 +77,13 @@ pub fn fastest_impact(scene: &Scene) -> f64 {
     [free_fall, updraught, swirl]
         .into_iter()
         .fold(start_speed, f64::max)
+}
+
+/// How far from the axis a sphere may get (m), if there are walls all around it.
+fn farthest_wall(tank: &Tank) -> Option<f64> {
+    let [x, y] = tank.reach();
+    tank.radius
+        .or(x.zip(y).map(|(x, y)| (x * x + y * y).sqrt()))
 }
 
 /// Highest centre (m), largest distance of a centre from the axis (m), and a bound on the speeds

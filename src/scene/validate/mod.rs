@@ -4,6 +4,7 @@ mod neighbours;
 mod output;
 mod silo;
 mod start;
+mod tank;
 mod time;
 
 use super::schema::SCENE;
@@ -51,6 +52,7 @@ impl Scene {
     fn check_all_but_step(&self, problems: &mut Vec<Problem>) {
         self.check_laws(problems);
         self.check_spheres(problems);
+        self.check_tank(problems);
         self.check_start(problems);
         self.check_times(problems);
         self.check_silo(problems);
@@ -159,21 +161,6 @@ impl Scene {
                         .help("give one of them a share above 0"),
                 ),
             _ => {}
-        }
-        let Some(tank) = self.tank.as_ref().and_then(|tank| tank.radius) else {
-            return;
-        };
-        let largest = self.radius_range().1;
-        if largest >= tank {
-            let message = format!(
-                "spheres of radius {} m do not fit into a tank of radius {} m",
-                number(largest),
-                number(tank)
-            );
-            problems.push(
-                Problem::new("spheres.radius", message)
-                    .help("both are in metres; make the spheres smaller or `tank.radius` larger"),
-            );
         }
     }
 
