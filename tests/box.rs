@@ -119,7 +119,12 @@ fn spheres_start_in_the_box_and_stay_there() {
     assert!(highest < 0.15, "{highest}");
     let frame = simulation.frame();
     let kinetic: f64 = (0..60)
-        .map(|i| 0.5 * frame.mass[i] * (0..3).map(|a| frame.velocity[a][i].powi(2)).sum::<f64>())
+        .map(|i| {
+            0.5 * frame.mass[i]
+                * (0..3)
+                    .map(|axis| frame.velocity[axis][i] * frame.velocity[axis][i])
+                    .sum::<f64>()
+        })
         .sum();
     assert!(kinetic < 1e-6, "{kinetic}");
 }
