@@ -139,10 +139,12 @@ fn effects(scene: &Scene) -> Vec<&'static str> {
         Some(Friction::Coulomb { .. }) => "friction (Coulomb)",
         Some(Friction::CundallStrack { .. }) => "friction (Cundall and Strack)",
         Some(Friction::Mindlin { .. }) => "friction (Mindlin)",
+        Some(Friction::Silbert { .. }) => "friction (Silbert)",
         None => "",
     };
     let contact = match scene.contact {
         Some(Contact::Linear { .. }) => "contact (linear)",
+        Some(Contact::Silbert { .. }) => "contact (Silbert)",
         Some(Contact::Hertz { .. }) | None => "contact (Hertz)",
     };
     let feed = matches!(scene.start, Start::Feed { .. });

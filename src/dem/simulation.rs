@@ -1,7 +1,9 @@
 //! From a scene to a running simulation.
 
-use super::contact::{Hertz, Linear, NoContact, NormalLaw};
-use super::friction::{Coulomb, CundallStrack, Frictionless, Mindlin, SpinFriction, TangentialLaw};
+use super::contact::{Hertz, Linear, NoContact, NormalLaw, Silbert};
+use super::friction::{
+    Coulomb, CundallStrack, Frictionless, Mindlin, SilbertFriction, SpinFriction, TangentialLaw,
+};
 use super::guard::Limits;
 use super::neighbours::VerletList;
 use super::particles::{Particles, Sphere};
@@ -305,7 +307,7 @@ fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
             );
             Ok(match scene.friction {
                 None => boxed(normal, Frictionless, parts),
-                Some(Friction::CundallStrack { .. }) => {
+                Some(Friction::CundallStrack { .. } | Friction::Silbert { .. }) => {
                     return Err(BuildError::LawsDoNotGoTogether);
                 }
                 Some(Friction::Spin { coefficient }) => {
@@ -345,9 +347,24 @@ fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
                     let law = CundallStrack::new(coefficient, stiffness, damping);
                     Ok(boxed(normal, law, parts))
                 }
-                Some(Friction::Spin { .. } | Friction::Mindlin { .. }) => {
-                    Err(BuildError::LawsDoNotGoTogether)
+                Some(
+                    Friction::Spin { .. } | Friction::Mindlin { .. } | Friction::Silbert { .. },
+                ) => Err(BuildError::LawsDoNotGoTogether),
+            }
+        }
+        Some(Contact::Silbert { stiffness, damping }) => {
+            let normal = Silbert::new(stiffness, damping);
+            match scene.friction {
+                None => Ok(boxed(normal, Frictionless, parts)),
+                Some(Friction::Silbert {
+                    coefficient,
+                    stiffness,
+                    damping,
+                }) => {
+                    let law = SilbertFriction::new(coefficient, stiffness, damping);
+                    Ok(boxed(normal, law, parts))
                 }
+                Some(_) => Err(BuildError::LawsDoNotGoTogether),
             }
         }
     }

@@ -22,11 +22,25 @@ impl Hertz {
             dissipation: factor * dissipation_time,
         }
     }
+
+    /// The law without losses, of that K / sqrt(R_eff) (Pa).
+    pub(super) fn elastic(modulus: f64) -> Self {
+        Self {
+            modulus,
+            dissipation: 0.0,
+        }
+    }
+
+    /// K / sqrt(R_eff) (Pa).
+    #[inline(always)]
+    pub(super) fn modulus(&self) -> f64 {
+        self.modulus
+    }
 }
 
 impl NormalLaw for Hertz {
     #[inline(always)]
-    fn force(&self, overlap: f64, overlap_rate: f64, effective_radius: f64) -> f64 {
+    fn force(&self, overlap: f64, overlap_rate: f64, effective_radius: f64, _: f64) -> f64 {
         // Elastic and dissipative part share sqrt(R_eff xi), so that one root serves both.
         let force = self.modulus
             * (effective_radius * overlap).sqrt()
@@ -43,7 +57,7 @@ impl NormalLaw for Hertz {
         1.5 * self.modulus * (effective_radius * overlap).sqrt()
     }
 
-    fn damping(&self, overlap: f64, effective_radius: f64) -> f64 {
+    fn damping(&self, overlap: f64, effective_radius: f64, _: f64) -> f64 {
         self.modulus * (effective_radius * overlap).sqrt() * self.dissipation
     }
 

@@ -3,9 +3,11 @@
 mod hertz;
 mod linear;
 pub mod restitution;
+mod silbert;
 
 pub use hertz::Hertz;
 pub use linear::Linear;
+pub use silbert::Silbert;
 
 /// A normal contact law. The engine is compiled for each law by itself.
 pub trait NormalLaw: Copy + Send + 'static {
@@ -18,9 +20,24 @@ pub trait NormalLaw: Copy + Send + 'static {
     /// Whether the force may be attractive.
     const ATTRACTS: bool = false;
 
-    /// Repulsive force (N) from the overlap (m), its rate (m/s) and the effective radius
-    /// r1 r2 / (r1 + r2) (m; the sphere's own at a flat wall).
-    fn force(&self, overlap: f64, overlap_rate: f64, effective_radius: f64) -> f64;
+    /// Whether the law asks for the effective mass; it need not be told otherwise.
+    const NEEDS_EFFECTIVE_MASS: bool = false;
+
+    /// Repulsive force (N) from the overlap (m), its rate (m/s), the effective radius
+    /// r1 r2 / (r1 + r2) (m; the sphere's own at a flat wall) and the effective mass m1 m2 / (m1 + m2) (kg;
+    /// the sphere's own at what does not move).
+    fn force(
+        &self,
+        overlap: f64,
+        overlap_rate: f64,
+        effective_radius: f64,
+        effective_mass: f64,
+    ) -> f64;
+
+    /// The force (N) of partners that keep their distance.
+    fn elastic_force(&self, overlap: f64, effective_radius: f64) -> f64 {
+        self.force(overlap, 0.0, effective_radius, 0.0)
+    }
 
     /// Drag per tangential relative velocity of the centres (N s/m); asked for only if the law
     /// [drags sideways](Self::DRAGS_SIDEWAYS).
@@ -34,8 +51,8 @@ pub trait NormalLaw: Copy + Send + 'static {
     /// dF / d overlap (N/m) there.
     fn stiffness(&self, overlap: f64, effective_radius: f64) -> f64;
 
-    /// dF / d overlap rate (N s/m) there.
-    fn damping(&self, overlap: f64, effective_radius: f64) -> f64;
+    /// dF / d overlap rate (N s/m) there, for an effective mass (kg).
+    fn damping(&self, overlap: f64, effective_radius: f64, effective_mass: f64) -> f64;
 
     /// Deepest overlap (m) of an impact without losses that has reached an overlap and still has a
     /// speed (m/s), of an effective mass (kg).
@@ -56,7 +73,7 @@ impl NormalLaw for NoContact {
     const ACTS: bool = false;
 
     #[inline(always)]
-    fn force(&self, _: f64, _: f64, _: f64) -> f64 {
+    fn force(&self, _: f64, _: f64, _: f64, _: f64) -> f64 {
         0.0
     }
 
@@ -69,7 +86,7 @@ impl NormalLaw for NoContact {
         0.0
     }
 
-    fn damping(&self, _: f64, _: f64) -> f64 {
+    fn damping(&self, _: f64, _: f64, _: f64) -> f64 {
         0.0
     }
 

@@ -56,6 +56,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let sphere = Solid {
             radius: particles.radius[i],
             mass: particles.mass[i],
+            inverse_mass: particles.inverse_mass[i],
             inertia: particles.inertia.get(i).copied().unwrap_or(0.0),
         };
         let earlier = self.earlier.get(i).filter(|_| self.loading.age > 0.0);
@@ -78,7 +79,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         block.set_alike(self.alike);
         for pairs in pairs.chunks(BLOCK) {
             block.take_pairs(pairs, &self.pair_history);
-            block.gather_pairs::<S, T>(
+            block.gather_pairs::<S, N, T>(
                 simd,
                 &self.parts.particles,
                 &self.earlier,
@@ -113,7 +114,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         block.set_alike(self.alike);
         for spheres in near.chunks(BLOCK) {
             block.take_spheres(spheres, histories);
-            block.gather_spheres::<S, T>(
+            block.gather_spheres::<S, N, T>(
                 simd,
                 &self.parts.particles,
                 &self.earlier,

@@ -249,7 +249,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         } = *meeting;
         let elastic = self
             .normal
-            .force(meeting.overlap, 0.0, meeting.effective_radius);
+            .elastic_force(meeting.overlap, meeting.effective_radius);
         if !T::ROTATES {
             return [force - normal * elastic, Vector::ZERO];
         }

@@ -159,7 +159,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             workspace: Workspace::default(),
             ledger: None,
             profile: None,
-            alike: Solid::of_all(&parts.particles),
+            alike: Self::alike(&parts.particles),
             block: Box::new(PairBlock::new()),
             shielding: vec![0; if parts.shielded { count } else { 0 }],
             walls: parts.walls.iter().copied().map(WallContacts::new).collect(),

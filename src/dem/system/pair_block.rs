@@ -26,6 +26,7 @@ pub(super) type EarlierRows = [Row; 2];
 struct Solids {
     radius: Column,
     mass: Column,
+    inverse_mass: Column,
     inertia: Column,
 }
 
@@ -34,6 +35,7 @@ impl Solids {
         Self {
             radius: [solid.radius; BLOCK],
             mass: [solid.mass; BLOCK],
+            inverse_mass: [solid.inverse_mass; BLOCK],
             inertia: [solid.inertia; BLOCK],
         }
     }
@@ -43,6 +45,7 @@ impl Solids {
         Solid {
             radius: self.radius[k],
             mass: self.mass[k],
+            inverse_mass: self.inverse_mass[k],
             inertia: self.inertia[k],
         }
     }
@@ -126,10 +129,11 @@ impl<H: History> PairBlock<H> {
 
     /// Fetches what of the spheres of one side does not change.
     #[inline(always)]
-    fn gather_solid<T: TangentialLaw>(&mut self, side: usize, particles: &Particles) {
+    fn gather_solid<N: NormalLaw, T: TangentialLaw>(&mut self, side: usize, particles: &Particles) {
         let Solids {
             radius,
             mass,
+            inverse_mass,
             inertia,
         } = &mut self.solid[side];
         for (k, &i) in self.index[side].iter().enumerate() {
@@ -141,11 +145,16 @@ impl<H: History> PairBlock<H> {
                 inertia[k] = particles.inertia[i as usize];
             }
         }
+        if Laws::<N, T>::NEEDS_EFFECTIVE_MASS {
+            for (k, &i) in self.index[side].iter().enumerate() {
+                inverse_mass[k] = particles.inverse_mass[i as usize];
+            }
+        }
     }
 
     /// Fetches the spheres of pairs. Lanes without a contact hold what an earlier block left.
     #[inline(always)]
-    pub(super) fn gather_pairs<S: Simd, T: TangentialLaw<History = H>>(
+    pub(super) fn gather_pairs<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
         particles: &Particles,
@@ -170,8 +179,8 @@ impl<H: History> PairBlock<H> {
             self.gather_spin(simd, 1, &particles.spin);
         }
         if !alike {
-            self.gather_solid::<T>(0, particles);
-            self.gather_solid::<T>(1, particles);
+            self.gather_solid::<N, T>(0, particles);
+            self.gather_solid::<N, T>(1, particles);
         }
         if Self::REMEMBERS && !earlier.is_empty() {
             self.earlier_velocity.gather_differences(
@@ -187,7 +196,7 @@ impl<H: History> PairBlock<H> {
 
     /// Fetches spheres near a wall.
     #[inline(always)]
-    pub(super) fn gather_spheres<S: Simd, T: TangentialLaw<History = H>>(
+    pub(super) fn gather_spheres<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
         particles: &Particles,
@@ -212,7 +221,7 @@ impl<H: History> PairBlock<H> {
             self.gather_spin(simd, 0, &particles.spin);
         }
         if !alike {
-            self.gather_solid::<T>(0, particles);
+            self.gather_solid::<N, T>(0, particles);
         }
         if Self::REMEMBERS && !earlier.is_empty() {
             self.earlier_velocity.gather(

@@ -4,7 +4,6 @@
 //! made anew. A contact without a history stands for one whose history is empty.
 
 use super::ledger::Books;
-use super::meeting::Solid;
 use super::wall_contacts::WallContacts;
 use super::{Age, Near, Parts, System};
 use crate::dem::contact::NormalLaw;
@@ -142,7 +141,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return Ok(());
         };
         let particles = &self.parts.particles;
-        self.alike = Solid::of_all(particles);
+        self.alike = Self::alike(particles);
         self.near = Near::new(N::ACTS, self.parts.shielded, 0.3 * self.parts.skin);
         self.block.forget();
         self.age = Age::default();

@@ -18,6 +18,7 @@ mod air;
 mod hertz;
 mod linear;
 mod overlap;
+mod silbert;
 mod standing;
 
 pub use hertz::{Impact, dissipation_time, rayleigh_time};
@@ -113,7 +114,8 @@ fn extent(spheres: &[StartSphere]) -> (f64, f64, f64) {
 
 /// Duration (s) of the shortest contact the scene lets expect, if there is any.
 pub fn shortest_contact(scene: &Scene) -> Option<f64> {
-    let hertz = hertz::stiffest_impact(scene).map(|impact| impact.contact_time());
+    let hertz = hertz::stiffest_impact(scene).or_else(|| silbert::stiffest_impact(scene));
+    let hertz = hertz.map(|impact| impact.contact_time());
     hertz.or_else(|| linear::stiffest_impact(scene).map(|impact| impact.contact_time()))
 }
 
@@ -180,6 +182,7 @@ fn twelve_contacts(scheme: Scheme, frequency: f64, rate: f64) -> Limit {
 pub fn limits(scene: &Scene) -> Vec<Limit> {
     let mut limits = hertz::limits(scene);
     limits.extend(linear::limits(scene));
+    limits.extend(silbert::limits(scene));
     if scene.time.integrator == Integrator::AdaptiveVerlet {
         limits.retain(|limit| limit.name == DISPLACEMENT);
         limits.iter_mut().for_each(|limit| limit.decisive = true);

@@ -88,6 +88,21 @@ impl Scene {
             problems.push(Problem::new("friction", message).help(help));
         }
         let refused = match (&self.contact, &self.friction) {
+            (Some(Contact::Silbert { .. }), Some(friction))
+                if !matches!(friction, Friction::Silbert { .. }) =>
+            {
+                Some((
+                    "this friction law does not go with the silbert contact",
+                    "use `law = \"silbert\"` here, or another law in [contact]",
+                ))
+            }
+            (
+                Some(Contact::Hertz { .. } | Contact::Linear { .. }),
+                Some(Friction::Silbert { .. }),
+            ) => Some((
+                "this friction law goes with the silbert contact only",
+                "use `law = \"silbert\"` in [contact], or another law here",
+            )),
             (
                 Some(Contact::Linear { .. }),
                 Some(Friction::Spin { .. } | Friction::Mindlin { .. }),
