@@ -256,3 +256,22 @@ fn laws_that_do_not_go_together_are_refused() {
         assert!(refused.to_string().contains(says), "{refused}");
     }
 }
+
+/// All of them find a place in the large box, off its walls and off each other.
+#[test]
+fn the_shipped_boxes_can_be_started() {
+    for (name, count, [x, y]) in [("box", 200, [2.5, 1.5]), ("box-55000", 55_000, [24.5, 3.5])] {
+        let path = format!("sweeps/scenes/{name}.toml");
+        let scene = phase::scene::load(Path::new(&path)).unwrap();
+        let mut simulation = Simulation::new(&scene).unwrap();
+        assert_eq!(simulation.particles().len(), count);
+        let places = &simulation.particles().position;
+        assert!(
+            places
+                .iter()
+                .all(|p| p.x.abs() <= x && p.y.abs() <= y && p.z >= 0.5)
+        );
+        assert_eq!(simulation.elastic_energy(), 0.0);
+        simulation.advance(20).unwrap();
+    }
+}
