@@ -37,6 +37,7 @@ fn touches() -> Vec<Touch> {
             lever: [0.004; 2],
             inertia: [1e-8; 2],
             lesser_mass: 2.7e-3,
+            effective_mass: 1.35e-3,
             overlap: 1e-4 * share,
             effective_radius: 0.002,
             normal_force: 0.0,
@@ -57,7 +58,8 @@ fn laws<T: TangentialLaw>(bencher: Bencher<'_, '_>, tangential: T) {
         let mut sum = Vector::ZERO;
         for (touch, spring) in black_box(&touches).iter().zip(&mut springs) {
             let rate = -touch.velocity.dot(touch.normal);
-            let force = normal.force(touch.overlap, rate, touch.loading_radius);
+            let radius = touch.loading_radius;
+            let force = normal.force(touch.overlap, rate, radius, touch.effective_mass);
             let touch = Touch {
                 normal_force: force,
                 ..*touch

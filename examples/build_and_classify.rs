@@ -46,6 +46,7 @@ fn tank(omega: f64) -> Scene {
         tank: Some(Tank {
             radius: Some(0.04),
             floor: Some(0.0),
+            ..Tank::default()
         }),
         gravity: Some(Gravity {
             acceleration: 9.8,

@@ -40,7 +40,7 @@
 //!         restitution_speed: 1.0,
 //!         dissipation_factor: 1.0,
 //!     }),
-//!     tank: Some(Tank { radius: Some(0.03), floor: Some(0.0) }),
+//!     tank: Some(Tank { radius: Some(0.03), floor: Some(0.0), ..Tank::default() }),
 //!     gravity: Some(Gravity { acceleration: 9.8, tilt: 0.0 }),
 //!     ..Scene::new(
 //!         Spheres { count: 8, radius: Radii::One(0.004), density: 3750.0, shape: Shape::Sphere },

@@ -2,7 +2,7 @@
 //!
 //! The only place that knows them; figures and documentation read it.
 
-use crate::scene::{DragLaw, Scene, Shape};
+use crate::scene::{Contact, DragLaw, Friction, Scene, Shape};
 
 /// How a quantity is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +23,13 @@ impl Notation {
         if self.key == "spheres.density" && scene.spheres.shape == Shape::Disc {
             return OF_DISCS;
         }
+        if let Some(of_silbert) = self.unit_of_silbert() {
+            let silbert = match self.key.starts_with("contact.") {
+                true => matches!(scene.contact, Some(Contact::Silbert { .. })),
+                false => matches!(scene.friction, Some(Friction::Silbert { .. })),
+            };
+            return if silbert { of_silbert } else { self.unit };
+        }
         let law = scene.drag.as_ref().map(|drag| drag.law);
         law.map_or(self.unit, |law| self.unit_with(law))
     }
@@ -39,7 +46,17 @@ impl Notation {
         if self.key == "spheres.density" {
             units.push(OF_DISCS);
         }
+        units.extend(self.unit_of_silbert());
         units
+    }
+
+    /// The unit with the contact and the friction of Silbert et al., where it is another one.
+    fn unit_of_silbert(&self) -> Option<&'static str> {
+        match self.key {
+            "contact.stiffness" | "friction.stiffness" => Some("Pa"),
+            "contact.damping" | "friction.damping" => Some("1/(m s)"),
+            _ => None,
+        }
     }
 
     fn unit_with(&self, law: DragLaw) -> &'static str {
@@ -94,6 +111,8 @@ pub const SCENE_KEYS: &[Notation] = &[
     row("friction.damping", "b_t", "N s/m", "tangential drag constant"),
     row("friction.regularisation", "v_μ", "m/s", "sliding speed of full friction"),
     row("tank.radius", "R", "m", "radius of the tank"),
+    row("tank.width", "W", "m", "width of the tank"),
+    row("tank.depth", "W_y", "m", "depth of the tank"),
     row("tank.floor", "z_{floor}", "m", "height of the floor"),
     row("geometry.half_width", "W / 2", "m", "half the width of the silo"),
     row("geometry.top", "z_{top}", "m", "top of the walls"),
@@ -202,7 +221,7 @@ mod tests {
                 "spheres": { "count": 3, "radius": 0.004, "density": 1e3 },
                 "contact": contact,
                 "friction": friction,
-                "tank": { "radius": 0.06, "floor": -0.2 },
+                "tank": { "radius": 0.06, "width": 0.1, "depth": 0.1, "floor": -0.2 },
                 "start": { "kind": "random", "z_min": -0.1, "z_max": 0.3 },
                 "gravity": { "acceleration": 9.8, "tilt": 0.1 },
                 "drag": { "linear": 1.0, "quadratic": 1.0, "law": "cross-section" },

@@ -288,6 +288,7 @@ fn odd_scene() -> impl Strategy<Value = Scene> {
             scene.tank = Some(phase::scene::Tank {
                 radius: cylinder.then_some(size[1]),
                 floor: floor.then_some(number),
+                ..phase::scene::Tank::default()
             });
             scene.gravity = gravity.then(|| toml::from_str("acceleration = 0.0").unwrap());
             if let Some(gravity) = &mut scene.gravity {
@@ -352,7 +353,7 @@ proptest! {
         let mut scene = cluster(Vec::new(), None, 1e-4);
         scene.spheres.count = count;
         scene.spheres.radius = phase::scene::Radii::One(radius);
-        scene.tank = Some(phase::scene::Tank { radius: Some(tank), floor: None });
+        scene.tank = Some(phase::scene::Tank { radius: Some(tank), ..phase::scene::Tank::default() });
         scene.start = phase::scene::Start::Random {
             z_min: heights[0].min(heights[1]),
             z_max: heights[0].max(heights[1]),

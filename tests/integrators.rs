@@ -165,8 +165,8 @@ fn a_pile_rests_at_large_steps() {
         tilt: 0.0,
     });
     scene.tank = Some(phase::scene::Tank {
-        radius: None,
         floor: Some(0.0),
+        ..phase::scene::Tank::default()
     });
     let mut simulation = Simulation::new(&scene).unwrap();
     simulation.advance(300).unwrap();
@@ -221,6 +221,7 @@ fn without_a_contact_law_spheres_pass_through_walls() {
     scene.tank = Some(phase::scene::Tank {
         radius: Some(0.05),
         floor: Some(0.1),
+        ..phase::scene::Tank::default()
     });
     let mut simulation = Simulation::new(&scene).unwrap();
     simulation.advance(150).unwrap();

@@ -101,6 +101,7 @@ proptest! {
         scene.tank = Some(Tank {
             radius: cylinder.then_some(0.06),
             floor: (!cylinder).then_some(0.0),
+            ..Tank::default()
         });
         if let Some(Contact::Hertz { poisson_ratio: ratio, .. }) = &mut scene.contact {
             *ratio = poisson_ratio;

@@ -115,6 +115,41 @@ fn damping_and_friction_are_told_apart() {
     }
 }
 
+/// The same under the laws of Silbert et al., whose damping attracts at the end.
+#[test]
+fn the_books_know_the_contact_of_silbert() {
+    for integrator in INTEGRATORS {
+        for friction in [
+            "",
+            "friction = { law = 'silbert', coefficient = 0.3, stiffness = 3e5, damping = 1e5 }",
+        ] {
+            let text = format!(
+                r#"
+                spheres = {{ count = 2, radius = 0.004, density = 2500.0 }}
+                contact = {{ law = "silbert", stiffness = 1e6, damping = 2e5 }}
+                {friction}
+                start = {{ kind = "list", spheres = [{{ position = [0, 0, 0], velocity = [0.5, 0, 0.3] }}, {{ position = [0.0081, 0, 0] }}] }}
+                time = {{ dt = 1e-6, duration = 0.01, frame_interval = 1e-3 }}
+                "#
+            );
+            let books = with_ledger(&scene(&text, integrator));
+            let kinetic =
+                |frame: usize| f64::from(books.kinetic[frame]) + f64::from(books.rotational[frame]);
+            let lost = kinetic(0) - kinetic(books.frames() - 1);
+            let (damping, rubbed) = (
+                last(&books.dissipated_by_damping),
+                last(&books.dissipated_by_friction),
+            );
+            assert!(
+                (lost - damping - rubbed).abs() < 1e-3 * lost,
+                "{integrator:?} {lost} {damping} {rubbed}"
+            );
+            assert!(damping > 0.1 * lost);
+            assert!(friction.is_empty() == (rubbed == 0.0));
+        }
+    }
+}
+
 /// A sphere that slides until it rolls gives 2/7 of its energy to friction.
 #[test]
 fn sliding_into_rolling_costs_two_sevenths() {

@@ -8,7 +8,7 @@ use super::exit::{Exit, Failure};
 use super::time_step::{self, Tightest, tightest_limits};
 use super::{classify, format, job, kind};
 use phase::dem::timestep::{Limit, Standing};
-use phase::scene::{Contact, Friction, Scene, Start};
+use phase::scene::{Contact, Friction, Scene, Start, Tank};
 use phase::sweep::{Axis, Forecast, Job, Leaves, Sweep, describe, forecast, work};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -139,10 +139,12 @@ fn effects(scene: &Scene) -> Vec<&'static str> {
         Some(Friction::Coulomb { .. }) => "friction (Coulomb)",
         Some(Friction::CundallStrack { .. }) => "friction (Cundall and Strack)",
         Some(Friction::Mindlin { .. }) => "friction (Mindlin)",
+        Some(Friction::Silbert { .. }) => "friction (Silbert)",
         None => "",
     };
     let contact = match scene.contact {
         Some(Contact::Linear { .. }) => "contact (linear)",
+        Some(Contact::Silbert { .. }) => "contact (Silbert)",
         Some(Contact::Hertz { .. }) | None => "contact (Hertz)",
     };
     let feed = matches!(scene.start, Start::Feed { .. });
@@ -154,6 +156,7 @@ fn effects(scene: &Scene) -> Vec<&'static str> {
         (scene.updraught.is_some(), "updraught"),
         (scene.spin_damping.is_some(), "spin damping"),
         (tank.is_some_and(|tank| tank.radius.is_some()), "cylinder"),
+        (tank.is_some_and(Tank::has_sides), "sides"),
         (tank.is_some_and(|tank| tank.floor.is_some()), "floor"),
         (scene.geometry.is_some(), "fixed spheres"),
         (feed, "feed"),

@@ -1,6 +1,6 @@
 //! How fast a disc must be to squeeze through a wall of fixed ones.
 
-use super::contact::{Hertz, Linear, NormalLaw};
+use super::contact::{Hertz, Linear, NormalLaw, Silbert};
 use super::process::wall_pairs;
 use super::timestep;
 use crate::scene::{Contact, FixedSphere, Geometry, Scene, Shape};
@@ -76,6 +76,9 @@ fn elastic_energy(scene: &Scene, contact: &Contact, overlap: f64, effective_radi
             damping,
             drag,
         } => Linear::new(stiffness, damping, drag).elastic_energy(overlap, effective_radius),
+        Contact::Silbert { stiffness, damping } => {
+            Silbert::new(stiffness, damping).elastic_energy(overlap, effective_radius)
+        }
         Contact::Hertz {
             young_modulus,
             poisson_ratio,

@@ -3,7 +3,7 @@
 use super::particles::Particles;
 use super::vector::Vector;
 use crate::record::{Guard, Instability};
-use crate::scene::Scene;
+use crate::scene::{Scene, Tank};
 
 /// Limits beyond which a run is ended.
 #[derive(Clone, Debug)]
@@ -23,7 +23,9 @@ impl Limits {
     /// The scene's limits, or their defaults.
     pub(super) fn new(scene: &Scene, particles: &Particles) -> Self {
         let guards = &scene.guards;
-        let tank_radius = scene.tank.as_ref().and_then(|tank| tank.radius);
+        let reach = scene.tank.as_ref().map(Tank::reach).unwrap_or_default();
+        let widest = reach.into_iter().flatten().reduce(f64::max);
+        let all_around = reach.iter().all(Option::is_some);
         let floor = scene.tank.as_ref().and_then(|tank| tank.floor);
         let highest = particles
             .position
@@ -36,12 +38,11 @@ impl Limits {
             displacement: guards.displacement,
             horizontal: guards
                 .horizontal
-                .or(tank_radius.map(|r| 2.0 * r))
+                .or(widest.filter(|_| all_around).map(|reach| 2.0 * reach))
                 .unwrap_or(f64::MAX),
             vertical: guards
                 .vertical
-                .or(floor
-                    .map(|floor| 10.0 * floor.abs().max(highest).max(tank_radius.unwrap_or(1.0))))
+                .or(floor.map(|floor| 10.0 * floor.abs().max(highest).max(widest.unwrap_or(1.0))))
                 .unwrap_or(f64::MAX),
         };
         limits.fit(&particles.radius, scene.time.dt);

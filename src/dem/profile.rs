@@ -1,7 +1,7 @@
 //! What the parts of a step take, on request.
 
 use crate::cpu_time;
-use crate::scene::{Scene, Start};
+use crate::scene::{Scene, Start, Tank};
 
 /// The parts of a run that cost time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -16,6 +16,8 @@ pub enum Part {
     Floor,
     /// Forces of the cylinder: contact and friction.
     Cylinder,
+    /// Forces of the sides: contact and friction.
+    Sides,
     /// Counting the spheres that shield one another from the updraught.
     Shield,
     /// Gravity.
@@ -46,12 +48,13 @@ pub enum Part {
 
 impl Part {
     /// All parts, in the order of a step.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::List,
         Self::Near,
         Self::Pairs,
         Self::Floor,
         Self::Cylinder,
+        Self::Sides,
         Self::Shield,
         Self::Gravity,
         Self::Swirl,
@@ -75,6 +78,7 @@ impl Part {
             Self::Pairs => "contacts of pairs",
             Self::Floor => "floor",
             Self::Cylinder => "cylinder",
+            Self::Sides => "sides",
             Self::Shield => "counting shield",
             Self::Gravity => "gravity",
             Self::Swirl => "swirl",
@@ -101,6 +105,7 @@ impl Part {
             Self::Pairs => touch,
             Self::Floor => wall(tank.is_some_and(|tank| tank.floor.is_some())),
             Self::Cylinder => wall(tank.is_some_and(|tank| tank.radius.is_some())),
+            Self::Sides => wall(tank.is_some_and(Tank::has_sides)),
             Self::Shield | Self::Updraught => scene.updraught.is_some(),
             Self::Gravity => scene.gravity.is_some(),
             Self::Swirl => scene.swirl.is_some(),

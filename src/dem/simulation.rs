@@ -1,7 +1,9 @@
 //! From a scene to a running simulation.
 
-use super::contact::{Hertz, Linear, NoContact, NormalLaw};
-use super::friction::{Coulomb, CundallStrack, Frictionless, Mindlin, SpinFriction, TangentialLaw};
+use super::contact::{Hertz, Linear, NoContact, NormalLaw, Silbert};
+use super::friction::{
+    Coulomb, CundallStrack, Frictionless, Mindlin, SilbertFriction, SpinFriction, TangentialLaw,
+};
 use super::guard::Limits;
 use super::neighbours::VerletList;
 use super::order;
@@ -11,12 +13,12 @@ use super::profile::Profile;
 use super::start::{self, StartError};
 use super::system::{Engine, Parts, System};
 use super::vector::Vector;
-use super::walls::{Cylinder, Floor, TankWall};
+use super::walls::TankWall;
 use super::{effects, timestep};
 use crate::cpu_time;
 use crate::observe::{Flow, FrameView, Ledger};
 use crate::record::{Instability, Milestone};
-use crate::scene::{Contact, Friction, Neighbours, Scene, Start, Tank};
+use crate::scene::{Contact, Friction, Neighbours, Scene, Start};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 /// Why a scene cannot be run.
@@ -102,7 +104,7 @@ impl Simulation {
         }
         let tank = scene.tank.as_ref();
         let parts = Parts {
-            walls: tank.map(walls_of).unwrap_or_default(),
+            walls: tank.map(TankWall::of_tank).unwrap_or_default(),
             effects: effects::of_scene(scene, &particles),
             shielded: scene.updraught.is_some(),
             limits: Limits::new(scene, &particles),
@@ -324,15 +326,6 @@ fn in_scene_order(components: &mut [Vec<f64>; 3], vectors: &[Vector], numbers: &
     }
 }
 
-/// The walls of a tank, in the order in which they act.
-fn walls_of(tank: &Tank) -> Vec<TankWall> {
-    let floor = tank.floor.map(|height| TankWall::Floor(Floor { height }));
-    let cylinder = tank
-        .radius
-        .map(|radius| TankWall::Cylinder(Cylinder { radius }));
-    floor.into_iter().chain(cylinder).collect()
-}
-
 /// The spheres of a scene that come in later.
 fn waiting(spheres: &Particles, scene: &Scene) -> Vec<Sphere> {
     let gravity = scene
@@ -383,7 +376,7 @@ fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
             );
             Ok(match scene.friction {
                 None => boxed(normal, Frictionless, parts),
-                Some(Friction::CundallStrack { .. }) => {
+                Some(Friction::CundallStrack { .. } | Friction::Silbert { .. }) => {
                     return Err(BuildError::LawsDoNotGoTogether);
                 }
                 Some(Friction::Spin { coefficient }) => {
@@ -423,9 +416,24 @@ fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
                     let law = CundallStrack::new(coefficient, stiffness, damping);
                     Ok(boxed(normal, law, parts))
                 }
-                Some(Friction::Spin { .. } | Friction::Mindlin { .. }) => {
-                    Err(BuildError::LawsDoNotGoTogether)
+                Some(
+                    Friction::Spin { .. } | Friction::Mindlin { .. } | Friction::Silbert { .. },
+                ) => Err(BuildError::LawsDoNotGoTogether),
+            }
+        }
+        Some(Contact::Silbert { stiffness, damping }) => {
+            let normal = Silbert::new(stiffness, damping);
+            match scene.friction {
+                None => Ok(boxed(normal, Frictionless, parts)),
+                Some(Friction::Silbert {
+                    coefficient,
+                    stiffness,
+                    damping,
+                }) => {
+                    let law = SilbertFriction::new(coefficient, stiffness, damping);
+                    Ok(boxed(normal, law, parts))
                 }
+                Some(_) => Err(BuildError::LawsDoNotGoTogether),
             }
         }
     }

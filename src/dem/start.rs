@@ -24,7 +24,8 @@ pub enum StartError {
     },
     /// Random positions need a tank to be in.
     #[error(
-        "start.kind = \"random\" needs tank.radius; give the tank a radius or list the spheres"
+        "start.kind = \"random\" needs walls all around; give the tank a radius, or width and depth, or \
+         list the spheres"
     )]
     NoTank,
     /// A file of radii or positions has not been read yet.
@@ -65,13 +66,9 @@ pub fn place(scene: &Scene) -> Result<Particles, StartError> {
             speed,
             spin,
         } => {
-            let tank = scene
-                .tank
-                .as_ref()
-                .and_then(|tank| tank.radius)
-                .ok_or(StartError::NoTank)?;
+            let room = Room::of_scene(scene, [*z_min, *z_max]).ok_or(StartError::NoTank)?;
             let mut random = scene.random_stream("positions");
-            particles.position = scatter(&particles.radius, tank, [*z_min, *z_max], &mut random)?;
+            particles.position = scatter(&particles.radius, &room, &mut random)?;
             let mut random = scene.random_stream("velocities");
             for i in 0..count {
                 particles.velocity[i] = within(*speed, &mut random);
@@ -190,20 +187,61 @@ fn radii(scene: &Scene) -> Result<Vec<f64>, StartError> {
     }
 }
 
-/// Random centres without overlap, uniform in the cylinder that keeps each sphere off the wall.
-fn scatter(
-    radii: &[f64],
-    tank: f64,
-    [low, high]: [f64; 2],
-    random: &mut impl Rng,
-) -> Result<Vec<Vector>, StartError> {
+/// Where centres may be at the start.
+struct Room {
+    /// How far the walls are from the axis along x and y (m).
+    reach: [f64; 2],
+    /// Whether they are a cylinder.
+    is_round: bool,
+    /// Lowest and highest centre (m).
+    heights: [f64; 2],
+}
+
+impl Room {
+    /// The room within the walls of a scene, if they are all around.
+    fn of_scene(scene: &Scene, heights: [f64; 2]) -> Option<Self> {
+        let tank = scene.tank.as_ref()?;
+        let [Some(x), Some(y)] = tank.reach() else {
+            return None;
+        };
+        Some(Self {
+            reach: [x, y],
+            is_round: tank.radius.is_some(),
+            heights,
+        })
+    }
+
+    /// A random place, uniform in the box that holds the room: within sides one that keeps a sphere of
+    /// that radius (m) off them.
+    fn place(&self, radius: f64, random: &mut impl Rng) -> Vector {
+        let [x, y] = match self.is_round {
+            true => self.reach,
+            false => self.reach.map(|reach| reach - radius),
+        };
+        let [low, high] = self.heights;
+        let (a, b, c) = (uniform(random), uniform(random), uniform(random));
+        Vector::new(
+            x * (2.0 * a - 1.0),
+            y * (2.0 * b - 1.0),
+            low + (high - low) * c,
+        )
+    }
+
+    /// Whether a sphere of that radius (m) at such a place is off the walls.
+    fn holds(&self, centre: Vector, radius: f64) -> bool {
+        let reach = self.reach[0] - radius;
+        !self.is_round || centre.x * centre.x + centre.y * centre.y < reach * reach
+    }
+}
+
+/// Random centres without overlap, uniform in the room that keeps each sphere off the walls.
+fn scatter(radii: &[f64], room: &Room, random: &mut impl Rng) -> Result<Vec<Vector>, StartError> {
     let width = 2.0 * radii.iter().copied().fold(0.0, f64::max);
     let cell = |p: Vector| [p.x, p.y, p.z].map(|value| libm::floor(value / width) as i64);
     let mut placed: Vec<Vector> = Vec::with_capacity(radii.len());
     // Looked up only, never walked through: its order does not matter.
     let mut occupied: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
     for (i, &radius) in radii.iter().enumerate() {
-        let reach = tank - radius;
         let free = |p: Vector| {
             let [a, b, c] = cell(p);
             let near = (-1..=1).flat_map(|da| {
@@ -226,15 +264,8 @@ fn scatter(
                 })
         };
         let candidate = (0..ATTEMPTS)
-            .map(|_| {
-                let (x, y, z) = (uniform(random), uniform(random), uniform(random));
-                Vector::new(
-                    tank * (2.0 * x - 1.0),
-                    tank * (2.0 * y - 1.0),
-                    low + (high - low) * z,
-                )
-            })
-            .find(|&p| p.x * p.x + p.y * p.y < reach * reach && free(p))
+            .map(|_| room.place(radius, random))
+            .find(|&place| room.holds(place, radius) && free(place))
             .ok_or(StartError::NoRoom {
                 placed: i,
                 count: radii.len(),

@@ -82,8 +82,7 @@ impl DepthMap {
                 let origin = self.rays.origin(column, row);
                 let depth = (floor - origin.z) / near.z;
                 let point = origin + near * depth;
-                let outside = |radius: f64| point.x * point.x + point.y * point.y > radius * radius;
-                if !stage.radius.is_some_and(outside) {
+                if stage.is_within(point) {
                     self.put(column + row * self.rays.width, depth, Hit::Floor);
                 }
             }

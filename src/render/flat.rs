@@ -30,7 +30,7 @@ pub struct Scenery {
     fixed: FixedSpheres,
     /// When the door opened (s), if it did.
     opened: Option<f64>,
-    /// Radius of a tank, and height of its floor (m).
+    /// How far the walls of a tank are from its axis along x, and height of its floor (m).
     tank: [Option<f64>; 2],
 }
 
@@ -46,7 +46,7 @@ impl Scenery {
             fixed: fixed.unwrap_or_default(),
             opened: opening.map(|opening| opening.time),
             tank: [
-                tank.and_then(|tank| tank.radius),
+                tank.and_then(|tank| tank.reach()[0]),
                 tank.and_then(|tank| tank.floor),
             ],
         }
@@ -83,14 +83,14 @@ impl Scenery {
 
     /// Walls of a tank as lines (m) from point to point, as high as the window.
     pub fn lines(&self, window: &Window) -> Vec<Window> {
-        let [radius, floor] = self.tank;
+        let [reach, floor] = self.tank;
         let [low, high] = window;
         let foot = floor.unwrap_or(low[1]);
-        let reach = radius.map_or([low[0], high[0]], |radius| [-radius, radius]);
-        let floor = floor.map(|floor| [[reach[0], floor], [reach[1], floor]]);
-        let sides = radius
+        let ends = reach.map_or([low[0], high[0]], |reach| [-reach, reach]);
+        let floor = floor.map(|floor| [[ends[0], floor], [ends[1], floor]]);
+        let sides = reach
             .into_iter()
-            .flat_map(|radius| [-radius, radius].map(|x| [[x, foot], [x, high[1]]]));
+            .flat_map(|reach| [-reach, reach].map(|x| [[x, foot], [x, high[1]]]));
         sides.chain(floor).collect()
     }
 

@@ -186,7 +186,8 @@ impl Shader<'_> {
     fn background(&self, origin: Vector) -> Rgb {
         const PAPER: Rgb = [255, 255, 255];
         let Some(radius) = self.stage.radius else {
-            return PAPER;
+            let is_glass = self.stage.has_sides() && self.is_before_side(origin);
+            return if is_glass { GLASS } else { PAPER };
         };
         let near = self.view.rays.axes[2];
         let outside = origin.x * origin.x + origin.y * origin.y - radius * radius;
@@ -202,6 +203,28 @@ impl Shader<'_> {
             half_chord_squared >= 0.0 && (low[2]..=high[2]).contains(&wall.z)
         };
         if inside { GLASS } else { PAPER }
+    }
+
+    /// Whether the ray through that point leaves the box between plane sides, on its way from the viewer,
+    /// through one of them, or would through one of those below if it looks straight down.
+    fn is_before_side(&self, origin: Vector) -> bool {
+        let near = self.view.rays.axes[2];
+        let [low, high] = self.stage.seen;
+        let (mut far, mut first) = (f64::NEG_INFINITY, f64::INFINITY);
+        let axes = [(origin.x, near.x), (origin.y, near.y)];
+        for ((place, way), [least, most]) in axes.into_iter().zip(self.stage.between_sides()) {
+            if way == 0.0 {
+                if !(least..=most).contains(&place) {
+                    return false;
+                }
+                continue;
+            }
+            let ends = [(least - place) / way, (most - place) / way];
+            far = far.max(ends[0].min(ends[1]));
+            first = first.min(ends[0].max(ends[1]));
+        }
+        let height = origin.z + near.z * far;
+        far <= first && (far == f64::NEG_INFINITY || (low[2]..=high[2]).contains(&height))
     }
 }
 
@@ -275,9 +298,17 @@ fn outlines(stage: &Stage, camera: &Camera) -> Vec<Vec<Vector>> {
             lines.push(stage.rim(high[2]));
         }
     }
-    match (stage.floor, stage.radius) {
-        (Some(floor), Some(_)) => lines.push(stage.rim(floor)),
-        (Some(floor), None) if camera.viewer.z == 0.0 => {
+    if stage.has_sides() {
+        for [x, y] in &stage.corners()[1..] {
+            lines.push([bottom, high[2]].map(|z| Vector::new(*x, *y, z)).to_vec());
+        }
+        if camera.viewer.z != 0.0 {
+            lines.push(stage.rim(high[2]));
+        }
+    }
+    match (stage.floor, stage.radius.is_some() || stage.has_sides()) {
+        (Some(floor), true) => lines.push(stage.rim(floor)),
+        (Some(floor), false) if camera.viewer.z == 0.0 => {
             let at = |x| Vector::new(x, 0.0, floor);
             lines.push(vec![at(low[0]), at(high[0])]);
         }

@@ -9,6 +9,8 @@ use crate::scene::Scene;
 pub struct Stage {
     /// Radius of the cylinder about the z axis (m), if there is one.
     pub radius: Option<f64>,
+    /// How far plane sides are from the axis along x and along y (m), where there are any.
+    pub sides: [Option<f64>; 2],
     /// Height of the floor (m), if there is one.
     pub floor: Option<f64>,
     /// Corners of the box that is seen (m): least x, y and z, then the largest.
@@ -22,6 +24,7 @@ impl Stage {
         let floor_or_zero = floor.unwrap_or(0.0);
         Self {
             radius,
+            sides: [None; 2],
             floor,
             seen: [
                 [-reach, -reach, floor_or_zero],
@@ -32,11 +35,48 @@ impl Stage {
 
     /// The stage of a scene, with nothing on it yet.
     pub fn of_scene(scene: &Scene) -> Self {
-        let tank = scene.tank.as_ref();
-        Self::new(
-            tank.and_then(|tank| tank.radius),
-            tank.and_then(|tank| tank.floor),
-        )
+        let Some(tank) = &scene.tank else {
+            return Self::new(None, None);
+        };
+        let stage = Self::new(tank.radius, tank.floor);
+        match tank.radius {
+            Some(_) => stage,
+            None => stage.with_sides(tank.reach()),
+        }
+    }
+
+    /// The stage with plane sides that far from the axis along x and along y (m), where there are any.
+    #[must_use]
+    pub fn with_sides(mut self, sides: [Option<f64>; 2]) -> Self {
+        self.sides = sides;
+        for (axis, reach) in sides.into_iter().enumerate() {
+            let reach = reach.unwrap_or(0.0);
+            self.seen[0][axis] = self.seen[0][axis].min(-reach);
+            self.seen[1][axis] = self.seen[1][axis].max(reach);
+        }
+        self
+    }
+
+    /// Whether plane sides are there.
+    pub(super) fn has_sides(&self) -> bool {
+        self.sides.iter().any(Option::is_some)
+    }
+
+    /// Least and largest x, and the same of y, of what plane sides bound (m): where there are none, of
+    /// what is seen.
+    pub(super) fn between_sides(&self) -> [[f64; 2]; 2] {
+        [0, 1].map(|axis| {
+            let seen = [self.seen[0][axis], self.seen[1][axis]];
+            self.sides[axis].map_or(seen, |reach| [-reach, reach])
+        })
+    }
+
+    /// Whether a point is within the walls around the stage.
+    pub(super) fn is_within(&self, point: Vector) -> bool {
+        let round = |radius: f64| point.x * point.x + point.y * point.y <= radius * radius;
+        let along = |(reach, place): (Option<f64>, f64)| reach.is_none_or(|it| place.abs() <= it);
+        let sides = self.sides.into_iter().zip([point.x, point.y]);
+        self.radius.is_none_or(round) && sides.into_iter().all(along)
     }
 
     /// The stage seen so far up and wide that it holds all spheres of these snapshots.
@@ -79,7 +119,10 @@ impl Stage {
 
     /// Whether there is nothing to see yet, neither walls nor spheres.
     fn is_empty(&self) -> bool {
-        self.radius.is_none() && self.floor.is_none() && self.seen[0] == self.seen[1]
+        self.radius.is_none()
+            && !self.has_sides()
+            && self.floor.is_none()
+            && self.seen[0] == self.seen[1]
     }
 
     /// The stage seen up to the height `top` (m), whatever flies above.
@@ -99,7 +142,7 @@ impl Stage {
         if height <= ratio * width {
             return self;
         }
-        if self.radius.is_some() {
+        if self.radius.is_some() || self.has_sides() {
             return self.up_to(low[2] + ratio * width);
         }
         let middle = low[0] + 0.5 * width;
@@ -123,11 +166,13 @@ impl Stage {
         points
     }
 
-    /// Point by point around the rim of the cylinder at height `z`; none without a cylinder.
+    /// Point by point around the rim of the walls at height `z`; none without any.
     pub(super) fn rim(&self, z: f64) -> Vec<Vector> {
         const CORNERS: usize = 180;
         let Some(radius) = self.radius else {
-            return Vec::new();
+            let corners = self.has_sides().then(|| self.corners());
+            let corners = corners.into_iter().flatten();
+            return corners.map(|[x, y]| Vector::new(x, y, z)).collect();
         };
         (0..=CORNERS)
             .map(|corner| {
@@ -136,5 +181,17 @@ impl Stage {
                 Vector::new(radius * cosine, radius * sine, z)
             })
             .collect()
+    }
+
+    /// The corners of the box that plane sides make, from above: around, back to the first.
+    pub(super) fn corners(&self) -> [[f64; 2]; 5] {
+        let [[left, right], [front, back]] = self.between_sides();
+        [
+            [left, front],
+            [right, front],
+            [right, back],
+            [left, back],
+            [left, front],
+        ]
     }
 }

@@ -3,6 +3,7 @@ use ndarray::{Array2, array};
 
 const TANK: Stage = Stage {
     radius: Some(0.06),
+    sides: [None; 2],
     floor: Some(-0.2),
     seen: [[-0.06, -0.06, -0.2], [0.06, 0.06, -0.08]],
 };

@@ -40,6 +40,14 @@ pub enum Contact {
         #[serde(default)]
         drag: ContactDrag,
     },
+    /// Hertzian spring and a dashpot that grows with the masses (Silbert et al., 2001; `gran/hertz/history`
+    /// of LAMMPS): F = sqrt(R_eff xi) (k_n xi + gamma_n m_eff dxi/dt). Attractive at the end of a contact.
+    Silbert {
+        /// Stiffness k_n (Pa).
+        stiffness: f64,
+        /// Damping gamma_n (1/(m s)).
+        damping: f64,
+    },
 }
 
 /// Which part of the relative velocity of two partners a contact's drag acts on.
@@ -86,5 +94,17 @@ pub enum Friction {
     Mindlin {
         /// Coefficient mu.
         coefficient: f64,
+    },
+    /// A history spring sqrt(R_eff xi) k_t by increments and a dashpot sqrt(R_eff xi) gamma_t m_eff, together
+    /// capped at mu F_n (Silbert et al., 2001); needs the silbert contact. The spring keeps its force, where
+    /// LAMMPS keeps the displacement.
+    Silbert {
+        /// Coefficient mu.
+        coefficient: f64,
+        /// Tangential stiffness k_t (Pa).
+        stiffness: f64,
+        /// Tangential damping gamma_t (1/(m s)).
+        #[serde(default)]
+        damping: f64,
     },
 }

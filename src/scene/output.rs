@@ -12,11 +12,13 @@ pub struct Guards {
     pub overlap: f64,
     /// Largest displacement in one step, in radii of the sphere.
     pub displacement: f64,
-    /// Largest |x| and |y| of a centre (m). Default: twice the tank's radius, if there is a tank.
+    /// Largest |x| and |y| of a centre (m). Default: twice the tank's radius, or the larger of its
+    /// width and depth, if walls are all around.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub horizontal: Option<f64>,
     /// Largest |z| of a centre (m). Default, if there is a floor: ten times the largest of the
-    /// floor's depth, the start height, and the tank's radius (1 m without one).
+    /// floor's depth, the start height, and the tank's radius, or half its
+    /// width or depth (1 m without any).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub vertical: Option<f64>,
 }

@@ -100,6 +100,13 @@ const CONTACT: Kind = Kind::Tagged(
                 optional("drag", Kind::Choice(&["normal", "whole"])),
             ],
         ),
+        (
+            "silbert",
+            &[
+                needed("stiffness", POSITIVE),
+                needed("damping", NOT_NEGATIVE),
+            ],
+        ),
     ],
 );
 
@@ -127,10 +134,23 @@ const FRICTION: Kind = Kind::Tagged(
             ],
         ),
         ("mindlin", &[needed("coefficient", NOT_NEGATIVE)]),
+        (
+            "silbert",
+            &[
+                needed("coefficient", NOT_NEGATIVE),
+                needed("stiffness", POSITIVE),
+                optional("damping", NOT_NEGATIVE),
+            ],
+        ),
     ],
 );
 
-const TANK: Kind = Kind::Table(&[optional("radius", LENGTH), optional("floor", PLACE)]);
+const TANK: Kind = Kind::Table(&[
+    optional("radius", LENGTH),
+    optional("width", LENGTH),
+    optional("depth", LENGTH),
+    optional("floor", PLACE),
+]);
 
 const GEOMETRY: Kind = Kind::Tagged(
     "kind",
@@ -305,6 +325,10 @@ mod tests {
             everything(
                 json!({ "law": "mindlin", "coefficient": 0.1 }),
                 json!({ "kind": "file", "path": "start.csv" }),
+            ),
+            everything(
+                json!({ "law": "silbert", "coefficient": 0.1, "stiffness": 1e5 }),
+                json!({ "kind": "random", "z_min": 0.0, "z_max": 1.0 }),
             ),
         ];
         for scene in scenes {

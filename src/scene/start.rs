@@ -8,7 +8,7 @@ use std::path::PathBuf;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Start {
-    /// Random positions without overlap, inside the tank's cylinder.
+    /// Random positions without overlap, inside the tank's cylinder or its four sides.
     Random {
         /// Lowest start height of a centre (m).
         z_min: f64,

@@ -2,15 +2,44 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
 
-/// The tank's walls, of the same material as the spheres.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// The tank's walls, of the same material as the spheres: a round one, or sides.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tank {
     /// Radius R of the cylindrical wall (m). Absent: no cylinder.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
+    /// Distance of two plane walls across x (m), at x = -width/2 and width/2; excludes `radius`. Absent:
+    /// none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
+    /// Distance of two plane walls across y (m), at y = -depth/2 and depth/2; excludes `radius`. Absent:
+    /// none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth: Option<f64>,
     /// Height of the floor (m). Absent: no floor.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub floor: Option<f64>,
+}
+
+impl Tank {
+    /// How far from the axis its walls are along x and along y (m): the radius, or half of width and
+    /// depth. None where there is no wall.
+    pub fn reach(&self) -> [Option<f64>; 2] {
+        [self.width, self.depth].map(|side| self.radius.or(side.map(|side| 0.5 * side)))
+    }
+
+    /// Whether its walls are plane, those that there are.
+    pub fn has_sides(&self) -> bool {
+        self.width.is_some() || self.depth.is_some()
+    }
+
+    /// Area that its walls enclose (m2), if they do.
+    pub fn area(&self) -> Option<f64> {
+        let round = self.radius.map(|radius| PI * radius * radius);
+        let sides = self.width.zip(self.depth);
+        round.or(sides.map(|(width, depth)| width * depth))
+    }
 }

@@ -71,6 +71,86 @@ impl Material {
     }
 }
 
+/// A material of Silbert et al.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SilbertMaterial {
+    /// Stiffness k_n (Pa).
+    pub stiffness: f64,
+    /// Damping gamma_n (1/(m s)).
+    pub damping: f64,
+    /// Density (kg/m3).
+    pub density: f64,
+}
+
+impl SilbertMaterial {
+    /// Mass of a sphere of that radius (kg).
+    pub(super) fn mass(&self, radius: f64) -> f64 {
+        Shape::Sphere.mass(self.density, radius)
+    }
+
+    /// An elastic head-on impact of an effective radius (m) and mass (kg) at a relative speed (m/s).
+    pub(super) fn impact(&self, radius: f64, mass: f64, speed: f64) -> Impact {
+        Impact {
+            effective_mass: mass,
+            stiffness: self.stiffness * radius.sqrt(),
+            speed,
+        }
+    }
+
+    /// The contact law.
+    pub(super) fn contact(&self) -> Contact {
+        Contact::Silbert {
+            stiffness: self.stiffness,
+            damping: self.damping,
+        }
+    }
+}
+
+/// A material of either law, for set-ups that do not mind which.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum AnyMaterial {
+    /// Of the Hertz contact.
+    Hertz(Material),
+    /// Of that of Silbert et al.
+    Silbert(SilbertMaterial),
+}
+
+impl AnyMaterial {
+    /// Density (kg/m3).
+    pub(super) fn density(&self) -> f64 {
+        match self {
+            Self::Hertz(material) => material.density,
+            Self::Silbert(material) => material.density,
+        }
+    }
+
+    /// Mass of a sphere of that radius (kg).
+    pub(super) fn mass(&self, radius: f64) -> f64 {
+        Shape::Sphere.mass(self.density(), radius)
+    }
+
+    /// Overlap at which the elastic force of an effective radius is `force` (m).
+    pub(super) fn overlap(&self, effective_radius: f64, force: f64) -> f64 {
+        match self {
+            Self::Hertz(material) => material.overlap(effective_radius, force),
+            Self::Silbert(material) => {
+                let stiffness = material.stiffness * effective_radius.sqrt();
+                libm::pow(force / stiffness, 2.0 / 3.0)
+            }
+        }
+    }
+
+    /// The contact law.
+    pub(super) fn contact(&self) -> Contact {
+        match self {
+            Self::Hertz(material) => material.contact(),
+            Self::Silbert(material) => material.contact(),
+        }
+    }
+}
+
 /// a b / (a + b), of masses or of radii.
 pub(super) fn reduced(a: f64, b: f64) -> f64 {
     a * b / (a + b)
@@ -87,8 +167,8 @@ pub(super) fn downward(acceleration: f64) -> Gravity {
 /// No walls but a floor at height zero.
 pub(super) fn floor() -> Tank {
     Tank {
-        radius: None,
         floor: Some(0.0),
+        ..Tank::default()
     }
 }
 

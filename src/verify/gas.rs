@@ -56,6 +56,7 @@ impl Gas {
             tank: Some(Tank {
                 radius: Some(self.tank_radius),
                 floor: Some(0.0),
+                ..Tank::default()
             }),
             gravity: Some(downward(self.gravity)),
             ..bench.scene(self.material.density, self.radius, Vec::new(), dt)

@@ -257,7 +257,7 @@ impl Impact {
             Partner::Cylinder => {
                 tank = Some(Tank {
                     radius: Some(CYLINDER * self.radius),
-                    floor: None,
+                    ..Tank::default()
                 });
             }
         }

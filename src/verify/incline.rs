@@ -1,6 +1,6 @@
 //! A sphere rolls or slides down an incline.
 
-use super::bench::{Bench, Material, at, floor};
+use super::bench::{AnyMaterial, Bench, at, floor};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
 use crate::scene::{Friction, Gravity, Scene};
@@ -15,7 +15,7 @@ pub struct Incline {
     angle: f64,
     /// Radius (m).
     radius: f64,
-    material: Material,
+    material: AnyMaterial,
     friction: Friction,
     /// Gravity (m/s2).
     gravity: f64,
@@ -43,7 +43,7 @@ impl Family for Incline {
             }),
             tank: Some(floor()),
             ..bench.scene(
-                self.material.density,
+                self.material.density(),
                 self.radius,
                 vec![at([0.0, 0.0, self.radius - rest])],
                 self.dt,

@@ -25,12 +25,13 @@ mod impact;
 mod incline;
 mod oscillation;
 mod rolling;
+mod silbert;
 mod stack;
 mod step_limit;
 mod tripod;
 mod wall_orbit;
 
-pub use bench::Material;
+pub use bench::{AnyMaterial, Material, SilbertMaterial};
 
 use crate::cpu_time;
 use crate::dem::BuildError;
@@ -42,9 +43,10 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 /// The tables of all families.
-const TABLES: [&str; 15] = [
+const TABLES: [&str; 16] = [
     include_str!("impact.toml"),
     include_str!("dashpot.toml"),
+    include_str!("silbert.toml"),
     include_str!("cradle.toml"),
     include_str!("rolling.toml"),
     include_str!("incline.toml"),
@@ -119,6 +121,8 @@ pub enum Setup {
     Impact(impact::Impact),
     /// Two discs, or a disc and a fixed one, hit each other under the linear contact.
     Dashpot(dashpot::Dashpot),
+    /// A sphere hits another one, or what does not move, under the contact of Silbert et al.
+    SilbertImpact(silbert::SilbertImpact),
     /// Spheres in a row, hit by the first of them.
     Cradle(cradle::Cradle),
     /// A sphere slides on the floor until it rolls.
@@ -152,6 +156,7 @@ impl Setup {
         match self {
             Self::Impact(it) => it,
             Self::Dashpot(it) => it,
+            Self::SilbertImpact(it) => it,
             Self::Cradle(it) => it,
             Self::Rolling(it) => it,
             Self::Incline(it) => it,

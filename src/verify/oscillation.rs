@@ -1,6 +1,6 @@
 //! A sphere on the floor swings about its rest.
 
-use super::bench::{Bench, Material, downward, floor, moving};
+use super::bench::{AnyMaterial, Bench, downward, floor, moving};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
 use crate::scene::{Friction, Scene};
@@ -14,7 +14,7 @@ pub struct Oscillation {
     mode: Mode,
     /// Radius (m).
     radius: f64,
-    material: Material,
+    material: AnyMaterial,
     #[serde(default)]
     friction: Option<Friction>,
     /// Gravity (m/s2).
@@ -59,7 +59,7 @@ impl Family for Oscillation {
             friction: self.friction.clone(),
             gravity: Some(downward(self.gravity)),
             tank: Some(floor()),
-            ..bench.scene(self.material.density, self.radius, vec![sphere], self.dt)
+            ..bench.scene(self.material.density(), self.radius, vec![sphere], self.dt)
         };
         let mut simulation = Simulation::new(&scene)?;
         let mut crossings = Vec::new();

@@ -1,6 +1,6 @@
 //! A sphere slides on the floor until it rolls.
 
-use super::bench::{Bench, Material, downward, floor, moving};
+use super::bench::{AnyMaterial, Bench, downward, floor, moving};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::{Particles, Simulation};
 use crate::scene::{Friction, Scene, StartSphere};
@@ -12,7 +12,7 @@ use serde::Deserialize;
 pub struct Rolling {
     /// Radius (m).
     radius: f64,
-    material: Material,
+    material: AnyMaterial,
     friction: Friction,
     /// Gravity (m/s2).
     gravity: f64,
@@ -38,9 +38,7 @@ impl Family for Rolling {
         // is regularised, or where the sliding turns round.
         let rest = match self.friction {
             Friction::Coulomb { regularisation, .. } => regularisation,
-            Friction::Spin { .. } | Friction::CundallStrack { .. } | Friction::Mindlin { .. } => {
-                0.0
-            }
+            _ => 0.0,
         };
         let sign = (self.speed - self.spin * self.radius).signum();
         let moment = |simulation: &Simulation| {
@@ -109,7 +107,7 @@ impl Rolling {
             friction: Some(self.friction.clone()),
             gravity: Some(downward(self.gravity)),
             tank: Some(floor()),
-            ..bench.scene(self.material.density, self.radius, vec![sphere], self.dt)
+            ..bench.scene(self.material.density(), self.radius, vec![sphere], self.dt)
         }
     }
 

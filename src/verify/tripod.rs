@@ -51,6 +51,7 @@ impl Family for Tripod {
             tank: Some(Tank {
                 radius: Some(distance + self.radius),
                 floor: Some(0.0),
+                ..Tank::default()
             }),
             ..bench.scene(self.material.density, self.radius, spheres, self.dt)
         };
@@ -67,7 +68,7 @@ impl Family for Tripod {
         let force = |foot: usize| {
             let offset = particles.position[3] - particles.position[foot];
             let overlap = 2.0 * self.radius - offset.norm();
-            law.force(overlap, 0.0, contact_radius(overlap, 0.5 * self.radius)) / weight
+            law.elastic_force(overlap, 0.5 * self.radius) / weight
         };
         let forces = [force(0), force(1), force(2)];
         let Vector { x, y, z, .. } = bench.force_of_walls(&scene, particles)?;

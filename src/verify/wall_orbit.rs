@@ -36,7 +36,7 @@ impl Family for WallOrbit {
             contact: Some(self.material.contact()),
             tank: Some(Tank {
                 radius: Some(self.tank_radius),
-                floor: None,
+                ..Tank::default()
             }),
             drag: Some(Drag {
                 linear: self.drag_rate * self.material.mass(self.radius),

@@ -109,8 +109,8 @@ fn resting(damping: f64, friction: Option<Friction>) -> Scene {
         drag: ContactDrag::Normal,
     });
     scene.tank = Some(Tank {
-        radius: None,
         floor: Some(0.0),
+        ..Tank::default()
     });
     scene.gravity = downward();
     scene

@@ -45,8 +45,8 @@ pub(crate) fn column(radii: &[f64], friction: Option<Friction>) -> Scene {
     scene.start = Start::List { spheres };
     scene.spheres.count = radii.len();
     scene.tank = Some(Tank {
-        radius: None,
         floor: Some(0.0),
+        ..Tank::default()
     });
     scene.gravity = downward();
     scene
@@ -129,6 +129,7 @@ pub(crate) fn leaning(count: u32, friction: Friction) -> Scene {
     scene.tank = Some(Tank {
         radius: Some(1.41 * RADIUS),
         floor: Some(0.0),
+        ..Tank::default()
     });
     scene
 }
@@ -208,6 +209,7 @@ pub(crate) fn dropped(count: usize, friction: Option<Friction>) -> Scene {
     scene.tank = Some(Tank {
         radius: Some(1.2 * side),
         floor: Some(0.0),
+        ..Tank::default()
     });
     scene.gravity = downward();
     scene
@@ -263,6 +265,7 @@ fn a_tank_filled_to_the_brim_holds() {
         scene.tank = Some(Tank {
             radius: Some(wall),
             floor: Some(0.0),
+            ..Tank::default()
         });
         let even = |i: i32| 2.0 * RADIUS * f64::from(i);
         let sites =

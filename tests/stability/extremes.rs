@@ -81,6 +81,7 @@ fn fast_spheres_do_not_leave_the_tank_unreported() {
                 scene.tank = Some(Tank {
                     radius: Some(0.06),
                     floor: Some(0.0),
+                    ..Tank::default()
                 });
                 let scene = at(&scene, integrator, LIMIT);
                 let behind = farthest_behind_walls(&scene);
@@ -100,6 +101,7 @@ fn whirled(young_modulus: f64) -> Scene {
     scene.tank = Some(Tank {
         radius: Some(0.06),
         floor: Some(0.0),
+        ..Tank::default()
     });
     if let Some(Contact::Hertz {
         young_modulus: modulus,

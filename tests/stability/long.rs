@@ -62,8 +62,8 @@ fn twenty_thousand_spheres_dropped_at_once_come_to_rest() {
 fn bouncing() -> Scene {
     let mut scene = cluster(vec![StartSphere::at([0.0, 0.0, 0.05])], None, 1e-6);
     scene.tank = Some(Tank {
-        radius: None,
         floor: Some(0.0),
+        ..Tank::default()
     });
     scene.gravity = downward();
     scene

@@ -16,6 +16,7 @@ fn tank(spheres: Vec<StartSphere>, friction: Option<Friction>) -> Scene {
     scene.tank = Some(Tank {
         radius: Some(WALL),
         floor: Some(0.0),
+        ..Tank::default()
     });
     scene.gravity = downward();
     scene
@@ -67,6 +68,7 @@ fn grazing_hits_gain_no_energy() {
                 scene.tank = Some(Tank {
                     radius: cylinder.then_some(WALL),
                     floor: (!cylinder).then_some(0.0),
+                    ..Tank::default()
                 });
                 // It meets the wall at another time within a step.
                 let part = part * (1.0 - 0.01 * f64::from(phase));
@@ -110,8 +112,8 @@ fn floor_and_very_large_sphere_answer_alike() {
             let from_sphere = after(&scene);
             scene.geometry = None;
             scene.tank = Some(Tank {
-                radius: None,
                 floor: Some(0.0),
+                ..Tank::default()
             });
             let from_floor = after(&scene);
             for (a, b) in from_sphere.into_iter().zip(from_floor) {

@@ -22,15 +22,28 @@ impl Hertz {
             dissipation: factor * dissipation_time,
         }
     }
+
+    /// The law without losses, of that K / sqrt(R_eff) (Pa).
+    pub(super) fn elastic(modulus: f64) -> Self {
+        Self {
+            modulus,
+            dissipation: 0.0,
+        }
+    }
+
+    /// K / sqrt(R_eff) (Pa).
+    #[inline(always)]
+    pub(super) fn modulus(&self) -> f64 {
+        self.modulus
+    }
 }
 
 impl NormalLaw for Hertz {
     const WIDENS: bool = true;
 
     #[inline(always)]
-    fn force(&self, overlap: f64, overlap_rate: f64, contact_radius: f64) -> f64 {
-        let force =
-            self.modulus * contact_radius * (overlap + self.dissipation * overlap_rate);
+    fn force(&self, overlap: f64, overlap_rate: f64, contact_radius: f64, _: f64) -> f64 {
+        let force = self.modulus * contact_radius * (overlap + self.dissipation * overlap_rate);
         if force < 0.0 { 0.0 } else { force }
     }
 
@@ -43,7 +56,7 @@ impl NormalLaw for Hertz {
         1.5 * self.modulus * contact_radius(overlap, effective_radius)
     }
 
-    fn damping(&self, overlap: f64, effective_radius: f64) -> f64 {
+    fn damping(&self, overlap: f64, effective_radius: f64, _: f64) -> f64 {
         self.modulus * contact_radius(overlap, effective_radius) * self.dissipation
     }
 

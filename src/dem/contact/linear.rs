@@ -35,7 +35,7 @@ impl NormalLaw for Linear {
     const ATTRACTS: bool = true;
 
     #[inline(always)]
-    fn force(&self, overlap: f64, overlap_rate: f64, _: f64) -> f64 {
+    fn force(&self, overlap: f64, overlap_rate: f64, _: f64, _: f64) -> f64 {
         self.stiffness * overlap + self.damping * overlap_rate
     }
 
@@ -53,7 +53,7 @@ impl NormalLaw for Linear {
         self.stiffness
     }
 
-    fn damping(&self, _: f64, _: f64) -> f64 {
+    fn damping(&self, _: f64, _: f64, _: f64) -> f64 {
         self.damping
     }
 

@@ -3,9 +3,11 @@
 mod hertz;
 mod linear;
 pub mod restitution;
+mod silbert;
 
 pub use hertz::Hertz;
 pub use linear::Linear;
+pub use silbert::Silbert;
 
 use super::math::square_root;
 
@@ -30,8 +32,24 @@ pub trait NormalLaw: Copy + Send + Sync + 'static {
     /// Whether the force depends on the [`contact_radius`].
     const WIDENS: bool = false;
 
-    /// Repulsive force (N) from the overlap (m), its rate (m/s) and the [`contact_radius`] (m).
-    fn force(&self, overlap: f64, overlap_rate: f64, contact_radius: f64) -> f64;
+    /// Whether the law asks for the effective mass; it need not be told otherwise.
+    const NEEDS_EFFECTIVE_MASS: bool = false;
+
+    /// Repulsive force (N) from the overlap (m), its rate (m/s), the [`contact_radius`] (m) and the effective
+    /// mass m1 m2 / (m1 + m2) (kg; the sphere's own at what does not move).
+    fn force(
+        &self,
+        overlap: f64,
+        overlap_rate: f64,
+        contact_radius: f64,
+        effective_mass: f64,
+    ) -> f64;
+
+    /// The force (N) of partners that keep their distance.
+    fn elastic_force(&self, overlap: f64, effective_radius: f64) -> f64 {
+        let contact_radius = contact_radius(overlap, effective_radius);
+        self.force(overlap, 0.0, contact_radius, 0.0)
+    }
 
     /// Drag per tangential relative velocity of the centres (N s/m); asked for only if the law
     /// [drags sideways](Self::DRAGS_SIDEWAYS).
@@ -45,8 +63,8 @@ pub trait NormalLaw: Copy + Send + Sync + 'static {
     /// dF / d overlap (N/m) there.
     fn stiffness(&self, overlap: f64, effective_radius: f64) -> f64;
 
-    /// dF / d overlap rate (N s/m) there.
-    fn damping(&self, overlap: f64, effective_radius: f64) -> f64;
+    /// dF / d overlap rate (N s/m) there, for an effective mass (kg).
+    fn damping(&self, overlap: f64, effective_radius: f64, effective_mass: f64) -> f64;
 
     /// Deepest overlap (m) of an impact without losses that has reached an overlap and still has a
     /// speed (m/s), of an effective mass (kg).
@@ -67,7 +85,7 @@ impl NormalLaw for NoContact {
     const ACTS: bool = false;
 
     #[inline(always)]
-    fn force(&self, _: f64, _: f64, _: f64) -> f64 {
+    fn force(&self, _: f64, _: f64, _: f64, _: f64) -> f64 {
         0.0
     }
 
@@ -80,7 +98,7 @@ impl NormalLaw for NoContact {
         0.0
     }
 
-    fn damping(&self, _: f64, _: f64) -> f64 {
+    fn damping(&self, _: f64, _: f64, _: f64) -> f64 {
         0.0
     }
 

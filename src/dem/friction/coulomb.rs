@@ -1,6 +1,6 @@
 //! Coulomb friction, regularised at rest.
 
-use super::{Spring, TangentialLaw, Touch, Traction};
+use super::{Grip, Spring, TangentialLaw, Touch, Traction};
 use crate::dem::math::inverse_square_root;
 
 /// f = -mu F_n u / max(|u|, u_0), with the sliding velocity u of the contact point (translation
@@ -36,7 +36,7 @@ impl TangentialLaw for Coulomb {
         touch.traction(sliding * (-self.coefficient * touch.normal_force * inverse_speed))
     }
 
-    fn damping(&self, normal_force: f64, speed: f64) -> f64 {
-        self.coefficient * normal_force / speed.max(self.regularisation)
+    fn damping(&self, grip: &Grip) -> f64 {
+        self.coefficient * grip.normal_force / grip.speed.max(self.regularisation)
     }
 }

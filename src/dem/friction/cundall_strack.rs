@@ -1,6 +1,6 @@
 //! Friction by a tangential spring and dashpot.
 
-use super::{Spring, TangentialLaw, Touch, Traction};
+use super::{Grip, Spring, TangentialLaw, Touch, Traction};
 
 /// A spring of constant stiffness k_t and a dashpot b_t along the contact, together capped at mu F_n
 /// (Cundall and Strack, Geotechnique 29, 47 (1979)): df = -k_t du and f - b_t u while it sticks.
@@ -37,7 +37,7 @@ impl TangentialLaw for CundallStrack {
         self.stiffness
     }
 
-    fn damping(&self, _: f64, _: f64) -> f64 {
+    fn damping(&self, _: &Grip) -> f64 {
         self.damping
     }
 
@@ -63,6 +63,7 @@ mod tests {
             lever: [0.04, 0.04],
             inertia: [1e-6; 2],
             lesser_mass: 1e-3,
+            effective_mass: 5e-4,
             overlap: 1e-4,
             effective_radius: 0.02,
             normal_force: 2.0,

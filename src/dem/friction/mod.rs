@@ -3,12 +3,14 @@
 mod coulomb;
 mod cundall_strack;
 mod mindlin;
+mod silbert;
 mod spin;
 mod spring;
 
 pub use coulomb::Coulomb;
 pub use cundall_strack::CundallStrack;
 pub use mindlin::Mindlin;
+pub use silbert::SilbertFriction;
 pub use spin::SpinFriction;
 pub use spring::Spring;
 
@@ -32,10 +34,14 @@ pub struct Touch {
     pub inertia: [f64; 2],
     /// The smaller of the two masses (kg).
     pub lesser_mass: f64,
+    /// m1 m2 / (m1 + m2) (kg), the mass of the one that moves where the other does not.
+    pub effective_mass: f64,
     /// Overlap (m).
     pub overlap: f64,
     /// Effective radius (m).
     pub effective_radius: f64,
+    /// The [contact radius](super::contact::contact_radius) (m), if a law asks for it.
+    pub contact_radius: f64,
     /// Normal force (N), zero where partners attract each other or part faster than their elasticity
     /// recovers: no tangential force acts then.
     pub normal_force: f64,
@@ -77,6 +83,21 @@ pub(super) fn sliding_velocity(
 ) -> Vector {
     let surface = spin[0] * lever[0] + spin[1] * lever[1];
     velocity.perpendicular_to(normal) - surface.cross(normal)
+}
+
+/// A contact as its sub-steps are chosen for it: where it is pressed most.
+#[derive(Clone, Copy, Debug)]
+pub struct Grip {
+    /// Overlap (m).
+    pub overlap: f64,
+    /// Effective radius (m).
+    pub effective_radius: f64,
+    /// Effective mass (kg).
+    pub effective_mass: f64,
+    /// Normal force (N).
+    pub normal_force: f64,
+    /// Relative speed (m/s).
+    pub speed: f64,
 }
 
 /// What a tangential law answers.
@@ -140,6 +161,8 @@ pub trait TangentialLaw: Copy + Send + Sync + 'static {
     const WEIGHS: bool = false;
     /// Whether the law asks for the [contact radius](super::contact::contact_radius).
     const WIDENS: bool = false;
+    /// Whether the law asks for the effective mass; a [`Touch`] need not have it otherwise.
+    const NEEDS_EFFECTIVE_MASS: bool = false;
     /// What a contact remembers from step to step; `()` costs nothing. A checkpoint stores it.
     type History: History;
 
@@ -157,8 +180,8 @@ pub trait TangentialLaw: Copy + Send + Sync + 'static {
         0.0
     }
 
-    /// Force per sliding velocity (N s/m) under a normal force (N) and at a speed (m/s).
-    fn damping(&self, _normal_force: f64, _speed: f64) -> f64 {
+    /// Force per sliding velocity (N s/m).
+    fn damping(&self, _grip: &Grip) -> f64 {
         0.0
     }
 }

@@ -2,12 +2,13 @@
 
 use super::System;
 use super::meeting::{Couple, Earlier, Laws, Solid};
-use super::wall_contacts::{MOST_WALLS, NearSphere};
+use super::wall_contacts::NearSphere;
 use crate::dem::block::Row;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
 use crate::dem::neighbours::NearPair;
 use crate::dem::vector::Vector;
+use crate::dem::walls::TankWall;
 
 /// Contacts, possible ones included.
 #[derive(Default)]
@@ -15,7 +16,7 @@ pub(super) struct Among {
     /// Pairs, in the order of the list.
     pub(super) pairs: Vec<NearPair>,
     /// Spheres near each wall.
-    pub(super) walls: [Vec<NearSphere>; MOST_WALLS],
+    pub(super) walls: [Vec<NearSphere>; TankWall::MOST],
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
@@ -54,6 +55,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let sphere = Solid {
             radius: particles.radius[i],
             mass: particles.mass[i],
+            inverse_mass: particles.inverse_mass[i],
             inertia: particles.inertia.get(i).copied().unwrap_or(0.0),
         };
         let earlier = self.earlier.get(i).filter(|_| self.loading.age > 0.0);

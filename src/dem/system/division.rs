@@ -7,11 +7,12 @@
 
 use super::pair_block::{PairBlock, Sums};
 use super::share::{AtWall, Known, Scenery, Share, TooDeep};
-use super::wall_contacts::{MOST_WALLS, WallContacts};
+use super::wall_contacts::WallContacts;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::neighbours::NearPair;
 use crate::dem::vector::Vector;
+use crate::dem::walls::TankWall;
 use fearless_simd::Level;
 use std::ops::Range;
 
@@ -26,7 +27,7 @@ struct Region<H> {
     /// Near pairs whose first sphere is one of these.
     pairs: Range<usize>,
     /// Spheres near each wall.
-    walls: [Range<usize>; MOST_WALLS],
+    walls: [Range<usize>; TankWall::MOST],
     crossing: Vec<NearPair>,
     crossing_history: Vec<H>,
     block: Box<PairBlock<H>>,
@@ -38,7 +39,7 @@ impl<H: History> Division<H> {
         let region = || Region {
             spheres: 0..0,
             pairs: 0..0,
-            walls: [const { 0..0 }; MOST_WALLS],
+            walls: [const { 0..0 }; TankWall::MOST],
             crossing: Vec::new(),
             crossing_history: Vec::new(),
             block: Box::new(PairBlock::new()),
@@ -105,7 +106,7 @@ impl<H: History> Division<H> {
         let mut shares: Vec<Share<'_, H>> = Vec::with_capacity(self.parts.len());
         for region in &mut self.parts {
             let count = region.spheres.len();
-            let mut walls = [const { None }; MOST_WALLS];
+            let mut walls = [const { None }; TankWall::MOST];
             for ((place, range), (wall, contacts, histories)) in
                 walls.iter_mut().zip(&region.walls).zip(&mut at_walls)
             {
@@ -132,14 +133,14 @@ impl<H: History> Division<H> {
                     histories: split(&mut histories, region.pairs.len()),
                 },
                 walls,
-                too_deep: [None; 1 + MOST_WALLS],
+                too_deep: [None; 1 + TankWall::MOST],
             });
         }
         in_parallel(&mut shares, &|share| {
             share.add_contacts(level, scenery, &mut None);
         });
         // As one thread would find it: pairs before walls.
-        let kinds = 0..=MOST_WALLS;
+        let kinds = 0..=TankWall::MOST;
         let all = kinds.flat_map(|kind| shares.iter().map(move |share| share.too_deep[kind]));
         all.flatten().next()
     }

@@ -259,7 +259,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         } = *meeting;
         let elastic = self
             .normal
-            .force(meeting.overlap, 0.0, meeting.contact_radius);
+            .force(meeting.overlap, 0.0, meeting.contact_radius, 0.0);
         if !T::ROTATES {
             return [force - normal * elastic, Vector::ZERO];
         }

@@ -1,10 +1,11 @@
 //! When lists of neighbours are made anew, and what becomes of the histories of their contacts.
 
-use super::meeting::Solid;
+use super::meeting::{Laws, Solid};
 use super::{Age, Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::neighbours::NearPair;
+use crate::dem::particles::Particles;
 use crate::dem::profile::Part;
 use crate::record::Instability;
 
@@ -48,10 +49,15 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Ok(())
     }
 
+    /// What all spheres are like, if they are alike to the laws.
+    pub(super) fn alike(particles: &Particles) -> Option<Solid> {
+        Solid::of_all(particles, Laws::<N, T>::NEEDS_EFFECTIVE_MASS)
+    }
+
     /// Fits everything that has an entry per sphere to the spheres that there are now.
     pub(super) fn renumber(&mut self) {
         if self.list.is_some() {
-            self.alike = Solid::of_all(&self.parts.particles);
+            self.alike = Self::alike(&self.parts.particles);
         }
         self.stale = true;
     }

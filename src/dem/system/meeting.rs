@@ -66,6 +66,8 @@ pub(super) struct Solid {
     pub(super) radius: f64,
     /// Mass (kg).
     pub(super) mass: f64,
+    /// Inverse mass (1/kg), zero of what does not move.
+    pub(super) inverse_mass: f64,
     /// Moment of inertia (kg m2).
     pub(super) inertia: f64,
 }
@@ -75,23 +77,26 @@ impl Solid {
     pub(super) const WALL: Self = Self {
         radius: 0.0,
         mass: 0.0,
+        inverse_mass: 0.0,
         inertia: 0.0,
     };
 
-    /// What all spheres are like, if they are alike.
-    pub(super) fn of_all(particles: &Particles) -> Option<Self> {
+    /// What all spheres are like, if they are alike; `mobile` says whether it matters that some are fixed.
+    pub(super) fn of_all(particles: &Particles, mobile: bool) -> Option<Self> {
         let Particles {
             radius,
             mass,
+            inverse_mass,
             inertia,
             ..
         } = particles;
         let same = |values: &[f64]| values.windows(2).all(|pair| pair[0] == pair[1]);
-        let alike = same(radius) && same(mass) && same(inertia);
+        let alike = same(radius) && same(mass) && same(inertia) && (!mobile || same(inverse_mass));
         let first = |values: &[f64]| values.first().copied().unwrap_or(0.0);
         alike.then(|| Self {
             radius: first(radius),
             mass: first(mass),
+            inverse_mass: first(inverse_mass),
             inertia: first(inertia),
         })
     }
@@ -134,6 +139,8 @@ struct Encounter {
     overlap: f64,
     effective_radius: f64,
     contact_radius: f64,
+    /// Zero where no law asks for it.
+    effective_mass: f64,
     /// Of friction alone.
     lever: [f64; 2],
     lesser_mass: f64,
@@ -154,6 +161,9 @@ pub(super) struct Roots {
 impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
     const REMEMBERS: bool = size_of::<T::History>() > 0;
     const WIDENS: bool = N::WIDENS | T::WIDENS;
+    /// Whether a law asks for the effective mass.
+    pub(super) const NEEDS_EFFECTIVE_MASS: bool =
+        N::NEEDS_EFFECTIVE_MASS || T::NEEDS_EFFECTIVE_MASS;
 
     /// Two spheres.
     #[inline(always)]
@@ -202,6 +212,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             overlap,
             effective_radius,
             contact_radius: roots.contact_radius,
+            effective_mass: Self::effective_mass(couple),
             lever,
             lesser_mass: lesser(one.mass, other.mass),
             loading: None,
@@ -237,6 +248,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
                 true => contact_radius(overlap, radius),
                 false => 0.0,
             },
+            effective_mass: Self::effective_mass(couple),
             lever: [radius, 0.0],
             lesser_mass: mass,
             loading: None,
@@ -251,6 +263,16 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         self.answer(couple, encounter, spring)
     }
 
+    /// 1 / (1 / m1 + 1 / m2) (kg), where a law asks for it.
+    #[inline(always)]
+    fn effective_mass(couple: &Couple) -> f64 {
+        let [one, other] = couple.solid;
+        match Self::NEEDS_EFFECTIVE_MASS {
+            true => 1.0 / (one.inverse_mass + other.inverse_mass),
+            false => 0.0,
+        }
+    }
+
     #[inline(always)]
     fn answer(&self, couple: &Couple, encounter: Encounter, mut spring: Spring) -> Meeting {
         let Encounter {
@@ -260,13 +282,15 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             overlap,
             effective_radius,
             contact_radius,
+            effective_mass,
             lever,
             lesser_mass,
             loading,
         } = encounter;
         let Couple { velocity, spin, .. } = *couple;
         let approach = -velocity.dot(normal);
-        let normal_force = self.normal.force(overlap, approach, contact_radius);
+        let normal_force =
+            (self.normal).force(overlap, approach, contact_radius, effective_mass);
         let mut force = normal * normal_force;
         if N::DRAGS_SIDEWAYS {
             force -= (velocity + normal * approach) * self.normal.sideways_drag();
@@ -287,8 +311,10 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
                 lever,
                 inertia: [couple.solid[0].inertia, couple.solid[1].inertia],
                 lesser_mass,
+                effective_mass,
                 overlap,
                 effective_radius,
+                contact_radius,
                 // Friction feels none where partners attract each other.
                 normal_force: match N::ATTRACTS {
                     true => or_zero(normal_force),

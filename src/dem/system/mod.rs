@@ -24,7 +24,7 @@ use self::meeting::{Loading, Solid};
 use self::pair_block::{EarlierRows, PairBlock, Sums};
 use self::share::{Known, Scenery, Share};
 pub(in crate::dem) use self::state::EngineState;
-use self::wall_contacts::{MOST_WALLS, WallContacts};
+use self::wall_contacts::WallContacts;
 use super::block::BLOCK;
 use super::bodies::Bodies;
 use super::contact::NormalLaw;
@@ -177,7 +177,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             workspace: Workspace::default(),
             ledger: None,
             profile: None,
-            alike: Solid::of_all(&parts.particles),
+            alike: Self::alike(&parts.particles),
             block: Box::new(PairBlock::new()),
             bodies: Box::new(Bodies::new()),
             shielding: vec![0; if parts.shielded { count } else { 0 }],
@@ -342,7 +342,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 too_deep
             }
             None => {
-                let mut at_walls = [const { None }; MOST_WALLS];
+                let mut at_walls = [const { None }; TankWall::MOST];
                 for (place, wall) in at_walls.iter_mut().zip(walls) {
                     *place = Some(wall);
                 }
@@ -360,7 +360,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     },
                     pairs,
                     walls: at_walls,
-                    too_deep: [None; 1 + MOST_WALLS],
+                    too_deep: [None; 1 + TankWall::MOST],
                 };
                 share.add_contacts(self.level, &scenery, &mut self.profile);
                 share.too_deep.into_iter().flatten().next()

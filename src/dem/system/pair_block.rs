@@ -27,6 +27,7 @@ pub(super) type EarlierRows = [Row; 2];
 struct Solids {
     radius: Column,
     mass: Column,
+    inverse_mass: Column,
     inertia: Column,
 }
 
@@ -35,13 +36,14 @@ impl Solids {
         Self {
             radius: [solid.radius; BLOCK],
             mass: [solid.mass; BLOCK],
+            inverse_mass: [solid.inverse_mass; BLOCK],
             inertia: [solid.inertia; BLOCK],
         }
     }
 
     /// Fetches it of the sphere of every lane.
     #[inline(always)]
-    fn take<T: TangentialLaw>(&mut self, particles: &Particles, sphere: impl Fn(usize) -> u32) {
+    fn take<N: NormalLaw, T: TangentialLaw>(&mut self, particles: &Particles, sphere: impl Fn(usize) -> u32) {
         for k in 0..BLOCK {
             self.radius[k] = particles.radius[sphere(k) as usize];
         }
@@ -51,6 +53,11 @@ impl Solids {
                 self.inertia[k] = particles.inertia[sphere(k) as usize];
             }
         }
+        if Laws::<N, T>::NEEDS_EFFECTIVE_MASS {
+            for k in 0..BLOCK {
+                self.inverse_mass[k] = particles.inverse_mass[sphere(k) as usize];
+            }
+        }
     }
 
     #[inline(always)]
@@ -58,6 +65,7 @@ impl Solids {
         Solid {
             radius: self.radius[k],
             mass: self.mass[k],
+            inverse_mass: self.inverse_mass[k],
             inertia: self.inertia[k],
         }
     }
@@ -129,7 +137,7 @@ impl<H: History> PairBlock<H> {
 
     /// Fetches pairs, with what they remember.
     #[inline(always)]
-    pub(super) fn take_pairs<S: Simd, T: TangentialLaw<History = H>>(
+    pub(super) fn take_pairs<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
         pairs: &[NearPair; BLOCK],
@@ -175,8 +183,8 @@ impl<H: History> PairBlock<H> {
             }
         }
         if !self.alike {
-            self.solid[0].take::<T>(particles, |k| pairs[k].i);
-            self.solid[1].take::<T>(particles, |k| pairs[k].j);
+            self.solid[0].take::<N, T>(particles, |k| pairs[k].i);
+            self.solid[1].take::<N, T>(particles, |k| pairs[k].j);
             let [one, other] = &self.solid;
             for (k, inverse) in self.inverse_sum.iter_mut().enumerate() {
                 *inverse = 1.0 / (one.radius[k] + other.radius[k]);
@@ -225,7 +233,7 @@ impl<H: History> PairBlock<H> {
 
     /// Fetches spheres near a wall, with what they remember.
     #[inline(always)]
-    pub(super) fn take_spheres<S: Simd, T: TangentialLaw<History = H>>(
+    pub(super) fn take_spheres<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
         spheres: &[NearSphere; BLOCK],
@@ -248,7 +256,7 @@ impl<H: History> PairBlock<H> {
             );
         }
         if !self.alike {
-            self.solid[0].take::<T>(particles, |k| spheres[k].i);
+            self.solid[0].take::<N, T>(particles, |k| spheres[k].i);
         }
         self.take_springs(simd, histories);
         if Self::REMEMBERS && !earlier.is_empty() {

@@ -3,7 +3,7 @@
 
 use super::meeting::{Laws, Solid};
 use super::pair_block::{EarlierRows, PairBlock, Sums, whole};
-use super::wall_contacts::{MOST_WALLS, NearSphere};
+use super::wall_contacts::NearSphere;
 use crate::dem::block::BLOCK;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
@@ -48,9 +48,9 @@ pub(super) struct Share<'a, H> {
     pub(super) crossing: Known<'a, NearPair, H>,
     /// Pairs whose first sphere is one of these.
     pub(super) pairs: Known<'a, NearPair, H>,
-    pub(super) walls: [Option<AtWall<'a, H>>; MOST_WALLS],
+    pub(super) walls: [Option<AtWall<'a, H>>; TankWall::MOST],
     /// The first contact found too deep among pairs and at each wall.
-    pub(super) too_deep: [TooDeep; 1 + MOST_WALLS],
+    pub(super) too_deep: [TooDeep; 1 + TankWall::MOST],
 }
 
 impl<H: History> Share<'_, H> {
@@ -88,13 +88,15 @@ impl<H: History> Share<'_, H> {
             return;
         }
         profile::mark(profile, Part::Pairs);
-        for place in 0..MOST_WALLS {
+        for place in 0..TankWall::MOST {
             let Some((wall, _)) = &self.walls[place] else {
                 break;
             };
             let wall = *wall;
             match wall {
-                TankWall::Floor(wall) => self.wall_forces::<S, _, N, T>(simd, wall, place, scenery),
+                TankWall::Floor(wall) | TankWall::Side(wall) => {
+                    self.wall_forces::<S, _, N, T>(simd, wall, place, scenery);
+                }
                 TankWall::Cylinder(wall) => {
                     self.wall_forces::<S, _, N, T>(simd, wall, place, scenery);
                 }
@@ -125,7 +127,7 @@ impl<H: History> Share<'_, H> {
         let mut rest = [NearPair::default(); BLOCK];
         for (pairs, histories) in blocks {
             let lanes = whole(pairs, &mut rest);
-            block.take_pairs::<S, T>(simd, lanes, histories, particles, earlier);
+            block.take_pairs::<S, N, T>(simd, lanes, histories, particles, earlier);
             block.interact(laws);
             block.remember(simd, histories);
             block.add_to_pairs::<S, T>(simd, lanes, pairs.len(), &mut self.sums);
@@ -160,7 +162,7 @@ impl<H: History> Share<'_, H> {
             let Scenery {
                 particles, earlier, ..
             } = scenery;
-            block.take_spheres::<S, T>(simd, lanes, histories, particles, earlier);
+            block.take_spheres::<S, N, T>(simd, lanes, histories, particles, earlier);
             block.interact_with_wall(wall, &scenery.laws);
             block.remember(simd, histories);
             block.add_to_spheres::<S, T>(simd, lanes, spheres.len(), &mut self.sums);

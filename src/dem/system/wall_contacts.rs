@@ -3,9 +3,6 @@
 use crate::dem::particles::Particles;
 use crate::dem::walls::{TankWall, Wall};
 
-/// Most walls that a tank has.
-pub(super) const MOST_WALLS: usize = 2;
-
 /// A sphere that may touch a wall, and its entry in the wall's list.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct NearSphere {
@@ -110,7 +107,7 @@ impl<H: Copy + Default> WallContacts<H> {
 mod tests {
     use super::*;
     use crate::dem::vector::Vector;
-    use crate::dem::walls::Floor;
+    use crate::dem::walls::Plane;
 
     fn heights(heights: &[f64]) -> Particles {
         Particles {
@@ -131,7 +128,7 @@ mod tests {
 
     #[test]
     fn histories_stay_with_their_spheres() {
-        let mut contacts = WallContacts::new(TankWall::Floor(Floor { height: 0.0 }));
+        let mut contacts = WallContacts::new(TankWall::Floor(Plane::floor(0.0)));
         contacts.find(&heights(&[0.9, 5.0, 0.9, 0.9, 5.0]), 0.1);
         assert_eq!(known(&contacts), [(0, 0), (2, 0), (3, 0)]);
         contacts.histories.copy_from_slice(&[7, 8, 9]);

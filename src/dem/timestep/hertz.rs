@@ -200,8 +200,8 @@ fn friction_limit(scene: &Scene, impact: &Impact, poisson_ratio: f64) -> Option<
     match scene.friction.as_ref()? {
         // Its stability does not depend on the step: see the range of its coefficient.
         Friction::Spin { .. } => None,
-        // Goes with the linear contact.
-        Friction::CundallStrack { .. } => None,
+        // Go with other contacts.
+        Friction::CundallStrack { .. } | Friction::Silbert { .. } => None,
         // The surfaces of two equal spheres move like a mass m_eff / (1 + 5/2).
         Friction::Coulomb {
             coefficient,

@@ -18,13 +18,14 @@ mod air;
 mod hertz;
 mod linear;
 mod overlap;
+mod silbert;
 mod standing;
 
 pub use hertz::{Impact, dissipation_time, rayleigh_time};
 pub use linear::LinearImpact;
 pub use standing::Standing;
 
-use crate::scene::{Integrator, Scene, Start, StartSphere};
+use crate::scene::{Integrator, Scene, Start, StartSphere, Tank};
 
 /// A limit of the time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +70,7 @@ pub fn fastest_impact(scene: &Scene) -> f64 {
         _ => free_fall,
     };
     let updraught = scene.updraught.as_ref().map_or(0.0, |air| air.speed.abs());
-    let wall = tank.and_then(|tank| tank.radius).unwrap_or(widest);
+    let wall = tank.and_then(farthest_wall).unwrap_or(widest);
     let swirl = scene
         .swirl
         .as_ref()
@@ -77,6 +78,13 @@ pub fn fastest_impact(scene: &Scene) -> f64 {
     [free_fall, updraught, swirl]
         .into_iter()
         .fold(start_speed, f64::max)
+}
+
+/// How far from the axis a sphere may get (m), if there are walls all around it.
+fn farthest_wall(tank: &Tank) -> Option<f64> {
+    let [x, y] = tank.reach();
+    tank.radius
+        .or(x.zip(y).map(|(x, y)| (x * x + y * y).sqrt()))
 }
 
 /// Highest centre (m), largest distance of a centre from the axis (m), and a bound on the speeds
@@ -106,7 +114,8 @@ fn extent(spheres: &[StartSphere]) -> (f64, f64, f64) {
 
 /// Duration (s) of the shortest contact the scene lets expect, if there is any.
 pub fn shortest_contact(scene: &Scene) -> Option<f64> {
-    let hertz = hertz::stiffest_impact(scene).map(|impact| impact.contact_time());
+    let hertz = hertz::stiffest_impact(scene).or_else(|| silbert::stiffest_impact(scene));
+    let hertz = hertz.map(|impact| impact.contact_time());
     hertz.or_else(|| linear::stiffest_impact(scene).map(|impact| impact.contact_time()))
 }
 
@@ -173,6 +182,7 @@ fn twelve_contacts(scheme: Scheme, frequency: f64, rate: f64) -> Limit {
 pub fn limits(scene: &Scene) -> Vec<Limit> {
     let mut limits = hertz::limits(scene);
     limits.extend(linear::limits(scene));
+    limits.extend(silbert::limits(scene));
     if scene.time.integrator == Integrator::AdaptiveVerlet {
         limits.retain(|limit| limit.name == DISPLACEMENT);
         limits.iter_mut().for_each(|limit| limit.decisive = true);

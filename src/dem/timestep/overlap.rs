@@ -2,6 +2,7 @@
 
 use crate::dem::start;
 use crate::dem::vector::Vector;
+use crate::dem::walls::{TankWall, Wall};
 use crate::scene::{Scene, Start, Tank};
 
 /// The deepest overlap (m) of two listed spheres, or of one with a wall; zero where none touch. Other
@@ -22,11 +23,10 @@ pub(super) fn deepest_at_start(scene: &Scene) -> f64 {
 }
 
 fn into_walls(tank: &Tank, (centre, radius): (Vector, f64)) -> f64 {
-    let floor = tank.floor.map(|floor| radius - (centre.z - floor));
-    let wall = tank
-        .radius
-        .map(|wall| libm::hypot(centre.x, centre.y) + radius - wall);
-    floor.into_iter().chain(wall).fold(0.0, f64::max)
+    let walls = TankWall::of_tank(tank).into_iter();
+    let contacts = walls.map(|wall| wall.contact(centre, radius));
+    let touching = contacts.filter(|contact| contact.touches);
+    touching.map(|contact| contact.overlap).fold(0.0, f64::max)
 }
 
 /// The deepest overlap of two spheres (centre and radius), which are sorted by their x.

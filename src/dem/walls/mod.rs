@@ -4,10 +4,11 @@ mod cylinder;
 mod plane;
 
 pub use cylinder::Cylinder;
-pub use plane::Floor;
+pub use plane::Plane;
 
 use super::profile::Part;
 use super::vector::Vector;
+use crate::scene::Tank;
 
 /// Where a sphere is with respect to a wall.
 #[derive(Clone, Copy, Debug)]
@@ -34,17 +35,38 @@ pub trait Wall: Copy + Send + 'static {
 #[derive(Clone, Copy, Debug)]
 pub enum TankWall {
     /// The floor.
-    Floor(Floor),
+    Floor(Plane),
     /// The cylindrical wall.
     Cylinder(Cylinder),
+    /// One of up to four sides.
+    Side(Plane),
 }
 
 impl TankWall {
+    /// Most walls that a tank has: a floor and four sides.
+    pub const MOST: usize = 5;
+
+    /// The walls of a tank, in the order in which they act.
+    pub fn of_tank(tank: &Tank) -> Vec<Self> {
+        let floor = tank.floor.map(|height| Self::Floor(Plane::floor(height)));
+        if let Some(radius) = tank.radius {
+            let cylinder = Self::Cylinder(Cylinder { radius });
+            return floor.into_iter().chain([cylinder]).collect();
+        }
+        let axes = [Vector::new(1.0, 0.0, 0.0), Vector::new(0.0, 1.0, 0.0)];
+        let sides = axes
+            .into_iter()
+            .zip(tank.reach())
+            .filter_map(|(axis, reach)| Some(Plane::sides(axis, reach?).map(Self::Side)));
+        floor.into_iter().chain(sides.flatten()).collect()
+    }
+
     /// What it is called in a profile.
     pub fn part(&self) -> Part {
         match self {
             Self::Floor(_) => Part::Floor,
             Self::Cylinder(_) => Part::Cylinder,
+            Self::Side(_) => Part::Sides,
         }
     }
 }
@@ -53,7 +75,7 @@ impl Wall for TankWall {
     #[inline(always)]
     fn contact(&self, centre: Vector, radius: f64) -> WallContact {
         match self {
-            Self::Floor(wall) => wall.contact(centre, radius),
+            Self::Floor(wall) | Self::Side(wall) => wall.contact(centre, radius),
             Self::Cylinder(wall) => wall.contact(centre, radius),
         }
     }
@@ -61,7 +83,7 @@ impl Wall for TankWall {
     #[inline(always)]
     fn is_near(&self, centre: Vector, radius: f64, margin: f64) -> bool {
         match self {
-            Self::Floor(wall) => wall.is_near(centre, radius, margin),
+            Self::Floor(wall) | Self::Side(wall) => wall.is_near(centre, radius, margin),
             Self::Cylinder(wall) => wall.is_near(centre, radius, margin),
         }
     }

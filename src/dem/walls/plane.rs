@@ -1,28 +1,53 @@
-//! The horizontal floor.
+//! A plane wall: the floor, or a side.
 
 use super::{Wall, WallContact};
 use crate::dem::vector::Vector;
 
-/// A horizontal floor.
+/// A plane, with the spheres before it.
 #[derive(Clone, Copy, Debug)]
-pub struct Floor {
-    /// Its height (m).
-    pub height: f64,
+pub struct Plane {
+    /// Unit normal into the tank.
+    pub normal: Vector,
+    /// Where it is along its normal (m).
+    pub place: f64,
 }
 
-impl Wall for Floor {
+impl Plane {
+    /// A horizontal floor at that height (m).
+    pub fn floor(height: f64) -> Self {
+        Self {
+            normal: Vector::new(0.0, 0.0, 1.0),
+            place: height,
+        }
+    }
+
+    /// The two sides across a horizontal `axis`, a unit vector, each that far (m) from the origin.
+    pub fn sides(axis: Vector, reach: f64) -> [Self; 2] {
+        [axis, -axis].map(|normal| Self {
+            normal,
+            place: -reach,
+        })
+    }
+
+    #[inline(always)]
+    fn overlap(&self, centre: Vector, radius: f64) -> f64 {
+        radius - (centre.dot(self.normal) - self.place)
+    }
+}
+
+impl Wall for Plane {
     #[inline(always)]
     fn contact(&self, centre: Vector, radius: f64) -> WallContact {
-        let overlap = radius - (centre.z - self.height);
+        let overlap = self.overlap(centre, radius);
         WallContact {
             touches: overlap > 0.0,
             overlap,
-            normal: Vector::new(0.0, 0.0, 1.0),
+            normal: self.normal,
         }
     }
 
     #[inline(always)]
     fn is_near(&self, centre: Vector, radius: f64, margin: f64) -> bool {
-        radius - (centre.z - self.height) > -margin
+        self.overlap(centre, radius) > -margin
     }
 }

@@ -167,14 +167,22 @@ fn walls(record: &RunRecord, view: View) -> Vec<Wall> {
     let Some(tank) = &record.scene.tank else {
         return Vec::new();
     };
-    let radius = tank.radius.map(|radius| MILLI * radius);
+    let reach = tank.reach().map(|reach| reach.map(|reach| MILLI * reach));
     let floor = tank.floor.map(|floor| Wall::Level(MILLI * floor));
-    let sides = |side: fn(f64) -> Wall| radius.into_iter().flat_map(move |r| [side(-r), side(r)]);
+    let sides = |axis: usize, side: fn(f64) -> Wall| {
+        let reach = reach[axis].into_iter();
+        reach.flat_map(move |reach| [side(-reach), side(reach)])
+    };
     match view {
-        View::Plane { up: 1, .. } => radius.map(Wall::Circle).into_iter().collect(),
-        View::Plane { .. } => sides(Wall::Upright).chain(floor).collect(),
+        View::Plane { up: 1, .. } if tank.radius.is_some() => {
+            reach[0].map(Wall::Circle).into_iter().collect()
+        }
+        View::Plane { across, up: 1 } => sides(across, Wall::Upright)
+            .chain(sides(1, Wall::Level))
+            .collect(),
+        View::Plane { across, .. } => sides(across, Wall::Upright).chain(floor).collect(),
         View::Time { up: 2 } => floor.into_iter().collect(),
-        View::Time { .. } => sides(Wall::Level).collect(),
+        View::Time { up } => sides(up, Wall::Level).collect(),
     }
 }
 
@@ -295,7 +303,13 @@ mod tests {
 
     #[test]
     fn walls_are_in_sight_where_spheres_come_near() {
-        let tank = |radius, floor| Some(Tank { radius, floor });
+        let tank = |radius, floor| {
+            Some(Tank {
+                radius,
+                floor,
+                ..Tank::default()
+            })
+        };
         let places = [[0.0, 0.0, 0.01], [0.03, 0.0, 0.03]];
         let sight = |tank| {
             let record = record(&places, tank);

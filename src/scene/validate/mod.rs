@@ -4,6 +4,7 @@ mod neighbours;
 mod output;
 mod silo;
 mod start;
+mod tank;
 mod time;
 
 use super::schema::SCENE;
@@ -51,6 +52,7 @@ impl Scene {
     fn check_all_but_step(&self, problems: &mut Vec<Problem>) {
         self.check_laws(problems);
         self.check_spheres(problems);
+        self.check_tank(problems);
         self.check_start(problems);
         self.check_times(problems);
         self.check_silo(problems);
@@ -86,6 +88,21 @@ impl Scene {
             problems.push(Problem::new("friction", message).help(help));
         }
         let refused = match (&self.contact, &self.friction) {
+            (Some(Contact::Silbert { .. }), Some(friction))
+                if !matches!(friction, Friction::Silbert { .. }) =>
+            {
+                Some((
+                    "this friction law does not go with the silbert contact",
+                    "use `law = \"silbert\"` here, or another law in [contact]",
+                ))
+            }
+            (
+                Some(Contact::Hertz { .. } | Contact::Linear { .. }),
+                Some(Friction::Silbert { .. }),
+            ) => Some((
+                "this friction law goes with the silbert contact only",
+                "use `law = \"silbert\"` in [contact], or another law here",
+            )),
             (
                 Some(Contact::Linear { .. }),
                 Some(Friction::Spin { .. } | Friction::Mindlin { .. }),
@@ -159,21 +176,6 @@ impl Scene {
                         .help("give one of them a share above 0"),
                 ),
             _ => {}
-        }
-        let Some(tank) = self.tank.as_ref().and_then(|tank| tank.radius) else {
-            return;
-        };
-        let largest = self.radius_range().1;
-        if largest >= tank {
-            let message = format!(
-                "spheres of radius {} m do not fit into a tank of radius {} m",
-                number(largest),
-                number(tank)
-            );
-            problems.push(
-                Problem::new("spheres.radius", message)
-                    .help("both are in metres; make the spheres smaller or `tank.radius` larger"),
-            );
         }
     }
 

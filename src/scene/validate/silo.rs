@@ -45,6 +45,10 @@ impl Scene {
                 &help,
             );
         }
+        if self.tank.as_ref().is_some_and(|tank| tank.depth.is_some()) {
+            let help = format!("remove it, {shape}");
+            refuse("tank.depth".to_owned(), "two sides stand along it", &help);
+        }
         if self.swirl.is_some() || self.updraught.is_some() {
             let path = if self.swirl.is_some() {
                 "swirl"

@@ -3,8 +3,7 @@
 use super::{plural, rounded};
 use crate::dem::start;
 use crate::document::{Problem, number};
-use crate::scene::{Scene, Start};
-use std::f64::consts::PI;
+use crate::scene::{Scene, Start, Tank};
 
 /// Largest share of the space open to the spheres that a random start may fill. Random placement
 /// one by one without overlap cannot exceed 0.384 (Zhang and Torquato, Phys. Rev. E 88, 053312
@@ -36,16 +35,17 @@ impl Scene {
             problems.push(Problem::new("start.z_min", message).help("exchange the two"));
             return;
         }
-        let Some(tank) = self.tank.as_ref().and_then(|tank| tank.radius) else {
-            let message = "a random start needs the cylinder of a tank to be in";
-            let help = "add `radius` to [tank], or list the spheres with `kind = \"list\"`";
+        let Some(area) = self.tank.as_ref().and_then(Tank::area) else {
+            let message = "a random start needs a tank with walls all around to be in";
+            let help = "add `radius`, or `width` and `depth`, to [tank], or list the spheres with `kind = \
+                        \"list\"`";
             problems.push(Problem::new("start.kind", message).help(help));
             return;
         };
-        let largest = self.radius_range().1;
-        if largest >= tank {
+        if self.misfit().is_some() {
             return;
         }
+        let largest = self.radius_range().1;
         if let Some(floor) = self.tank.as_ref().and_then(|tank| tank.floor)
             && z_min - floor < largest * (1.0 - 1e-9)
         {
@@ -58,14 +58,14 @@ impl Scene {
             let help = format!("use at least `z_min = {}`", rounded(floor + largest));
             problems.push(Problem::new("start.z_min", message).help(help));
         }
-        self.check_room(tank, z_min, z_max, problems);
+        self.check_room(area, z_min, z_max, problems);
     }
 
-    /// Whether the spheres fit between `z_min` and `z_max` in a cylinder of radius `tank`.
-    fn check_room(&self, tank: f64, z_min: f64, z_max: f64, problems: &mut Vec<Problem>) {
+    /// Whether the spheres fit between `z_min` and `z_max` within walls that enclose `area` (m2).
+    fn check_room(&self, area: f64, z_min: f64, z_max: f64, problems: &mut Vec<Problem>) {
         let radii = &self.spheres.radius;
         let volume = self.spheres.count as f64 * radii.mean_volume();
-        let height_for = |fraction: f64| volume / (fraction * PI * tank * tank);
+        let height_for = |fraction: f64| volume / (fraction * area);
         let height = z_max - z_min + 2.0 * radii.mean();
         let fraction = height_for(1.0) / height;
         let limit = match fraction {
@@ -112,11 +112,18 @@ impl Scene {
             let help = format!("use `count = {}`, or list {count}", spheres.len());
             problems.push(Problem::new("start.spheres", message).help(help));
         }
-        let tank = self.tank.as_ref();
-        let (radius, floor) = (tank.and_then(|t| t.radius), tank.and_then(|t| t.floor));
+        let tank = self.tank.clone().unwrap_or_default();
+        let (round, floor) = (tank.radius.is_some(), tank.floor);
         for (index, sphere) in spheres.iter().enumerate() {
             let [x, y, z] = sphere.position;
-            let wall = radius.is_some_and(|radius| x * x + y * y >= radius * radius);
+            let wall = match (round, tank.reach()) {
+                (true, [radius, _]) => {
+                    radius.is_some_and(|radius| x * x + y * y >= radius * radius)
+                }
+                (false, [width, depth]) => [(x, width), (y, depth)]
+                    .iter()
+                    .any(|(place, reach)| reach.is_some_and(|reach| place.abs() >= reach)),
+            };
             let below = floor.is_some_and(|floor| z <= floor);
             if wall || below {
                 let place = if wall {

@@ -11,8 +11,8 @@ use super::contacts::Among;
 use super::meeting::Loading;
 use super::wall_contacts::{NearSphere, WallContacts};
 use super::{Engine, System};
-use crate::dem::contact::{NormalLaw, contact_radius};
-use crate::dem::friction::TangentialLaw;
+use crate::dem::contact::NormalLaw;
+use crate::dem::friction::{Grip, TangentialLaw};
 use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
@@ -241,16 +241,23 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         turning: f64,
     ) -> [f64; 2] {
         let (normal, tangential) = (&self.normal, &self.tangential);
+        let effective_mass = 1.0 / yielding;
         let overlap =
-            normal.deepest_overlap(overlap, speed + gain, effective_radius, 1.0 / yielding);
-        let force = normal.force(overlap, 0.0, contact_radius(overlap, effective_radius));
+            normal.deepest_overlap(overlap, speed + gain, effective_radius, effective_mass);
+        let grip = Grip {
+            overlap,
+            effective_radius,
+            effective_mass,
+            normal_force: normal.elastic_force(overlap, effective_radius),
+            speed,
+        };
         let along = yielding + turning;
         let squared = (normal.stiffness(overlap, effective_radius) * yielding)
             .max(tangential.stiffness(overlap, effective_radius) * along);
         // Sliding that stops faster than the contact swings is not resolved: it trembles, within what
         // friction can carry.
-        let friction = (tangential.damping(force, speed) * along).min(squared.sqrt());
-        let damping = normal.damping(overlap, effective_radius) * yielding;
+        let friction = (tangential.damping(&grip) * along).min(squared.sqrt());
+        let damping = normal.damping(overlap, effective_radius, effective_mass) * yielding;
         [squared, damping.max(friction)]
     }
 

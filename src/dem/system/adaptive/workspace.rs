@@ -2,8 +2,8 @@
 
 use super::islands::{Island, Islands};
 use crate::dem::particles::Particles;
-use crate::dem::system::wall_contacts::MOST_WALLS;
 use crate::dem::vector::Vector;
+use crate::dem::walls::TankWall;
 
 /// What a sub-step may take of an island's fastest oscillation, h (w + g) with angular frequency w and
 /// damping rate g: an impact then lasts 27 sub-steps or more.
@@ -54,7 +54,7 @@ pub(super) struct Start<H> {
     pub(super) force: Vec<Vector>,
     pub(super) torque: Vec<Vector>,
     pub(super) pair_history: Vec<H>,
-    pub(super) wall_history: [Vec<H>; MOST_WALLS],
+    pub(super) wall_history: [Vec<H>; TankWall::MOST],
 }
 
 impl<H: Copy> Start<H> {
