@@ -37,10 +37,19 @@ impl Columns {
 
     /// Fills the columns from `at` on, as many lanes as rows are turned at once.
     #[inline(always)]
-    pub(in crate::dem) fn fill_from<S: Simd>(&mut self, at: usize, row: impl Fn(usize) -> f64x4<S>) {
-        let (a, b, c, d) = (row(at), row(at + 1), row(at + 2), row(at + 3));
-        let (e, f, g, h) = (row(at + 4), row(at + 5), row(at + 6), row(at + 7));
-        self.put(at, [a, b, c, d, e, f, g, h]);
+    pub(in crate::dem) fn fill_from<S: Simd>(
+        &mut self,
+        at: usize,
+        row: impl Fn(usize) -> f64x4<S>,
+    ) {
+        let [x, y, z] = turned(
+            #[inline(always)]
+            |k| row(at + k),
+        );
+        let [first, second, third] = &mut self.0;
+        x.store_slice(&mut first[at..at + ROWS]);
+        y.store_slice(&mut second[at..at + ROWS]);
+        z.store_slice(&mut third[at..at + ROWS]);
     }
 
     /// The vector of a lane.
@@ -48,35 +57,6 @@ impl Columns {
     pub(in crate::dem) fn vector(&self, k: usize) -> Vector {
         let [x, y, z] = &self.0;
         Vector::new(x[k], y[k], z[k])
-    }
-
-    /// Puts rows into their places, from `at` on; without the fourth numbers.
-    #[inline(always)]
-    pub(in crate::dem) fn put<S: Simd>(&mut self, at: usize, rows: [f64x4<S>; ROWS]) {
-        let [first, second, third] = &mut self.0;
-        let (first, second, third) = (
-            &mut first[at..at + ROWS],
-            &mut second[at..at + ROWS],
-            &mut third[at..at + ROWS],
-        );
-        let [a, b, c, d, e, f, g, h] = rows;
-        if <S::f64s as SimdBase<S>>::LEN < ROWS {
-            let [x, y, z, _] = transpose([a, b, c, d]);
-            let [u, v, w, _] = transpose([e, f, g, h]);
-            x.store_slice(&mut first[..4]);
-            u.store_slice(&mut first[4..]);
-            y.store_slice(&mut second[..4]);
-            v.store_slice(&mut second[4..]);
-            z.store_slice(&mut third[..4]);
-            w.store_slice(&mut third[4..]);
-        } else {
-            let (ab, cd, ef, gh) = (a.combine(b), c.combine(d), e.combine(f), g.combine(h));
-            let (even, more_even) = (ab.unzip_low(cd), ef.unzip_low(gh));
-            let (odd, more_odd) = (ab.unzip_high(cd), ef.unzip_high(gh));
-            even.unzip_low(more_even).store_slice(first);
-            odd.unzip_low(more_odd).store_slice(second);
-            even.unzip_high(more_even).store_slice(third);
-        }
     }
 
     /// The rows from `at` on; their fourth numbers mean nothing.
@@ -91,10 +71,18 @@ impl Columns {
         if <S::f64s as SimdBase<S>>::LEN < ROWS {
             let four = |column: &[f64]| f64x4::from_slice(simd, column);
             let zero = f64x4::splat(simd, 0.0);
-            let [a, b, c, d] =
-                transpose([four(&first[..4]), four(&second[..4]), four(&third[..4]), zero]);
-            let [e, f, g, h] =
-                transpose([four(&first[4..]), four(&second[4..]), four(&third[4..]), zero]);
+            let [a, b, c, d] = transpose([
+                four(&first[..4]),
+                four(&second[..4]),
+                four(&third[..4]),
+                zero,
+            ]);
+            let [e, f, g, h] = transpose([
+                four(&first[4..]),
+                four(&second[4..]),
+                four(&third[4..]),
+                zero,
+            ]);
             [a, b, c, d, e, f, g, h]
         } else {
             let eight = |column: &[f64]| f64x8::from_slice(simd, column);
@@ -111,8 +99,29 @@ impl Columns {
     }
 }
 
-/// Four rows as columns. Spelled out, as closures given to array methods would be calls of functions that
-/// are compiled without these vectors.
+/// Rows as columns, without their fourth numbers. Spelled out, as closures given to array methods would be
+/// calls of functions that are compiled without these vectors.
+#[inline(always)]
+pub(in crate::dem) fn turned<S: Simd>(row: impl Fn(usize) -> f64x4<S>) -> [f64x8<S>; 3] {
+    let (a, b, c, d) = (row(0), row(1), row(2), row(3));
+    let (e, f, g, h) = (row(4), row(5), row(6), row(7));
+    if <S::f64s as SimdBase<S>>::LEN < ROWS {
+        let [x, y, z, _] = transpose([a, b, c, d]);
+        let [u, v, w, _] = transpose([e, f, g, h]);
+        [x.combine(u), y.combine(v), z.combine(w)]
+    } else {
+        let (ab, cd, ef, gh) = (a.combine(b), c.combine(d), e.combine(f), g.combine(h));
+        let (even, more_even) = (ab.unzip_low(cd), ef.unzip_low(gh));
+        let (odd, more_odd) = (ab.unzip_high(cd), ef.unzip_high(gh));
+        [
+            even.unzip_low(more_even),
+            odd.unzip_low(more_odd),
+            even.unzip_high(more_even),
+        ]
+    }
+}
+
+/// Four rows as columns.
 #[inline(always)]
 fn transpose<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
     let (ac, bd) = (a.interleave(c), b.interleave(d));

@@ -28,7 +28,6 @@ impl SilbertFriction {
             damping,
         }
     }
-
 }
 
 impl TangentialLaw for SilbertFriction {

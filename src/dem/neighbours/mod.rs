@@ -16,6 +16,7 @@ mod few;
 mod hash;
 mod near;
 mod search;
+mod shield;
 
 pub use near::{Near, NearPair};
 

@@ -9,6 +9,7 @@
 //! number, and then written or counted one by one without a branch.
 
 use super::anchor::{Allowance, Anchor};
+use super::shield::Shield;
 use super::{Particles, VerletList};
 use crate::dem::block::{BLOCK, Column, Columns, row};
 use crate::dem::particles::retain;
@@ -47,10 +48,8 @@ pub struct Near {
     anchor: Anchor,
     half_diagonal: f64,
     pairs: Vec<NearPair>,
-    /// Pairs whose part in the shield must be looked at in every step.
-    undecided: Vec<[u32; 2]>,
-    /// Spheres that shield each one, of the pairs that are decided.
-    shielding: Vec<u32>,
+    /// The part of all pairs in the shield.
+    shielding: Shield,
     glance: Box<Glance>,
 }
 
@@ -65,8 +64,7 @@ impl Near {
             anchor: Anchor::default(),
             half_diagonal: 0.0,
             pairs: Vec::new(),
-            undecided: Vec::new(),
-            shielding: Vec::new(),
+            shielding: Shield::default(),
             glance: Box::new(Glance::new()),
         }
     }
@@ -194,8 +192,13 @@ impl Near {
     #[inline(always)]
     fn find<S: Simd>(&mut self, simd: S, list: &VerletList, particles: &Particles) {
         let (mut near, mut open) = (0, 0);
-        self.shielding.clear();
-        self.shielding.resize(particles.len(), 0);
+        let Shield {
+            counts,
+            pairs: undecided,
+            ..
+        } = &mut self.shielding;
+        counts.clear();
+        counts.resize(particles.len(), 0);
         let glance = &mut *self.glance;
         let blocks = list
             .owner()
@@ -208,8 +211,8 @@ impl Near {
             glance.classify(self.margin);
             // A pair is always written, and kept only if it belongs there.
             make_room(&mut self.pairs, near);
-            make_room(&mut self.undecided, open);
-            let (pairs, undecided) = (&mut self.pairs[near..], &mut self.undecided[open..]);
+            make_room(undecided, open);
+            let (pairs, undecided) = (&mut self.pairs[near..], &mut undecided[open..]);
             let (mut kept, mut left) = (0, 0);
             for (k, (&i, &j)) in owners.iter().zip(partners).enumerate() {
                 let facts = glance.facts[k];
@@ -218,45 +221,25 @@ impl Near {
                 undecided[left] = [i, j];
                 kept += has(facts, NEAR) as usize;
                 left += has(facts, UNDECIDED) as usize;
-                self.shielding[i as usize] += has(facts, SHIELDS_FIRST);
-                self.shielding[j as usize] += has(facts, SHIELDS_SECOND);
+                counts[i as usize] += has(facts, SHIELDS_FIRST);
+                counts[j as usize] += has(facts, SHIELDS_SECOND);
             }
             near += kept;
             open += left;
         }
         self.pairs.truncate(if self.contacts { near } else { 0 });
-        // Whole blocks, filled up with a sphere that does not shield itself.
-        self.undecided.truncate(open);
-        let blocks = if self.shield { open.div_ceil(BLOCK) } else { 0 };
-        self.undecided.resize(blocks * BLOCK, [0; 2]);
+        self.shielding.begin(if self.shield { open } else { 0 });
     }
 
     /// Counts the spheres that shield each one at the present positions.
-    pub(in crate::dem) fn count_shielding(
-        &mut self,
-        level: Level,
-        particles: &Particles,
-        shielding: &mut [u32],
-    ) {
-        fearless_simd::dispatch!(level, simd => self.count(simd, particles, shielding));
+    pub(in crate::dem) fn count_shielding(&mut self, level: Level, particles: &Particles) {
+        self.shielding
+            .count(level, particles, self.glance.common_radius);
     }
 
-    #[inline(always)]
-    fn count<S: Simd>(&mut self, simd: S, particles: &Particles, shielding: &mut [u32]) {
-        shielding.copy_from_slice(&self.shielding);
-        let glance = &mut *self.glance;
-        for pairs in self.undecided.chunks_exact(BLOCK) {
-            for k in 0..BLOCK {
-                [glance.index[0][k], glance.index[1][k]] = pairs[k];
-            }
-            glance.gather(simd, particles);
-            glance.look();
-            for k in 0..BLOCK {
-                let [i, j] = pairs[k];
-                shielding[i as usize] += has(glance.facts[k], SHIELDS_FIRST);
-                shielding[j as usize] += has(glance.facts[k], SHIELDS_SECOND);
-            }
-        }
+    /// The latest counts, where spheres shield one another.
+    pub fn shielding(&self) -> &[u32] {
+        &self.shielding.counts
     }
 }
 
@@ -348,18 +331,6 @@ impl Glance {
                 | bit(!decided, UNDECIDED)
                 | bit(decided & first, SHIELDS_FIRST)
                 | bit(decided & second, SHIELDS_SECOND);
-        }
-    }
-
-    /// What is so now.
-    #[inline(always)]
-    fn look(&mut self) {
-        let ([x, y, z], [ri, rj]) = (&self.offset.0, &self.radius);
-        for k in 0..BLOCK {
-            let (dx, dy, dz) = (x[k].abs(), y[k].abs(), z[k]);
-            let within = |diameter: f64| (dx < diameter) & (dy < diameter);
-            self.facts[k] = bit(within(2.0 * ri[k]) & (dz > 0.0), SHIELDS_FIRST)
-                | bit(within(2.0 * rj[k]) & (dz < 0.0), SHIELDS_SECOND);
         }
     }
 }

@@ -289,8 +289,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         } = encounter;
         let Couple { velocity, spin, .. } = *couple;
         let approach = -velocity.dot(normal);
-        let normal_force =
-            (self.normal).force(overlap, approach, contact_radius, effective_mass);
+        let normal_force = (self.normal).force(overlap, approach, contact_radius, effective_mass);
         let mut force = normal * normal_force;
         if N::DRAGS_SIDEWAYS {
             force -= (velocity + normal * approach) * self.normal.sideways_drag();

@@ -129,7 +129,6 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     alike: Option<Solid>,
     block: Box<PairBlock<T::History>>,
     bodies: Box<Bodies>,
-    shielding: Vec<u32>,
     /// The walls, and what may touch them.
     walls: Vec<WallContacts<T::History>>,
     /// Histories of near pairs. A law without history has one of no size, and these take no memory.
@@ -180,7 +179,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             alike: Self::alike(&parts.particles),
             block: Box::new(PairBlock::new()),
             bodies: Box::new(Bodies::new()),
-            shielding: vec![0; if parts.shielded { count } else { 0 }],
             walls: parts.walls.iter().copied().map(WallContacts::new).collect(),
             pair_history: Vec::new(),
             division: None,
@@ -221,7 +219,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     fn apply_effects(&mut self) {
         if self.parts.shielded {
             let (near, particles) = (&mut self.near, &self.parts.particles);
-            near.count_shielding(self.level, particles, &mut self.shielding);
+            near.count_shielding(self.level, particles);
             self.mark(Part::Shield);
         }
         let effects = self.parts.effects.len();
@@ -237,7 +235,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let before = [particles.force.clone(), particles.torque.clone()];
         self.act(potential..effects);
         if let Some(ledger) = &mut self.ledger {
-            ledger.books.note_air([&before[0], &before[1]], &self.parts.particles);
+            ledger
+                .books
+                .note_air([&before[0], &before[1]], &self.parts.particles);
         }
     }
 
@@ -257,7 +257,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             bodies.take(self.level, particles, first, turn);
             profile::mark(&mut self.profile, Part::Rest);
             for effect in effects.iter_mut() {
-                effect.apply(self.level, bodies, &self.shielding);
+                effect.apply(self.level, bodies, self.near.shielding());
                 profile::mark(&mut self.profile, effect.part());
             }
             bodies.give(self.level, particles, turn);

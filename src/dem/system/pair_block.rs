@@ -8,8 +8,8 @@ use super::meeting::{Couple, Earlier, Laws, Meeting, Roots, Solid};
 use super::wall_contacts::NearSphere;
 use crate::dem::block::{BLOCK, Column, Columns, ROWS, Row, row};
 use crate::dem::contact::NormalLaw;
-use crate::dem::math::inverse_square_root;
 use crate::dem::friction::{History, Spring, TangentialLaw};
+use crate::dem::math::inverse_square_root;
 use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
@@ -43,7 +43,11 @@ impl Solids {
 
     /// Fetches it of the sphere of every lane.
     #[inline(always)]
-    fn take<N: NormalLaw, T: TangentialLaw>(&mut self, particles: &Particles, sphere: impl Fn(usize) -> u32) {
+    fn take<N: NormalLaw, T: TangentialLaw>(
+        &mut self,
+        particles: &Particles,
+        sphere: impl Fn(usize) -> u32,
+    ) {
         for k in 0..BLOCK {
             self.radius[k] = particles.radius[sphere(k) as usize];
         }
@@ -148,7 +152,11 @@ impl<H: History> PairBlock<H> {
         // Of one length, so that an index is checked once.
         let spheres = particles.position.len();
         let (position, velocity) = (&particles.position[..], &particles.velocity[..spheres]);
-        let spin = if T::ROTATES { &particles.spin[..spheres] } else { position };
+        let spin = if T::ROTATES {
+            &particles.spin[..spheres]
+        } else {
+            position
+        };
         let [first_spin, second_spin] = &mut self.spin;
         for at in (0..BLOCK).step_by(ROWS) {
             self.offset.fill_from::<S>(
@@ -226,7 +234,15 @@ impl<H: History> PairBlock<H> {
         } else {
             self.spring.fill::<S>(
                 #[inline(always)]
-                |k| histories.get(k).copied().unwrap_or_default().spring().force.simd(simd),
+                |k| {
+                    histories
+                        .get(k)
+                        .copied()
+                        .unwrap_or_default()
+                        .spring()
+                        .force
+                        .simd(simd)
+                },
             );
         }
     }

@@ -1,0 +1,94 @@
+//! Who shields whom from below: what is known for some steps, and the pairs that must be looked at in each.
+
+use super::Particles;
+use crate::dem::block::{ROWS, row, turned};
+use fearless_simd::{Level, Simd, SimdBase, SimdFloat, SimdMask, f64x8};
+
+/// The count of spheres that shield each one, kept up with the pairs whose part in it may change. From one step
+/// to the next few do: what is found is compared with what was, and only what differs is counted.
+#[derive(Default)]
+pub(super) struct Shield {
+    /// Spheres that shield each one.
+    pub(super) counts: Vec<u32>,
+    /// Undecided pairs; whole groups, filled up with a sphere that does not shield itself.
+    pub(super) pairs: Vec<[u32; 2]>,
+    /// Of every group of pairs, as bits: whose second sphere shields the first, and whose first the second,
+    /// as far as `counts` has it.
+    shields: Vec<[u64; 2]>,
+}
+
+impl Shield {
+    /// Begins anew with pairs, so many of those in `pairs`, that `counts` has nothing of.
+    pub(super) fn begin(&mut self, pairs: usize) {
+        self.pairs.truncate(pairs);
+        let groups = pairs.div_ceil(ROWS);
+        self.pairs.resize(groups * ROWS, [0; 2]);
+        self.shields.clear();
+        self.shields.resize(groups, [0; 2]);
+    }
+
+    /// Counts what is so at the present positions; all spheres have the same radius (m), if one is given.
+    pub(super) fn count(
+        &mut self,
+        level: Level,
+        particles: &Particles,
+        common_radius: Option<f64>,
+    ) {
+        fearless_simd::dispatch!(level, simd => self.count_all(simd, particles, common_radius));
+    }
+
+    #[inline(always)]
+    fn count_all<S: Simd>(&mut self, simd: S, particles: &Particles, common_radius: Option<f64>) {
+        let position = &particles.position[..];
+        let groups = self.pairs.chunks_exact(ROWS).zip(&mut self.shields);
+        for (pairs, shields) in groups {
+            let [dx, dy, dz] = turned::<S>(
+                #[inline(always)]
+                |k| row(simd, position, pairs[k][0]) - row(simd, position, pairs[k][1]),
+            );
+            let (dx, dy) = (dx.abs(), dy.abs());
+            let within = |diameter: f64x8<S>| dx.simd_lt(diameter) & dy.simd_lt(diameter);
+            let (first, second) = match common_radius {
+                Some(radius) => {
+                    let within = within(f64x8::splat(simd, 2.0 * radius));
+                    (within, within)
+                }
+                None => {
+                    let diameter = |side: usize| -> [f64; ROWS] {
+                        std::array::from_fn(|k| 2.0 * particles.radius[pairs[k][side] as usize])
+                    };
+                    (
+                        within(f64x8::from_slice(simd, &diameter(0))),
+                        within(f64x8::from_slice(simd, &diameter(1))),
+                    )
+                }
+            };
+            let zero = f64x8::splat(simd, 0.0);
+            let now = [
+                (first & zero.simd_lt(dz)).to_bitmask(),
+                (second & dz.simd_lt(zero)).to_bitmask(),
+            ];
+            if now != *shields {
+                note(&mut self.counts, pairs, *shields, now);
+                *shields = now;
+            }
+        }
+    }
+}
+
+/// Notes what has changed in a group of pairs.
+#[cold]
+fn note(counts: &mut [u32], pairs: &[[u32; 2]], before: [u64; 2], now: [u64; 2]) {
+    for side in [0, 1] {
+        let mut changed = before[side] ^ now[side];
+        while changed != 0 {
+            let k = changed.trailing_zeros() as usize;
+            let count = &mut counts[pairs[k][side] as usize];
+            match now[side] >> k & 1 {
+                1 => *count += 1,
+                _ => *count -= 1,
+            }
+            changed &= changed - 1;
+        }
+    }
+}
