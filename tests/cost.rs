@@ -64,7 +64,7 @@ fn the_total_is_what_a_run_takes() {
 fn what_a_scene_does_not_have_costs_nothing() {
     let whole = RunCost::measure(&realistic(0.1), LONG).unwrap();
     for part in Part::ALL {
-        let absent = matches!(part, Part::Ledger | Part::Process);
+        let absent = matches!(part, Part::Ledger | Part::Process | Part::Sides);
         assert_eq!(part.is_in(&whole.record.scene), !absent, "{part:?}");
         assert_eq!(whole.seconds(part) == 0.0, absent, "{part:?}");
     }
@@ -77,7 +77,12 @@ fn what_a_scene_does_not_have_costs_nothing() {
     for part in Part::ALL {
         let absent = matches!(
             part,
-            Part::Updraught | Part::Shield | Part::SpinDamping | Part::Floor | Part::Process
+            Part::Updraught
+                | Part::Shield
+                | Part::SpinDamping
+                | Part::Floor
+                | Part::Sides
+                | Part::Process
         );
         assert_eq!(part.is_in(&scene), !absent, "{part:?}");
         assert_eq!(cost.seconds(part) == 0.0, absent, "{part:?}");
