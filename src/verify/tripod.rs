@@ -3,7 +3,7 @@
 use super::bench::{Bench, Material, at, downward};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
-use crate::dem::contact::{Hertz, NormalLaw, contact_radius};
+use crate::dem::contact::{Hertz, NormalLaw};
 use crate::dem::vector::Vector;
 use crate::scene::{Scene, Tank};
 use serde::Deserialize;

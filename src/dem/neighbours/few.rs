@@ -3,7 +3,7 @@
 
 use super::Reach;
 use crate::dem::particles::Particles;
-use fearless_simd::{Level, Simd, SimdBase, SimdFloat, SimdMask, f64x8};
+use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
 /// As many spheres are few.
 pub(super) const FEW: usize = 1024;

@@ -2,7 +2,7 @@
 
 use super::Particles;
 use crate::dem::block::{ROWS, row, turned};
-use fearless_simd::{Level, Simd, SimdBase, SimdFloat, SimdMask, f64x8};
+use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
 /// The count of spheres that shield each one, kept up with the pairs whose part in it may change. From one step
 /// to the next few do: what is found is compared with what was, and only what differs is counted.

@@ -12,7 +12,7 @@ use crate::dem::profile::{self, Part};
 use crate::dem::vector::Vector;
 use crate::record::Instability;
 use crate::scene::Integrator;
-use fearless_simd::{Level, Simd, SimdBase, SimdFloat, SimdMask, f64x4, mask64x4};
+use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x4, mask64x4};
 
 /// Velocities and spins before forces foretell them.
 #[derive(Default)]

@@ -157,7 +157,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     const REMEMBERS: bool = size_of::<T::History>() > 0;
 
     pub(in crate::dem) fn new(normal: N, tangential: T, parts: Parts) -> Self {
-        let count = parts.particles.len();
         let reach = if parts.shielded {
             Reach::Column
         } else {
