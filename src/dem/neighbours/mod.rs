@@ -21,10 +21,11 @@ pub use near::{Near, NearPair};
 use self::anchor::Anchor;
 use self::search::Search;
 use super::particles::Particles;
+use super::threads::in_parallel;
 use super::vector::Vector;
 use crate::scene::Neighbours;
 
-pub use self::anchor::Allowance;
+pub use self::anchor::{Allowance, Reference};
 
 /// Which pairs a list must hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,6 +59,8 @@ pub struct VerletList {
     /// list holds contacts alone.
     half_diagonal: f64,
     search: Search,
+    /// Whether spheres are sorted in memory by cells of about the search's.
+    sorted: bool,
     builds: u64,
     /// Whether spheres came, went or changed places since the build.
     outdated: bool,
@@ -79,8 +82,18 @@ impl VerletList {
             anchor: Anchor::default(),
             half_diagonal: 0.0,
             search: Search::new(neighbours),
+            sorted: false,
             builds: 0,
             outdated: false,
+        }
+    }
+
+    /// A list of many spheres, which are sorted in memory: those of a cell are then at hand without
+    /// copies, which would take memory.
+    pub fn of_sorted(self) -> Self {
+        Self {
+            sorted: true,
+            ..self
         }
     }
 
@@ -154,23 +167,32 @@ impl VerletList {
         }
     }
 
-    /// Builds the list anew for the present positions, which must be finite.
-    pub fn build(&mut self, particles: &Particles) {
+    /// Builds the list anew for the present positions, which must be finite, on so many threads of the
+    /// pool that runs this.
+    pub fn build(&mut self, particles: &Particles, threads: usize) {
         let count = particles.len();
         let largest = particles.largest_radius();
         let columns = self.reach == Reach::Column;
         self.search
-            .fill(particles, 2.0 * largest + self.skin, columns);
+            .fill(particles, 2.0 * largest + self.skin, columns, !self.sorted);
         self.start.clear();
         self.neighbour.clear();
         self.owner.clear();
         self.start.push(0);
-        for i in 0..count {
-            let first = self.neighbour.len();
-            self.find_partners(i, particles);
-            self.neighbour[first..].sort_unstable();
-            self.start.push(self.neighbour.len() as u32);
-            self.owner.resize(self.neighbour.len(), i as u32);
+        if threads == 1 {
+            for i in 0..count {
+                let first = self.neighbour.len();
+                let found = &mut self.neighbour;
+                find_partners(self.reach, self.skin, &self.search, i, particles, found);
+                self.neighbour[first..].sort_unstable();
+                self.start.push(self.neighbour.len() as u32);
+                self.owner.resize(self.neighbour.len(), i as u32);
+            }
+        } else {
+            self.find_on_threads(particles, threads);
+        }
+        if self.sorted {
+            self.search.forget();
         }
         self.anchor.drop(particles);
         self.half_diagonal = match self.reach {
@@ -181,30 +203,60 @@ impl VerletList {
         self.outdated = false;
     }
 
-    /// Lists the partners of sphere `i` that come after it, in no order.
-    fn find_partners(&mut self, i: usize, particles: &Particles) {
-        let (centre, radius) = (particles.position[i], particles.radius[i]);
-        let first = particles.first_partner(i) as u32;
-        let (skin, found) = (self.skin, &mut self.neighbour);
-        match self.reach {
-            Reach::Contact => self
-                .search
-                .near(i, particles, |j, position: Vector, other| {
-                    let distance = radius + skin + other;
-                    let offset = position - centre;
-                    if j >= first && offset.norm_squared() < distance * distance {
-                        found.push(j);
-                    }
-                }),
-            Reach::Column => self
-                .search
-                .near(i, particles, |j, position: Vector, other| {
-                    let distance = 2.0 * radius.max(other) + skin;
-                    let offset = position - centre;
-                    if j >= first && offset.x.abs() < distance && offset.y.abs() < distance {
-                        found.push(j);
-                    }
-                }),
+    /// Finds the partners of all spheres, those of as many by each thread.
+    fn find_on_threads(&mut self, particles: &Particles, threads: usize) {
+        let count = particles.len();
+        // In each part the spheres, all their partners, and where those of each end.
+        let part = |k: usize| {
+            let spheres = count * k / threads..count * (k + 1) / threads;
+            (spheres, Vec::new(), Vec::new())
+        };
+        let mut parts: Vec<_> = (0..threads).map(part).collect();
+        in_parallel(&mut parts, &|(spheres, partners, ends)| {
+            for i in spheres.clone() {
+                let first = partners.len();
+                find_partners(self.reach, self.skin, &self.search, i, particles, partners);
+                partners[first..].sort_unstable();
+                ends.push(partners.len() as u32);
+            }
+        });
+        for (spheres, partners, ends) in parts {
+            let first = self.neighbour.len();
+            self.neighbour.extend(partners);
+            for (i, end) in spheres.zip(ends) {
+                let end = first + end as usize;
+                self.start.push(end as u32);
+                self.owner.resize(end, i as u32);
+            }
         }
+    }
+}
+
+/// Lists the partners of sphere `i` that come after it, in no order.
+fn find_partners(
+    reach: Reach,
+    skin: f64,
+    search: &Search,
+    i: usize,
+    particles: &Particles,
+    found: &mut Vec<u32>,
+) {
+    let (centre, radius) = (particles.position[i], particles.radius[i]);
+    let first = particles.first_partner(i) as u32;
+    match reach {
+        Reach::Contact => search.near(i, particles, |j, position: Vector, other| {
+            let distance = radius + skin + other;
+            let offset = position - centre;
+            if j >= first && offset.norm_squared() < distance * distance {
+                found.push(j);
+            }
+        }),
+        Reach::Column => search.near(i, particles, |j, position: Vector, other| {
+            let distance = 2.0 * radius.max(other) + skin;
+            let offset = position - centre;
+            if j >= first && offset.x.abs() < distance && offset.y.abs() < distance {
+                found.push(j);
+            }
+        }),
     }
 }

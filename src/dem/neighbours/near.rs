@@ -12,6 +12,7 @@ use super::anchor::{Allowance, Anchor};
 use super::{Particles, VerletList};
 use crate::dem::block::{BLOCK, Column, Columns};
 use crate::dem::particles::retain;
+use crate::dem::threads::in_parallel;
 use crate::dem::vector::Vector;
 use fearless_simd::{Level, Simd};
 use std::ops::Range;
@@ -52,6 +53,8 @@ pub struct Near {
     /// Spheres that shield each one, of the pairs that are decided.
     shielding: Vec<u32>,
     glance: Box<Glance>,
+    /// What other threads look for their part of the pairs with.
+    helpers: Vec<Near>,
 }
 
 impl Near {
@@ -68,6 +71,7 @@ impl Near {
             undecided: Vec::new(),
             shielding: Vec::new(),
             glance: Box::new(Glance::new()),
+            helpers: Vec::new(),
         }
     }
 
@@ -178,29 +182,72 @@ impl Near {
         self.margin = self.margin.clamp(least, least.max(0.5 * skin));
     }
 
-    /// Makes the list anew from a valid Verlet list.
+    /// Makes the list anew from a valid Verlet list, on so many threads of the pool that runs this.
     pub(in crate::dem) fn refresh(
         &mut self,
         level: Level,
         list: &VerletList,
         particles: &Particles,
+        threads: usize,
     ) {
-        self.glance.note_radii(&particles.radius);
-        fearless_simd::dispatch!(level, simd => self.find(simd, list, particles));
+        let entries = list.pairs();
+        if threads == 1 || self.shield {
+            self.find_among(level, list, particles, 0..entries);
+        } else {
+            let mut helpers = std::mem::take(&mut self.helpers);
+            helpers.resize_with(threads - 1, || Self::new(self.contacts, false, 0.0));
+            for helper in &mut helpers {
+                helper.margin = self.margin;
+            }
+            let all = std::iter::once(&mut *self).chain(&mut helpers);
+            let mut all: Vec<_> = (0..threads).zip(all).collect();
+            in_parallel(&mut all, &|(k, near)| {
+                let part = entries * *k / threads..entries * (*k + 1) / threads;
+                near.find_among(level, list, particles, part);
+            });
+            for helper in &mut helpers {
+                let first = self.pairs.len() as u32;
+                let pairs = helper.pairs.drain(..);
+                self.pairs.extend(pairs.map(|pair| NearPair {
+                    entry: first + pair.entry,
+                    ..pair
+                }));
+            }
+            self.helpers = helpers;
+        }
         self.anchor.drop(particles);
         self.half_diagonal = list.half_diagonal;
     }
 
+    /// Finds the near ones among these entries of the list.
+    fn find_among(
+        &mut self,
+        level: Level,
+        list: &VerletList,
+        particles: &Particles,
+        entries: Range<usize>,
+    ) {
+        self.glance.note_radii(&particles.radius);
+        fearless_simd::dispatch!(level, simd => self.find(simd, list, particles, entries));
+    }
+
     #[inline(always)]
-    fn find<S: Simd>(&mut self, simd: S, list: &VerletList, particles: &Particles) {
+    fn find<S: Simd>(
+        &mut self,
+        simd: S,
+        list: &VerletList,
+        particles: &Particles,
+        entries: Range<usize>,
+    ) {
+        let shield = self.shield;
         let (mut near, mut open) = (0, 0);
         self.shielding.clear();
-        self.shielding.resize(particles.len(), 0);
+        self.shielding
+            .resize(if shield { particles.len() } else { 0 }, 0);
         let glance = &mut *self.glance;
-        let blocks = list
-            .owner()
+        let blocks = list.owner()[entries.clone()]
             .chunks(BLOCK)
-            .zip(list.neighbour().chunks(BLOCK));
+            .zip(list.neighbour()[entries].chunks(BLOCK));
         for (owners, partners) in blocks {
             glance.index[0][..owners.len()].copy_from_slice(owners);
             glance.index[1][..owners.len()].copy_from_slice(partners);
@@ -218,8 +265,10 @@ impl Near {
                 undecided[left] = [i, j];
                 kept += has(facts, NEAR) as usize;
                 left += has(facts, UNDECIDED) as usize;
-                self.shielding[i as usize] += has(facts, SHIELDS_FIRST);
-                self.shielding[j as usize] += has(facts, SHIELDS_SECOND);
+                if shield {
+                    self.shielding[i as usize] += has(facts, SHIELDS_FIRST);
+                    self.shielding[j as usize] += has(facts, SHIELDS_SECOND);
+                }
             }
             near += kept;
             open += left;
@@ -264,7 +313,8 @@ impl Near {
 #[inline(always)]
 fn make_room<P: Copy + Default>(list: &mut Vec<P>, from: usize) {
     if list.len() < from + BLOCK + 1 {
-        list.resize(2 * from + BLOCK + 1, P::default());
+        // Not twice as much: what a large list does not need in the end is memory too.
+        list.resize(from + from / 8 + 4 * BLOCK, P::default());
     }
 }
 

@@ -162,7 +162,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         };
         let interact = N::ACTS || parts.shielded;
         Self {
-            list: interact.then(|| VerletList::new(reach, parts.skin, parts.neighbours)),
+            list: interact.then(|| {
+                let list = VerletList::new(reach, parts.skin, parts.neighbours);
+                if parts.sorted { list.of_sorted() } else { list }
+            }),
             stale: true,
             near: Near::new(N::ACTS, parts.shielded, 0.3 * parts.skin),
             age: Age::default(),
