@@ -52,7 +52,7 @@ pub struct VerletList {
     /// Entries of sphere i are `start[i]..start[i + 1]`.
     start: Vec<u32>,
     neighbour: Vec<u32>,
-    /// The sphere whose entry it is, of every entry.
+    /// The sphere whose entry it is, of every entry; none in a list of many spheres, where memory counts.
     owner: Vec<u32>,
     anchor: Anchor,
     /// Half the diagonal of the largest sphere's shielding box, plus the skin (m); zero if the
@@ -149,10 +149,32 @@ impl VerletList {
         &self.neighbour
     }
 
-    /// The sphere of each entry, of lower index than the partner.
-    #[inline]
-    pub fn owner(&self) -> &[u32] {
-        &self.owner
+    /// The sphere of an entry.
+    pub(super) fn owner_of(&self, entry: usize) -> usize {
+        let before = self.start.partition_point(|&start| start as usize <= entry);
+        before.saturating_sub(1)
+    }
+
+    /// The spheres of the entries from `first` on, all of lower index than the partners. `owner` is the first of
+    /// them, or an earlier one, and then the last.
+    #[inline(always)]
+    pub(super) fn fill_owners(&self, first: usize, owner: &mut usize, owners: &mut [u32]) {
+        if !self.sorted {
+            owners.copy_from_slice(&self.owner[first..first + owners.len()]);
+            return;
+        }
+        let (mut i, mut at) = (*owner, 0);
+        while at < owners.len() {
+            let end = (self.start[i + 1] as usize).saturating_sub(first);
+            let until = end.clamp(at, owners.len());
+            for slot in &mut owners[at..until] {
+                *slot = i as u32;
+            }
+            at = until;
+            i += 1;
+        }
+        // More of the last one's may follow.
+        *owner = i - 1;
     }
 
     /// Widens or narrows the skin after a list that held for this many steps.
@@ -179,14 +201,16 @@ impl VerletList {
         self.neighbour.clear();
         self.owner.clear();
         self.start.push(0);
-        if threads == 1 {
+        if threads == 1 || !self.sorted {
             for i in 0..count {
                 let first = self.neighbour.len();
                 let found = &mut self.neighbour;
                 find_partners(self.reach, self.skin, &self.search, i, particles, found);
                 self.neighbour[first..].sort_unstable();
                 self.start.push(self.neighbour.len() as u32);
-                self.owner.resize(self.neighbour.len(), i as u32);
+                if !self.sorted {
+                    self.owner.resize(self.neighbour.len(), i as u32);
+                }
             }
         } else {
             self.find_on_threads(particles, threads);
@@ -220,14 +244,11 @@ impl VerletList {
                 ends.push(partners.len() as u32);
             }
         });
-        for (spheres, partners, ends) in parts {
+        for (_, partners, ends) in parts {
             let first = self.neighbour.len();
             self.neighbour.extend(partners);
-            for (i, end) in spheres.zip(ends) {
-                let end = first + end as usize;
-                self.start.push(end as u32);
-                self.owner.resize(end, i as u32);
-            }
+            let ends = ends.iter().map(|end| first as u32 + end);
+            self.start.extend(ends);
         }
     }
 }

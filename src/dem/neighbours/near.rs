@@ -35,6 +35,9 @@ const COLUMN_LIFE: Range<u64> = 7..14;
 /// that touches.
 const CONTACT_LIFE: Range<u64> = 2..5;
 
+/// Steps after which pairs that hold still are looked for anew, with a smaller margin.
+const LONG_LIFE: u64 = 64;
+
 /// The inner list.
 pub struct Near {
     /// Whether pairs may touch.
@@ -43,8 +46,9 @@ pub struct Near {
     shield: bool,
     /// How far the offset of a pair may change (m).
     margin: f64,
-    /// The least that it may be (m).
+    /// What is asked for at least, and the smallest that it may then be (m).
     least: f64,
+    smallest: f64,
     anchor: Anchor,
     half_diagonal: f64,
     pairs: Vec<NearPair>,
@@ -65,6 +69,7 @@ impl Near {
             shield,
             margin,
             least: 0.0,
+            smallest: 0.0,
             anchor: Anchor::default(),
             half_diagonal: 0.0,
             pairs: Vec::new(),
@@ -176,10 +181,17 @@ impl Near {
         if steps < life.start {
             self.margin *= 1.25;
         } else if steps >= life.end {
-            self.margin *= 0.8;
+            // What held for long was far too wide.
+            self.margin *= if steps < LONG_LIFE { 0.8 } else { 0.3 };
         }
-        let least = self.least.max(0.02 * skin);
-        self.margin = self.margin.clamp(least, least.max(0.5 * skin));
+        self.smallest = self.least.max(0.02 * skin);
+        self.margin = (self.margin).clamp(self.smallest, self.smallest.max(0.5 * skin));
+    }
+
+    /// Whether the list held for so many steps that looking for near pairs with a smaller margin pays: every
+    /// pair that is near costs as much as one that touches.
+    pub fn is_too_wide(&self, steps: u64) -> bool {
+        self.contacts && steps >= LONG_LIFE && self.margin > self.smallest
     }
 
     /// Makes the list anew from a valid Verlet list, on so many threads of the pool that runs this.
@@ -245,12 +257,11 @@ impl Near {
         self.shielding
             .resize(if shield { particles.len() } else { 0 }, 0);
         let glance = &mut *self.glance;
-        let blocks = list.owner()[entries.clone()]
-            .chunks(BLOCK)
-            .zip(list.neighbour()[entries].chunks(BLOCK));
-        for (owners, partners) in blocks {
-            glance.index[0][..owners.len()].copy_from_slice(owners);
-            glance.index[1][..owners.len()].copy_from_slice(partners);
+        let mut owner = list.owner_of(entries.start);
+        let blocks = list.neighbour()[entries.clone()].chunks(BLOCK);
+        for (first, partners) in entries.step_by(BLOCK).zip(blocks) {
+            list.fill_owners(first, &mut owner, &mut glance.index[0][..partners.len()]);
+            glance.index[1][..partners.len()].copy_from_slice(partners);
             glance.gather(simd, particles);
             glance.classify(self.margin);
             // A pair is always written, and kept only if it belongs there.
@@ -258,7 +269,8 @@ impl Near {
             make_room(&mut self.undecided, open);
             let (pairs, undecided) = (&mut self.pairs[near..], &mut self.undecided[open..]);
             let (mut kept, mut left) = (0, 0);
-            for (k, (&i, &j)) in owners.iter().zip(partners).enumerate() {
+            for (k, &j) in partners.iter().enumerate() {
+                let i = glance.index[0][k];
                 let facts = glance.facts[k];
                 let entry = (near + kept) as u32;
                 pairs[kept] = NearPair { i, j, entry };

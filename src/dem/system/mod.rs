@@ -195,7 +195,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Evaluates all forces and torques at the present positions and velocities.
     fn evaluate(&mut self) -> Result<(), Instability> {
-        if self.stale {
+        if self.stale || self.near.is_too_wide(self.near_age.steps) {
             self.refresh()?;
         }
         let among = self.take_all();
