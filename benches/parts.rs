@@ -110,7 +110,7 @@ fn list(bencher: Bencher<'_, '_>, count: usize, reach: Reach, skin: f64) {
     let mut list = VerletList::new(reach, skin, Neighbours::VerletList);
     bencher
         .counter(ItemsCount::new(count))
-        .bench_local(|| list.build(&particles));
+        .bench_local(|| list.build(&particles, 1));
 }
 
 /// One frame: the elastic energy of contacts, and all observers.

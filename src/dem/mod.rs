@@ -21,6 +21,7 @@ mod simulation;
 pub mod start;
 mod state;
 mod system;
+mod threads;
 pub mod timestep;
 pub mod vector;
 pub mod walls;

@@ -47,7 +47,8 @@ pub struct Simulation {
     pub(super) engine: Box<dyn Engine>,
     /// Absent where no sphere comes or goes.
     pub(super) process: Option<Process>,
-    /// Radius (m) and mass (kg) of every sphere of the scene, those included that are not in yet.
+    /// Radius (m) and mass (kg) of every sphere of the scene, those included that are not in yet; empty
+    /// where all are alike and sorted.
     radius: Vec<f64>,
     mass: Vec<f64>,
     /// Moments of inertia (kg m2) in the order of the scene, where that is not the order in memory.
@@ -83,6 +84,7 @@ impl Simulation {
         let spheres = start::place(scene)?;
         let (radius, mass) = (spheres.radius.clone(), spheres.mass.clone());
         let inertia = spheres.inertia.clone();
+        let alike = radius.windows(2).all(|two| two[0] == two[1]);
         let mut particles = start::fixed(scene);
         let feed = match scene.start {
             Start::Feed { interval, .. } => Some(Feed::new(
@@ -116,6 +118,12 @@ impl Simulation {
             sorted,
         };
         let mut engine = engine(scene, parts)?;
+        // Spheres that are alike stand in any order; to have them once saves memory.
+        let [radius, mass, inertia] = match (sorted, alike) {
+            (true, true) => Default::default(),
+            (true, false) => [radius, mass, inertia],
+            (false, _) => [radius, mass, Vec::new()],
+        };
         if scene.output.ledger {
             engine.keep_ledger();
         }
@@ -124,7 +132,7 @@ impl Simulation {
             process,
             radius,
             mass,
-            inertia: if sorted { inertia } else { Vec::new() },
+            inertia,
             dt: scene.time.dt,
             components: Default::default(),
             pool: None,
@@ -175,12 +183,18 @@ impl Simulation {
 
     /// Radius of every sphere of the scene that moves (m), by its number.
     pub fn radius(&self) -> &[f64] {
-        &self.radius
+        match self.radius.is_empty() {
+            true => of_moving(&self.particles().radius, self.particles()),
+            false => &self.radius,
+        }
     }
 
     /// Mass of every sphere of the scene that moves (kg), by its number.
     pub fn mass(&self) -> &[f64] {
-        &self.mass
+        match self.mass.is_empty() {
+            true => of_moving(&self.particles().mass, self.particles()),
+            false => &self.mass,
+        }
     }
 
     /// Keeps to the instructions that every machine of this architecture has. Slower, and the
@@ -274,13 +288,10 @@ impl Simulation {
             components[1].extend(vectors.iter().map(|vector| vector.y));
             components[2].extend(vectors.iter().map(|vector| vector.z));
         }
-        let [radius, mass, inertia] = match sorted {
+        let [radius, mass, inertia] = match sorted && !self.radius.is_empty() {
             true => [&self.radius[..], &self.mass, &self.inertia],
-            false => [
-                &particles.radius[moving.clone()],
-                &particles.mass[moving.clone()],
-                particles.inertia.get(moving.clone()).unwrap_or_default(),
-            ],
+            false => [&particles.radius, &particles.mass, &particles.inertia]
+                .map(|values| of_moving(values, particles)),
         };
         let [position, velocity, spin] = self
             .components
@@ -311,6 +322,11 @@ impl Simulation {
             }),
         }
     }
+}
+
+/// Values of the spheres that move, where there are any.
+fn of_moving<'a>(values: &'a [f64], particles: &Particles) -> &'a [f64] {
+    values.get(particles.fixed..).unwrap_or_default()
 }
 
 /// Components of vectors of spheres with these numbers, in the order of the numbers.

@@ -6,10 +6,30 @@
 use crate::dem::particles::{Particles, retain};
 use crate::dem::vector::Vector;
 
+/// Where a sphere stood, in half the memory: single precision is more than a margin needs, and what it rounds
+/// is taken from the margin.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(16))]
+pub struct Reference([f32; 4]);
+
+impl Reference {
+    fn of(place: Vector) -> Self {
+        Self([place.x as f32, place.y as f32, place.z as f32, 0.0])
+    }
+
+    #[inline(always)]
+    fn place(self) -> Vector {
+        let [x, y, z, _] = self.0;
+        Vector::new(f64::from(x), f64::from(y), f64::from(z))
+    }
+}
+
 /// The spheres at the moment when a list was made.
 #[derive(Clone, Debug, Default)]
 pub struct Anchor {
-    position: Vec<Vector>,
+    position: Vec<Reference>,
+    /// The farthest that rounding put one of them from its sphere (m).
+    rounding: f64,
     /// Rotation rate about the z axis (rad/s).
     rotation: f64,
 }
@@ -17,13 +37,20 @@ pub struct Anchor {
 impl Anchor {
     /// Takes the spheres as they are now.
     pub(super) fn drop(&mut self, particles: &Particles) {
-        self.position.clone_from(&particles.position);
+        self.position.clear();
+        self.rounding = 0.0;
+        for &place in &particles.position {
+            self.add_sphere(place);
+        }
         self.rotation = mean_rotation(particles);
     }
 
     /// Adds a sphere that came in where it is now.
     pub(super) fn add_sphere(&mut self, position: Vector) {
-        self.position.push(position);
+        let reference = Reference::of(position);
+        let rounding = (position - reference.place()).norm();
+        self.rounding = self.rounding.max(rounding);
+        self.position.push(reference);
     }
 
     /// Forgets the spheres that are not to be kept.
@@ -33,7 +60,7 @@ impl Anchor {
 
     /// Positions at that moment.
     #[inline]
-    pub fn position(&self) -> &[Vector] {
+    pub fn position(&self) -> &[Reference] {
         &self.position
     }
 
@@ -46,7 +73,7 @@ impl Anchor {
         // angle times the half diagonal.
         let turned = angle.abs() * half_diagonal;
         // A hair less than half, for what rounding adds.
-        let displacement = (0.499_999_999 * (margin - turned)).max(0.0);
+        let displacement = (0.499_999_999 * (margin - turned) - self.rounding).max(0.0);
         let (sine, cosine) = libm::sincos(angle);
         Allowance {
             sine,
@@ -66,7 +93,7 @@ pub struct Allowance {
 
 impl Allowance {
     /// Whether all spheres are still near enough to their references.
-    pub fn hold(&self, positions: &[Vector], references: &[Vector]) -> bool {
+    pub fn hold(&self, positions: &[Vector], references: &[Reference]) -> bool {
         let mut spheres = positions.iter().zip(references);
         spheres.all(|(&position, &reference)| self.holds(position, reference))
     }
@@ -74,7 +101,8 @@ impl Allowance {
     /// Whether a sphere at `position` is still near enough to its `reference`. Not so if a
     /// coordinate is not a number.
     #[inline(always)]
-    pub fn holds(&self, position: Vector, reference: Vector) -> bool {
+    pub fn holds(&self, position: Vector, reference: Reference) -> bool {
+        let reference = reference.place();
         let turned = Vector::new(
             self.cosine * reference.x - self.sine * reference.y,
             self.sine * reference.x + self.cosine * reference.y,

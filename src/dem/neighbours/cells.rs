@@ -11,13 +11,14 @@ pub(super) struct Cells {
     first: Vec<u32>,
     cell_of: Vec<u32>,
     index: Vec<u32>,
+    /// Empty if spheres stand in about that order anyway.
     position: Vec<Vector>,
     radius: Vec<f64>,
 }
 
 impl Cells {
     /// Sorts the spheres into cells of that width or wider (m); in `columns`, whatever their height.
-    pub(super) fn fill(&mut self, particles: &Particles, width: f64, columns: bool) {
+    pub(super) fn fill(&mut self, particles: &Particles, width: f64, columns: bool, copied: bool) {
         let count = particles.len();
         let (low, high) = bounds(&particles.position);
         let extent = high - low;
@@ -46,11 +47,11 @@ impl Cells {
                     (cell(offset.x, nx), cell(offset.y, ny), cell(offset.z, nz));
                 ((layer * ny + row) * nx + column) as u32
             }));
-        self.sort(particles);
+        self.sort(particles, copied);
     }
 
     /// Counting sort by cell; within a cell spheres stay in order of their index.
-    fn sort(&mut self, particles: &Particles) {
+    fn sort(&mut self, particles: &Particles, copied: bool) {
         let count = particles.len();
         let cells = self.shape.iter().product::<usize>();
         self.first.clear();
@@ -62,16 +63,19 @@ impl Cells {
             self.first[cell + 1] += self.first[cell];
         }
         self.index.resize(count, 0);
-        self.radius.resize(count, 0.0);
-        self.position.resize(count, Vector::ZERO);
+        let copies = if copied { count } else { 0 };
+        self.radius.resize(copies, 0.0);
+        self.position.resize(copies, Vector::ZERO);
         // `first[c]` walks through its cell and ends at the start of the next one.
         for i in 0..count {
             let slot = &mut self.first[self.cell_of[i] as usize];
             let at = *slot as usize;
             *slot += 1;
             self.index[at] = i as u32;
-            self.radius[at] = particles.radius[i];
-            self.position[at] = particles.position[i];
+            if copied {
+                self.radius[at] = particles.radius[i];
+                self.position[at] = particles.position[i];
+            }
         }
         for cell in (0..cells).rev() {
             self.first[cell + 1] = self.first[cell];
@@ -97,9 +101,22 @@ impl Cells {
     /// Calls `visit` with index, centre and radius of the spheres in the cell of sphere `i` and in
     /// those about it.
     #[inline]
-    pub(super) fn near(&self, i: usize, mut visit: impl FnMut(u32, Vector, f64)) {
+    pub(super) fn near(
+        &self,
+        i: usize,
+        particles: &Particles,
+        mut visit: impl FnMut(u32, Vector, f64),
+    ) {
         self.rows_about(i, |row| {
             let index = &self.index[row.clone()];
+            if self.position.is_empty() {
+                // Of two neighbours the one of lower index is not asked for.
+                for &j in index.iter().filter(|&&j| j as usize > i) {
+                    let at = j as usize;
+                    visit(j, particles.position[at], particles.radius[at]);
+                }
+                return;
+            }
             let spheres = self.position[row.clone()].iter().zip(&self.radius[row]);
             for (&j, (&centre, &radius)) in index.iter().zip(spheres) {
                 visit(j, centre, radius);

@@ -24,11 +24,12 @@ use self::anchor::Anchor;
 use self::few::{FEW, FewSpheres};
 use self::search::Search;
 use super::particles::Particles;
+use super::threads::in_parallel;
 use super::vector::Vector;
 use crate::scene::Neighbours;
 use fearless_simd::Level;
 
-pub use self::anchor::Allowance;
+pub use self::anchor::{Allowance, Reference};
 
 /// Which pairs a list must hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,7 +56,7 @@ pub struct VerletList {
     /// Entries of sphere i are `start[i]..start[i + 1]`.
     start: Vec<u32>,
     neighbour: Vec<u32>,
-    /// The sphere whose entry it is, of every entry.
+    /// The sphere whose entry it is, of every entry; none in a list of many spheres, where memory counts.
     owner: Vec<u32>,
     anchor: Anchor,
     /// Half the diagonal of the largest sphere's shielding box, plus the skin (m); zero if the
@@ -64,6 +65,8 @@ pub struct VerletList {
     search: Search,
     few: FewSpheres,
     level: Level,
+    /// Whether spheres are sorted in memory by cells of about the search's.
+    sorted: bool,
     builds: u64,
     /// Whether spheres came, went or changed places since the build.
     outdated: bool,
@@ -87,8 +90,18 @@ impl VerletList {
             search: Search::new(neighbours),
             few: FewSpheres::default(),
             level: Level::new(),
+            sorted: false,
             builds: 0,
             outdated: false,
+        }
+    }
+
+    /// A list of many spheres, which are sorted in memory: those of a cell are then at hand without
+    /// copies, which would take memory.
+    pub fn of_sorted(self) -> Self {
+        Self {
+            sorted: true,
+            ..self
         }
     }
 
@@ -144,10 +157,32 @@ impl VerletList {
         &self.neighbour
     }
 
-    /// The sphere of each entry, of lower index than the partner.
-    #[inline]
-    pub fn owner(&self) -> &[u32] {
-        &self.owner
+    /// The sphere of an entry.
+    pub(super) fn owner_of(&self, entry: usize) -> usize {
+        let before = self.start.partition_point(|&start| start as usize <= entry);
+        before.saturating_sub(1)
+    }
+
+    /// The spheres of the entries from `first` on, all of lower index than the partners. `owner` is the first of
+    /// them, or an earlier one, and then the last.
+    #[inline(always)]
+    pub(super) fn fill_owners(&self, first: usize, owner: &mut usize, owners: &mut [u32]) {
+        if !self.sorted {
+            owners.copy_from_slice(&self.owner[first..first + owners.len()]);
+            return;
+        }
+        let (mut i, mut at) = (*owner, 0);
+        while at < owners.len() {
+            let end = (self.start[i + 1] as usize).saturating_sub(first);
+            let until = end.clamp(at, owners.len());
+            for slot in &mut owners[at..until] {
+                *slot = i as u32;
+            }
+            at = until;
+            i += 1;
+        }
+        // More of the last one's may follow.
+        *owner = i - 1;
     }
 
     /// Widens or narrows the skin after a list that held for this many steps.
@@ -162,34 +197,45 @@ impl VerletList {
         }
     }
 
-    /// Builds the list anew for the present positions, which must be finite.
-    pub fn build(&mut self, particles: &Particles) {
+    /// Builds the list anew for the present positions, which must be finite, on so many threads of the
+    /// pool that runs this.
+    pub fn build(&mut self, particles: &Particles, threads: usize) {
         let count = particles.len();
         let largest = particles.largest_radius();
-        let few = count <= FEW && self.search.may_be_replaced();
+        let few = count <= FEW && !self.sorted && self.search.may_be_replaced();
         if few {
             self.few.fill(particles);
         } else {
             let columns = self.reach == Reach::Column;
             let reach = 2.0 * largest + self.skin;
-            self.search.fill(particles, reach, columns);
+            self.search.fill(particles, reach, columns, !self.sorted);
         }
         self.start.clear();
         self.neighbour.clear();
         self.owner.clear();
         self.start.push(0);
-        for i in 0..count {
-            let from = self.neighbour.len();
-            if few {
-                let of = (i, particles.first_partner(i));
-                let reach = (self.reach, self.skin);
-                self.few.find(self.level, of, reach, &mut self.neighbour);
-            } else {
-                self.find_partners(i, particles);
-                self.neighbour[from..].sort_unstable();
+        if threads == 1 || !self.sorted {
+            for i in 0..count {
+                let first = self.neighbour.len();
+                let found = &mut self.neighbour;
+                if few {
+                    let of = (i, particles.first_partner(i));
+                    self.few
+                        .find(self.level, of, (self.reach, self.skin), found);
+                } else {
+                    find_partners(self.reach, self.skin, &self.search, i, particles, found);
+                    self.neighbour[first..].sort_unstable();
+                }
+                self.start.push(self.neighbour.len() as u32);
+                if !self.sorted {
+                    self.owner.resize(self.neighbour.len(), i as u32);
+                }
             }
-            self.start.push(self.neighbour.len() as u32);
-            self.owner.resize(self.neighbour.len(), i as u32);
+        } else {
+            self.find_on_threads(particles, threads);
+        }
+        if self.sorted {
+            self.search.forget();
         }
         self.anchor.drop(particles);
         self.half_diagonal = match self.reach {
@@ -200,30 +246,57 @@ impl VerletList {
         self.outdated = false;
     }
 
-    /// Lists the partners of sphere `i` that come after it, in no order.
-    fn find_partners(&mut self, i: usize, particles: &Particles) {
-        let (centre, radius) = (particles.position[i], particles.radius[i]);
-        let first = particles.first_partner(i) as u32;
-        let (skin, found) = (self.skin, &mut self.neighbour);
-        match self.reach {
-            Reach::Contact => self
-                .search
-                .near(i, particles, |j, position: Vector, other| {
-                    let distance = radius + skin + other;
-                    let offset = position - centre;
-                    if j >= first && offset.norm_squared() < distance * distance {
-                        found.push(j);
-                    }
-                }),
-            Reach::Column => self
-                .search
-                .near(i, particles, |j, position: Vector, other| {
-                    let distance = 2.0 * radius.max(other) + skin;
-                    let offset = position - centre;
-                    if j >= first && offset.x.abs() < distance && offset.y.abs() < distance {
-                        found.push(j);
-                    }
-                }),
+    /// Finds the partners of all spheres, those of as many by each thread.
+    fn find_on_threads(&mut self, particles: &Particles, threads: usize) {
+        let count = particles.len();
+        // In each part the spheres, all their partners, and where those of each end.
+        let part = |k: usize| {
+            let spheres = count * k / threads..count * (k + 1) / threads;
+            (spheres, Vec::new(), Vec::new())
+        };
+        let mut parts: Vec<_> = (0..threads).map(part).collect();
+        in_parallel(&mut parts, &|(spheres, partners, ends)| {
+            for i in spheres.clone() {
+                let first = partners.len();
+                find_partners(self.reach, self.skin, &self.search, i, particles, partners);
+                partners[first..].sort_unstable();
+                ends.push(partners.len() as u32);
+            }
+        });
+        for (_, partners, ends) in parts {
+            let first = self.neighbour.len();
+            self.neighbour.extend(partners);
+            let ends = ends.iter().map(|end| first as u32 + end);
+            self.start.extend(ends);
         }
+    }
+}
+
+/// Lists the partners of sphere `i` that come after it, in no order.
+fn find_partners(
+    reach: Reach,
+    skin: f64,
+    search: &Search,
+    i: usize,
+    particles: &Particles,
+    found: &mut Vec<u32>,
+) {
+    let (centre, radius) = (particles.position[i], particles.radius[i]);
+    let first = particles.first_partner(i) as u32;
+    match reach {
+        Reach::Contact => search.near(i, particles, |j, position: Vector, other| {
+            let distance = radius + skin + other;
+            let offset = position - centre;
+            if j >= first && offset.norm_squared() < distance * distance {
+                found.push(j);
+            }
+        }),
+        Reach::Column => search.near(i, particles, |j, position: Vector, other| {
+            let distance = 2.0 * radius.max(other) + skin;
+            let offset = position - centre;
+            if j >= first && offset.x.abs() < distance && offset.y.abs() < distance {
+                found.push(j);
+            }
+        }),
     }
 }

@@ -13,6 +13,7 @@ use super::shield::Shield;
 use super::{Particles, VerletList};
 use crate::dem::block::{BLOCK, Column, Columns, row};
 use crate::dem::particles::retain;
+use crate::dem::threads::in_parallel;
 use crate::dem::vector::Vector;
 use fearless_simd::{Level, Simd};
 use std::ops::Range;
@@ -35,6 +36,9 @@ const COLUMN_LIFE: Range<u64> = 7..14;
 /// that touches.
 const CONTACT_LIFE: Range<u64> = 2..5;
 
+/// Steps after which pairs that hold still are looked for anew, with a smaller margin.
+const LONG_LIFE: u64 = 64;
+
 /// The inner list.
 pub struct Near {
     /// Whether pairs may touch.
@@ -43,14 +47,17 @@ pub struct Near {
     shield: bool,
     /// How far the offset of a pair may change (m).
     margin: f64,
-    /// The least that it may be (m).
+    /// What is asked for at least, and the smallest that it may then be (m).
     least: f64,
+    smallest: f64,
     anchor: Anchor,
     half_diagonal: f64,
     pairs: Vec<NearPair>,
     /// The part of all pairs in the shield.
     shielding: Shield,
     glance: Box<Glance>,
+    /// What other threads look for their part of the pairs with.
+    helpers: Vec<Near>,
 }
 
 impl Near {
@@ -61,11 +68,13 @@ impl Near {
             shield,
             margin,
             least: 0.0,
+            smallest: 0.0,
             anchor: Anchor::default(),
             half_diagonal: 0.0,
             pairs: Vec::new(),
             shielding: Shield::default(),
             glance: Box::new(Glance::new()),
+            helpers: Vec::new(),
         }
     }
 
@@ -170,27 +179,77 @@ impl Near {
         if steps < life.start {
             self.margin *= 1.25;
         } else if steps >= life.end {
-            self.margin *= 0.8;
+            // What held for long was far too wide.
+            self.margin *= if steps < LONG_LIFE { 0.8 } else { 0.3 };
         }
-        let least = self.least.max(0.02 * skin);
-        self.margin = self.margin.clamp(least, least.max(0.5 * skin));
+        self.smallest = self.least.max(0.02 * skin);
+        self.margin = (self.margin).clamp(self.smallest, self.smallest.max(0.5 * skin));
     }
 
-    /// Makes the list anew from a valid Verlet list.
+    /// Whether the list held for so many steps that looking for near pairs with a smaller margin pays: every
+    /// pair that is near costs as much as one that touches.
+    pub fn is_too_wide(&self, steps: u64) -> bool {
+        self.contacts && steps >= LONG_LIFE && self.margin > self.smallest
+    }
+
+    /// Makes the list anew from a valid Verlet list, on so many threads of the pool that runs this.
     pub(in crate::dem) fn refresh(
         &mut self,
         level: Level,
         list: &VerletList,
         particles: &Particles,
+        threads: usize,
     ) {
-        self.glance.note_radii(&particles.radius);
-        fearless_simd::dispatch!(level, simd => self.find(simd, list, particles));
+        let entries = list.pairs();
+        if threads == 1 || self.shield {
+            self.find_among(level, list, particles, 0..entries);
+        } else {
+            let mut helpers = std::mem::take(&mut self.helpers);
+            helpers.resize_with(threads - 1, || Self::new(self.contacts, false, 0.0));
+            for helper in &mut helpers {
+                helper.margin = self.margin;
+            }
+            let all = std::iter::once(&mut *self).chain(&mut helpers);
+            let mut all: Vec<_> = (0..threads).zip(all).collect();
+            in_parallel(&mut all, &|(k, near)| {
+                let part = entries * *k / threads..entries * (*k + 1) / threads;
+                near.find_among(level, list, particles, part);
+            });
+            for helper in &mut helpers {
+                let first = self.pairs.len() as u32;
+                let pairs = helper.pairs.drain(..);
+                self.pairs.extend(pairs.map(|pair| NearPair {
+                    entry: first + pair.entry,
+                    ..pair
+                }));
+            }
+            self.helpers = helpers;
+        }
         self.anchor.drop(particles);
         self.half_diagonal = list.half_diagonal;
     }
 
+    /// Finds the near ones among these entries of the list.
+    fn find_among(
+        &mut self,
+        level: Level,
+        list: &VerletList,
+        particles: &Particles,
+        entries: Range<usize>,
+    ) {
+        self.glance.note_radii(&particles.radius);
+        fearless_simd::dispatch!(level, simd => self.find(simd, list, particles, entries));
+    }
+
     #[inline(always)]
-    fn find<S: Simd>(&mut self, simd: S, list: &VerletList, particles: &Particles) {
+    fn find<S: Simd>(
+        &mut self,
+        simd: S,
+        list: &VerletList,
+        particles: &Particles,
+        entries: Range<usize>,
+    ) {
+        let shield = self.shield;
         let (mut near, mut open) = (0, 0);
         let Shield {
             counts,
@@ -198,15 +257,13 @@ impl Near {
             ..
         } = &mut self.shielding;
         counts.clear();
-        counts.resize(particles.len(), 0);
+        counts.resize(if shield { particles.len() } else { 0 }, 0);
         let glance = &mut *self.glance;
-        let blocks = list
-            .owner()
-            .chunks(BLOCK)
-            .zip(list.neighbour().chunks(BLOCK));
-        for (owners, partners) in blocks {
-            glance.index[0][..owners.len()].copy_from_slice(owners);
-            glance.index[1][..owners.len()].copy_from_slice(partners);
+        let mut owner = list.owner_of(entries.start);
+        let blocks = list.neighbour()[entries.clone()].chunks(BLOCK);
+        for (first, partners) in entries.step_by(BLOCK).zip(blocks) {
+            list.fill_owners(first, &mut owner, &mut glance.index[0][..partners.len()]);
+            glance.index[1][..partners.len()].copy_from_slice(partners);
             glance.gather(simd, particles);
             glance.classify(self.margin);
             // A pair is always written, and kept only if it belongs there.
@@ -214,15 +271,18 @@ impl Near {
             make_room(undecided, open);
             let (pairs, undecided) = (&mut self.pairs[near..], &mut undecided[open..]);
             let (mut kept, mut left) = (0, 0);
-            for (k, (&i, &j)) in owners.iter().zip(partners).enumerate() {
+            for (k, &j) in partners.iter().enumerate() {
+                let i = glance.index[0][k];
                 let facts = glance.facts[k];
                 let entry = (near + kept) as u32;
                 pairs[kept] = NearPair { i, j, entry };
                 undecided[left] = [i, j];
                 kept += has(facts, NEAR) as usize;
                 left += has(facts, UNDECIDED) as usize;
-                counts[i as usize] += has(facts, SHIELDS_FIRST);
-                counts[j as usize] += has(facts, SHIELDS_SECOND);
+                if shield {
+                    counts[i as usize] += has(facts, SHIELDS_FIRST);
+                    counts[j as usize] += has(facts, SHIELDS_SECOND);
+                }
             }
             near += kept;
             open += left;
@@ -247,7 +307,8 @@ impl Near {
 #[inline(always)]
 fn make_room<P: Copy + Default>(list: &mut Vec<P>, from: usize) {
     if list.len() < from + BLOCK + 1 {
-        list.resize(2 * from + BLOCK + 1, P::default());
+        // Not twice as much: what a large list does not need in the end is memory too.
+        list.resize(from + from / 8 + 4 * BLOCK, P::default());
     }
 }
 

@@ -33,16 +33,24 @@ impl Search {
         matches!(self, Self::Cells(_, None))
     }
 
-    /// Sorts the spheres, whose pairs reach no farther than `reach` (m); in `columns`, at any height.
-    pub(super) fn fill(&mut self, particles: &Particles, reach: f64, columns: bool) {
+    /// Sorts the spheres, whose pairs reach no farther than `reach` (m); in `columns`, at any height. Places are
+    /// `copied` into the order of the cells, unless spheres stand in about that order.
+    pub(super) fn fill(&mut self, particles: &Particles, reach: f64, columns: bool, copied: bool) {
         // A hair wider: rounding must not put the partners of a pair two cells apart.
         let wide = |width: f64| width * (1.0 + 1e-9);
         match self {
             Self::Cells(cells, width) => {
-                cells.fill(particles, wide(width.unwrap_or(reach)), columns)
+                cells.fill(particles, wide(width.unwrap_or(reach)), columns, copied)
             }
             Self::Hashed(cells, width) => cells.fill(particles, wide(*width), columns),
             Self::AllPairs => {}
+        }
+    }
+
+    /// Gives back the memory of cells.
+    pub(super) fn forget(&mut self) {
+        if let Self::Cells(cells, _) = self {
+            *cells = Cells::default();
         }
     }
 
@@ -56,7 +64,7 @@ impl Search {
         mut visit: impl FnMut(u32, Vector, f64),
     ) {
         match self {
-            Self::Cells(cells, _) => cells.near(i, visit),
+            Self::Cells(cells, _) => cells.near(i, particles, visit),
             Self::Hashed(cells, _) => cells.near(i, particles, visit),
             // A pair is looked at once, from the sphere of lower index: half of all.
             Self::AllPairs => {

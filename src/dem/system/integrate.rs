@@ -1,14 +1,14 @@
 //! Integration schemes: one function each, from kicks and drifts.
 
-use super::division::{in_parallel, split, split_shared};
 use super::meeting::Loading;
 use super::pair_block::EarlierRows;
 use super::{Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
-use crate::dem::neighbours::Allowance;
+use crate::dem::neighbours::{Allowance, Reference};
 use crate::dem::particles::Particles;
 use crate::dem::profile::{self, Part};
+use crate::dem::threads::{in_parallel, split, split_shared};
 use crate::dem::vector::Vector;
 use crate::record::Instability;
 use crate::scene::Integrator;
@@ -102,7 +102,7 @@ struct Drift<'a> {
     velocity: &'a [Vector],
     /// Where they were when near pairs were looked for, and how far they may be from there; where none are
     /// looked for, nothing.
-    reference: &'a [Vector],
+    reference: &'a [Reference],
     allowance: Option<Allowance>,
     moved: bool,
 }

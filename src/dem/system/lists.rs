@@ -1,5 +1,6 @@
 //! When lists of neighbours are made anew, and what becomes of the histories of their contacts.
 
+use super::division::Division;
 use super::meeting::{Laws, Solid};
 use super::{Age, Parts, System};
 use crate::dem::contact::NormalLaw;
@@ -25,13 +26,17 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.stale = false;
         if let Some(list) = &self.list {
             let (near, particles) = (&mut self.near, &self.parts.particles);
+            let threads = self.division.as_ref().map_or(1, Division::threads);
             if Self::REMEMBERS {
                 let before = near.exchange_pairs(std::mem::take(&mut self.spare_pairs));
-                near.refresh(self.level, list, particles);
+                near.refresh(self.level, list, particles, threads);
                 carry_over(&before, near.pairs(), &mut self.pair_history);
-                self.spare_pairs = before;
+                // Of many spheres it would be memory for nothing most of the time.
+                if !self.parts.sorted {
+                    self.spare_pairs = before;
+                }
             } else {
-                near.refresh(self.level, list, particles);
+                near.refresh(self.level, list, particles, threads);
                 // Histories that take no memory.
                 self.pair_history
                     .resize(near.pairs().len(), T::History::default());
@@ -80,7 +85,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if age.steps > 0 {
             list.adapt(age.steps);
         }
-        list.build(particles);
+        list.build(
+            particles,
+            self.division.as_ref().map_or(1, Division::threads),
+        );
         Ok(())
     }
 }

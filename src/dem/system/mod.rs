@@ -164,7 +164,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         };
         let interact = N::ACTS || parts.shielded;
         Self {
-            list: interact.then(|| VerletList::new(reach, parts.skin, parts.neighbours)),
+            list: interact.then(|| {
+                let list = VerletList::new(reach, parts.skin, parts.neighbours);
+                if parts.sorted { list.of_sorted() } else { list }
+            }),
             stale: true,
             near: Near::new(N::ACTS, parts.shielded, 0.3 * parts.skin),
             age: Age::default(),
@@ -194,7 +197,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Evaluates all forces and torques at the present positions and velocities.
     fn evaluate(&mut self) -> Result<(), Instability> {
-        if self.stale {
+        if self.stale || self.near.is_too_wide(self.near_age.steps) {
             self.refresh()?;
         }
         let among = self.take_all();

@@ -3,6 +3,7 @@
 use super::System;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
+use crate::dem::neighbours::NearPair;
 use crate::dem::order::{self, reorder};
 use crate::dem::profile::Part;
 use crate::record::Instability;
@@ -22,16 +23,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     fn reorder(&mut self, order: &[u32]) -> Result<(), Instability> {
-        let mut histories = self.remembered();
         let places = order::places(order);
-        for (i, j, history) in &mut histories {
-            (*i, *j) = (places[*i as usize], places[*j as usize]);
-            if *i > *j {
-                std::mem::swap(i, j);
-                *history = history.turned_round();
-            }
-        }
-        histories.sort_unstable_by_key(|&(i, j, _)| (i, j));
+        self.follow_pairs(&places);
         self.parts.particles.reorder(order);
         reorder(&mut self.parts.limits.speed_squared, order);
         for effect in &mut self.parts.effects {
@@ -47,6 +40,51 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if self.list.is_none() {
             return Ok(());
         }
-        self.fill_lists(&histories)
+        self.forget_lists();
+        self.refresh()
+    }
+
+    /// Takes the near pairs that remember something, with their histories, to new places. These are most of the
+    /// memory of a large scene, so all of it happens in their arrays.
+    fn follow_pairs(&mut self, places: &[u32]) {
+        let mut pairs = self.near.take_pairs();
+        let histories = &mut self.pair_history;
+        if !Self::REMEMBERS {
+            histories.clear();
+            return;
+        }
+        let mut known = 0;
+        for at in 0..pairs.len() {
+            if histories[at].is_new() {
+                continue;
+            }
+            let (i, j) = (pairs[at].i as usize, pairs[at].j as usize);
+            let (i, j, entry) = (places[i], places[j], known as u32);
+            histories[known] = match i < j {
+                true => histories[at],
+                false => histories[at].turned_round(),
+            };
+            let (i, j) = (i.min(j), i.max(j));
+            pairs[known] = NearPair { i, j, entry };
+            known += 1;
+        }
+        pairs.truncate(known);
+        histories.truncate(known);
+        pairs.sort_unstable_by_key(|pair| (pair.i, pair.j));
+        // Round each cycle of places once: an entry that says its own place is done.
+        for first in 0..known {
+            let (mut at, history) = (first, histories[first]);
+            loop {
+                let from = pairs[at].entry as usize;
+                pairs[at].entry = at as u32;
+                if from == first || from == at {
+                    break;
+                }
+                histories[at] = histories[from];
+                at = from;
+            }
+            histories[at] = history;
+        }
+        self.near.return_pairs(pairs);
     }
 }

@@ -5,7 +5,7 @@
 
 use super::ledger::Books;
 use super::wall_contacts::WallContacts;
-use super::{Age, Near, Parts, System};
+use super::{Age, Near, Parts, System, VerletList};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::order;
@@ -161,20 +161,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         self.alike = Self::alike(&self.parts.particles);
         self.near = Near::new(N::ACTS, self.parts.shielded, 0.3 * self.parts.skin);
-        self.fill_lists(histories)
-    }
-
-    /// The same, with the margins of the lists of before.
-    pub(super) fn fill_lists(
-        &mut self,
-        histories: &[(u32, u32, T::History)],
-    ) -> Result<(), Instability> {
-        let Some(list) = &mut self.list else {
-            return Ok(());
-        };
-        list.outdate();
-        self.age = Age::default();
-        self.near_age = Age::default();
+        self.forget_lists();
         let pairs = histories.iter().map(|&(i, j, _)| (i, j));
         self.near.set_pairs(pairs);
         self.pair_history.clear();
@@ -182,6 +169,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.pair_history.extend(histories);
         // A step may begin with a drift, which already goes by the near list.
         self.refresh()
+    }
+
+    /// Sees to it that lists are made anew, for spheres that are others or elsewhere.
+    pub(super) fn forget_lists(&mut self) {
+        self.list.iter_mut().for_each(VerletList::outdate);
+        self.age = Age::default();
+        self.near_age = Age::default();
+        self.stale = true;
     }
 }
 
