@@ -9,13 +9,13 @@ pub use hertz::Hertz;
 pub use linear::Linear;
 pub use silbert::Silbert;
 
-use super::math::square_root;
-
 /// Radius sqrt(R_eff xi) (m) of the disc in which partners touch (Hertz, 1882), from the overlap xi (m) and the
 /// effective radius r1 r2 / (r1 + r2) (m; the sphere's own at a flat wall).
 #[inline(always)]
 pub fn contact_radius(overlap: f64, effective_radius: f64) -> f64 {
-    square_root(effective_radius * overlap)
+    // Rounding may find partners that just touch a hair apart.
+    let overlap = if overlap > 0.0 { overlap } else { 0.0 };
+    (effective_radius * overlap).sqrt()
 }
 
 /// A normal contact law. The engine is compiled for each law by itself.

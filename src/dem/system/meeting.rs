@@ -223,21 +223,48 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             let inverse_distance = inverse_square_root(distance_squared);
             let normal = offset * inverse_distance;
             let sliding = sliding_velocity(normal, earlier.velocity, earlier.spin, lever);
-            let overlap = or_zero(sum - distance_squared * inverse_distance);
+            let overlap = sum - distance_squared * inverse_distance;
             encounter.loading = Some((sliding, contact_radius(overlap, effective_radius)));
         }
         self.answer(couple, encounter, spring)
     }
 
     /// A sphere and a wall.
-    #[inline(always)]
     pub(super) fn at_wall<W: Wall>(&self, wall: W, couple: &Couple, spring: Spring) -> Meeting {
+        let radius = couple.solid[0].radius;
+        let earlier = couple.earlier.as_ref();
+        let earlier = earlier.map(|earlier| {
+            wall.contact(self.earlier_place(couple.offset, earlier.velocity), radius)
+        });
+        self.at_contact(
+            couple,
+            wall.contact(couple.offset, radius),
+            earlier.as_ref(),
+            spring,
+        )
+    }
+
+    /// Where a sphere was that had a velocity (m/s) before.
+    #[inline(always)]
+    pub(super) fn earlier_place(&self, place: Vector, velocity: Vector) -> Vector {
+        place - velocity * self.loading.age
+    }
+
+    /// A sphere and a wall that meet like this now, and like that before.
+    #[inline(always)]
+    pub(super) fn at_contact(
+        &self,
+        couple: &Couple,
+        contact: WallContact,
+        earlier_contact: Option<&WallContact>,
+        spring: Spring,
+    ) -> Meeting {
         let Solid { radius, mass, .. } = couple.solid[0];
         let WallContact {
             touches,
             overlap,
             normal,
-        } = wall.contact(couple.offset, radius);
+        } = contact;
         let mut encounter = Encounter {
             touches,
             too_deep: touches & (overlap > self.overlap_limit * radius),
@@ -253,12 +280,12 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             lesser_mass: mass,
             loading: None,
         };
-        if let (true, Some(earlier)) = (Self::REMEMBERS, &couple.earlier) {
-            let centre = couple.offset - earlier.velocity * self.loading.age;
-            let contact = wall.contact(centre, radius);
+        if let (true, Some(earlier), Some(contact)) =
+            (Self::REMEMBERS, &couple.earlier, earlier_contact)
+        {
             let lever = encounter.lever;
             let sliding = sliding_velocity(contact.normal, earlier.velocity, earlier.spin, lever);
-            encounter.loading = Some((sliding, contact_radius(or_zero(contact.overlap), radius)));
+            encounter.loading = Some((sliding, contact_radius(contact.overlap, radius)));
         }
         self.answer(couple, encounter, spring)
     }

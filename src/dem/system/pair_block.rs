@@ -13,7 +13,7 @@ use crate::dem::math::inverse_square_root;
 use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
-use crate::dem::walls::Wall;
+use crate::dem::walls::{Wall, WallContact};
 use fearless_simd::{Simd, SimdFrom, f64x4};
 use std::marker::PhantomData;
 
@@ -75,6 +75,39 @@ impl Solids {
     }
 }
 
+/// How the spheres of a block meet a wall.
+struct WallMeetings {
+    normal: Columns,
+    overlap: Column,
+    /// 1 where they touch, else 0.
+    touches: Column,
+}
+
+impl WallMeetings {
+    const NONE: Self = Self {
+        normal: Columns::ZERO,
+        overlap: [0.0; BLOCK],
+        touches: [0.0; BLOCK],
+    };
+
+    #[inline(always)]
+    fn set(&mut self, k: usize, contact: &WallContact) {
+        let [x, y, z] = &mut self.normal.0;
+        (x[k], y[k], z[k]) = (contact.normal.x, contact.normal.y, contact.normal.z);
+        self.overlap[k] = contact.overlap;
+        self.touches[k] = if contact.touches { 1.0 } else { 0.0 };
+    }
+
+    #[inline(always)]
+    fn at(&self, k: usize) -> WallContact {
+        WallContact {
+            touches: self.touches[k] > 0.0,
+            overlap: self.overlap[k],
+            normal: self.normal.vector(k),
+        }
+    }
+}
+
 /// Everything about the pairs of a block.
 pub(super) struct PairBlock<H> {
     /// Centre of the first partner from that of the second, or from the origin at a wall (m).
@@ -95,6 +128,9 @@ pub(super) struct PairBlock<H> {
     /// [`Roots`] of every contact.
     inverse_distance: Column,
     contact_radius: Column,
+    /// How spheres meet a wall, now and before.
+    meeting: WallMeetings,
+    earlier_meeting: WallMeetings,
     /// Forces of springs (N).
     spring: Columns,
     force: Columns,
@@ -121,6 +157,8 @@ impl<H: History> PairBlock<H> {
             inverse_sum: [0.0; BLOCK],
             inverse_distance: [0.0; BLOCK],
             contact_radius: [0.0; BLOCK],
+            meeting: WallMeetings::NONE,
+            earlier_meeting: WallMeetings::NONE,
             spring: Columns::ZERO,
             memory: PhantomData,
             force: Columns::ZERO,
@@ -322,28 +360,42 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Computes the laws for every sphere at a wall.
+    /// Finds how every sphere meets a wall.
     #[inline(always)]
-    pub(super) fn interact_with_wall<W: Wall, N: NormalLaw, T: TangentialLaw<History = H>>(
+    pub(super) fn meet<W: Wall, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         wall: W,
         laws: &Laws<N, T>,
     ) {
+        for k in 0..BLOCK {
+            let contact = wall.contact(self.offset.vector(k), self.solid[0].radius[k]);
+            self.meeting.set(k, &contact);
+        }
+        if Self::REMEMBERS && laws.loading.age > 0.0 {
+            for k in 0..BLOCK {
+                let (place, velocity) = (self.offset.vector(k), self.earlier_velocity.vector(k));
+                let place = laws.earlier_place(place, velocity);
+                let contact = wall.contact(place, self.solid[0].radius[k]);
+                self.earlier_meeting.set(k, &contact);
+            }
+        }
+    }
+
+    /// Computes the laws for every sphere, as it [meets](Self::meet) a wall.
+    #[inline(always)]
+    pub(super) fn interact_with_wall<N: NormalLaw, T: TangentialLaw<History = H>>(
+        &mut self,
+        laws: &Laws<N, T>,
+    ) {
         match Self::REMEMBERS && laws.loading.age > 0.0 {
-            true => self.interact_with_wall_as::<W, N, T, true>(wall, laws),
-            false => self.interact_with_wall_as::<W, N, T, false>(wall, laws),
+            true => self.interact_with_wall_as::<N, T, true>(laws),
+            false => self.interact_with_wall_as::<N, T, false>(laws),
         }
     }
 
     #[inline(always)]
-    fn interact_with_wall_as<
-        W: Wall,
-        N: NormalLaw,
-        T: TangentialLaw<History = H>,
-        const EARLIER: bool,
-    >(
+    fn interact_with_wall_as<N: NormalLaw, T: TangentialLaw<History = H>, const EARLIER: bool>(
         &mut self,
-        wall: W,
         laws: &Laws<N, T>,
     ) {
         for k in 0..BLOCK {
@@ -352,7 +404,10 @@ impl<H: History> PairBlock<H> {
             if let Some(earlier) = &mut couple.earlier {
                 earlier.spin[1] = Vector::ZERO;
             }
-            let meeting = laws.at_wall(wall, &couple, self.spring(k));
+            let earlier = self.earlier_meeting.at(k);
+            let earlier = EARLIER.then_some(&earlier);
+            let contact = self.meeting.at(k);
+            let meeting = laws.at_contact(&couple, contact, earlier, self.spring(k));
             self.keep::<T>(k, &meeting);
         }
     }

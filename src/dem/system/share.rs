@@ -11,7 +11,7 @@ use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::profile::{self, Part, Profile};
 use crate::dem::vector::Vector;
-use crate::dem::walls::{TankWall, Wall};
+use crate::dem::walls::TankWall;
 use fearless_simd::{Level, Simd};
 
 /// What contacts depend on besides their own memory; the particles are without their forces and torques.
@@ -93,14 +93,7 @@ impl<H: History> Share<'_, H> {
                 break;
             };
             let wall = *wall;
-            match wall {
-                TankWall::Floor(wall) | TankWall::Side(wall) => {
-                    self.wall_forces::<S, _, N, T>(simd, wall, place, scenery);
-                }
-                TankWall::Cylinder(wall) => {
-                    self.wall_forces::<S, _, N, T>(simd, wall, place, scenery);
-                }
-            }
+            self.wall_forces::<S, N, T>(simd, wall, place, scenery);
             profile::mark(profile, wall.part());
         }
     }
@@ -144,10 +137,10 @@ impl<H: History> Share<'_, H> {
 
     /// Forces of a wall on the spheres near it.
     #[inline(always)]
-    fn wall_forces<S: Simd, W: Wall, N: NormalLaw, T: TangentialLaw<History = H>>(
+    fn wall_forces<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        wall: W,
+        wall: TankWall,
         place: usize,
         scenery: &Scenery<'_, N, T>,
     ) {
@@ -163,7 +156,11 @@ impl<H: History> Share<'_, H> {
                 particles, earlier, ..
             } = scenery;
             block.take_spheres::<S, N, T>(simd, lanes, histories, particles, earlier);
-            block.interact_with_wall(wall, &scenery.laws);
+            match wall {
+                TankWall::Floor(wall) | TankWall::Side(wall) => block.meet(wall, &scenery.laws),
+                TankWall::Cylinder(wall) => block.meet(wall, &scenery.laws),
+            }
+            block.interact_with_wall(&scenery.laws);
             block.remember(simd, histories);
             block.add_to_spheres::<S, T>(simd, lanes, spheres.len(), &mut self.sums);
             if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
