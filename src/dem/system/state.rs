@@ -32,6 +32,8 @@ pub(in crate::dem) struct EngineState {
 /// What contacts remember.
 #[derive(Serialize, Deserialize)]
 struct Histories<H> {
+    /// Whether the law remembers anything: where nothing is held, nothing else tells.
+    remembers: bool,
     /// Of the pairs whose history is not empty: both spheres, in the order of the list.
     pairs: Vec<(u32, u32, H)>,
     /// Of each wall: the spheres whose history with it is not empty, in the order of their indices.
@@ -53,6 +55,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             moves: self.moves,
             particles: self.parts.particles.clone(),
             histories: encode(&Histories {
+                remembers: Self::REMEMBERS,
                 pairs,
                 walls: self.walls.iter().map(of_wall).collect(),
             }),
@@ -79,6 +82,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         } = state;
         let histories: Histories<T::History> =
             decode(&histories).ok_or(StateError("its contacts follow another law"))?;
+        if histories.remembers != Self::REMEMBERS {
+            return Err(StateError("its contacts follow another law"));
+        }
         self.accept(&particles, &histories)?;
         match (&mut self.ledger, books) {
             (Some(ledger), Some(books)) if books.fit(&particles) => ledger.books = books,
@@ -133,7 +139,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             wall.windows(2).all(|pair| pair[0].0 < pair[1].0)
                 && wall.last().is_none_or(|&(i, _)| known(i))
         };
-        let Histories { pairs, walls } = histories;
+        let Histories { pairs, walls, .. } = histories;
         let fits = particles.fits_together()
             && ordered
             && walls.len() == self.walls.len()
