@@ -476,10 +476,10 @@ impl Sums<'_> {
         if let Some(sum) = self.force.get_mut(at) {
             add(simd, sum, force);
         }
-        if T::ROTATES {
-            if let Some(sum) = self.torque.get_mut(at) {
-                add(simd, sum, torque);
-            }
+        if T::ROTATES
+            && let Some(sum) = self.torque.get_mut(at)
+        {
+            add(simd, sum, torque);
         }
     }
 }
