@@ -25,7 +25,7 @@ fn large(friction: Option<Friction>, integrator: Integrator) -> Scene {
     scene.updraught = None;
     scene.swirl.as_mut().unwrap().omega = 30.0;
     let tank = scene.tank.as_mut().unwrap();
-    let factor = (COUNT as f64 / scene.spheres.count as f64).cbrt();
+    let factor = libm::cbrt(COUNT as f64 / scene.spheres.count as f64);
     tank.radius = tank.radius.map(|radius| radius * factor);
     scene.spheres.count = COUNT;
     scene.start = Start::Random {
@@ -86,7 +86,7 @@ fn frames_are_in_the_order_of_the_scene() {
         let now = places(&mut simulation);
         // In a millisecond none gets farther than with 5 m/s.
         let way = |one: &[f64; 9], other: &[f64; 9]| {
-            let squares = (0..3).map(|k| (one[k] - other[k]).powi(2));
+            let squares = (0..3).map(|k| (one[k] - other[k]) * (one[k] - other[k]));
             squares.sum::<f64>().sqrt()
         };
         assert!(
