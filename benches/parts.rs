@@ -42,6 +42,7 @@ fn touches() -> Vec<Touch> {
             effective_radius: 0.002,
             normal_force: 0.0,
             loading_velocity: Vector::new(0.1 * share, 0.02, 0.0),
+            contact_radius: (0.002 * 1e-4 * share).sqrt(),
             loading_radius: (0.002 * 1e-4 * share).sqrt(),
             loading_time: 1e-4,
         }

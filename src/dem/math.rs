@@ -94,7 +94,7 @@ mod tests {
     proptest! {
         #[test]
         fn inverse_roots_agree_with_the_processor(exponent in -280.0..280.0, share in 1.0..10.0) {
-            let x = share * libm::pow(10.0, exponent);
+            let x: f64 = share * libm::pow(10.0, exponent);
             let reference = 1.0 / x.sqrt();
             let ulp = reference * f64::EPSILON;
             prop_assert!((inverse_square_root(x) - reference).abs() <= 2.0 * ulp, "of {x}");

@@ -68,6 +68,7 @@ mod tests {
             effective_radius: 0.02,
             normal_force: 2.0,
             loading_velocity: along * speed,
+            contact_radius: 1e-3,
             loading_radius: 1e-3,
             loading_time: DT,
         }

@@ -5,8 +5,9 @@
 //! its other pairs: so every sum is in the order of the list, as with one thread, and there is nothing to wait
 //! for. What such a pair remembers, both have.
 
-use super::pair_block::{PairBlock, Sums};
+use super::pair_block::PairBlock;
 use super::share::{AtWall, Known, Scenery, Share, TooDeep};
+use super::sums::Sums;
 use super::wall_contacts::WallContacts;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};

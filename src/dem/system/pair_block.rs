@@ -4,7 +4,9 @@
 //! into vector instructions; a pair that does not touch gets a force of zero. Then the forces are added up
 //! one by one in the order of the list. Adding zero to a sum that began at +0 changes no bit of it.
 
+use super::lanes::{Solids, WallMeetings};
 use super::meeting::{Couple, Earlier, Laws, Meeting, Roots, Solid};
+use super::sums::Sums;
 use super::wall_contacts::NearSphere;
 use crate::dem::block::{BLOCK, Column, Columns, ROWS, Row, row};
 use crate::dem::contact::NormalLaw;
@@ -13,7 +15,7 @@ use crate::dem::math::inverse_square_root;
 use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
-use crate::dem::walls::{Wall, WallContact};
+use crate::dem::walls::Wall;
 use fearless_simd::{Simd, SimdFrom, f64x4};
 use std::marker::PhantomData;
 
@@ -22,91 +24,6 @@ const NOT_DEEP: f64 = -1.0;
 
 /// Velocity and spin of a sphere before an evaluation of forces, in rows.
 pub(super) type EarlierRows = [Row; 2];
-
-/// What of the spheres of a block does not change.
-struct Solids {
-    radius: Column,
-    mass: Column,
-    inverse_mass: Column,
-    inertia: Column,
-}
-
-impl Solids {
-    fn all(solid: Solid) -> Self {
-        Self {
-            radius: [solid.radius; BLOCK],
-            mass: [solid.mass; BLOCK],
-            inverse_mass: [solid.inverse_mass; BLOCK],
-            inertia: [solid.inertia; BLOCK],
-        }
-    }
-
-    /// Fetches it of the sphere of every lane.
-    #[inline(always)]
-    fn take<N: NormalLaw, T: TangentialLaw>(
-        &mut self,
-        particles: &Particles,
-        sphere: impl Fn(usize) -> u32,
-    ) {
-        for k in 0..BLOCK {
-            self.radius[k] = particles.radius[sphere(k) as usize];
-        }
-        if T::WEIGHS {
-            for k in 0..BLOCK {
-                self.mass[k] = particles.mass[sphere(k) as usize];
-                self.inertia[k] = particles.inertia[sphere(k) as usize];
-            }
-        }
-        if Laws::<N, T>::NEEDS_EFFECTIVE_MASS {
-            for k in 0..BLOCK {
-                self.inverse_mass[k] = particles.inverse_mass[sphere(k) as usize];
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn at(&self, k: usize) -> Solid {
-        Solid {
-            radius: self.radius[k],
-            mass: self.mass[k],
-            inverse_mass: self.inverse_mass[k],
-            inertia: self.inertia[k],
-        }
-    }
-}
-
-/// How the spheres of a block meet a wall.
-struct WallMeetings {
-    normal: Columns,
-    overlap: Column,
-    /// 1 where they touch, else 0.
-    touches: Column,
-}
-
-impl WallMeetings {
-    const NONE: Self = Self {
-        normal: Columns::ZERO,
-        overlap: [0.0; BLOCK],
-        touches: [0.0; BLOCK],
-    };
-
-    #[inline(always)]
-    fn set(&mut self, k: usize, contact: &WallContact) {
-        let [x, y, z] = &mut self.normal.0;
-        (x[k], y[k], z[k]) = (contact.normal.x, contact.normal.y, contact.normal.z);
-        self.overlap[k] = contact.overlap;
-        self.touches[k] = if contact.touches { 1.0 } else { 0.0 };
-    }
-
-    #[inline(always)]
-    fn at(&self, k: usize) -> WallContact {
-        WallContact {
-            touches: self.touches[k] > 0.0,
-            overlap: self.overlap[k],
-            normal: self.normal.vector(k),
-        }
-    }
-}
 
 /// Everything about the pairs of a block.
 pub(super) struct PairBlock<H> {
@@ -569,65 +486,6 @@ impl<H: History> PairBlock<H> {
                     *history = H::of_spring(spring(row));
                 }
             }
-        }
-    }
-}
-
-/// Forces and torques of the spheres from one on, or of all.
-pub(super) struct Sums<'a> {
-    /// The index of the first one.
-    pub(super) first: usize,
-    /// Forces (N).
-    pub(super) force: &'a mut [Vector],
-    /// Torques (N m), of spheres that turn.
-    pub(super) torque: &'a mut [Vector],
-}
-
-impl Sums<'_> {
-    /// The same, for a loop: whose bounds then stay in registers, whatever is written.
-    #[inline(always)]
-    fn here(&mut self) -> Sums<'_> {
-        Sums {
-            first: self.first,
-            force: self.force,
-            torque: self.torque,
-        }
-    }
-
-    /// Adds to a sphere, if it is one of these.
-    #[inline(always)]
-    fn add<S: Simd, T: TangentialLaw>(
-        &mut self,
-        simd: S,
-        sphere: u32,
-        force: f64x4<S>,
-        torque: f64x4<S>,
-    ) {
-        let at = (sphere as usize).wrapping_sub(self.first);
-        if at < self.force.len() {
-            add(simd, &mut self.force[at], force);
-            if T::ROTATES {
-                add(simd, &mut self.torque[at], torque);
-            }
-        }
-    }
-}
-
-#[inline(always)]
-fn add<S: Simd>(simd: S, sum: &mut Vector, force: f64x4<S>) {
-    *sum = Vector::of_row((sum.simd(simd) + force).into());
-}
-
-/// A block of contacts; lanes without one repeat the first.
-#[inline(always)]
-pub(super) fn whole<'a, C: Copy>(contacts: &'a [C], rest: &'a mut [C; BLOCK]) -> &'a [C; BLOCK] {
-    match <&[C; BLOCK]>::try_from(contacts) {
-        Ok(all) => all,
-        Err(_) => {
-            for (k, lane) in rest.iter_mut().enumerate() {
-                *lane = contacts[if k < contacts.len() { k } else { 0 }];
-            }
-            rest
         }
     }
 }

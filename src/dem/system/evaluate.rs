@@ -1,0 +1,179 @@
+//! One evaluation: the forces and torques of everything, at the present positions and velocities.
+
+use super::contacts::Among;
+use super::share::{Known, Scenery, Share};
+use super::sums::Sums;
+use super::{Parts, System};
+use crate::dem::block::BLOCK;
+use crate::dem::contact::NormalLaw;
+use crate::dem::friction::TangentialLaw;
+use crate::dem::particles::Particles;
+use crate::dem::profile::{self, Part};
+use crate::dem::walls::TankWall;
+use crate::record::Instability;
+use std::ops::Range;
+
+impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
+    /// Evaluates all forces and torques at the present positions and velocities.
+    pub(super) fn evaluate(&mut self) -> Result<(), Instability> {
+        if self.stale || self.near.is_too_wide(self.near_age.steps) {
+            self.refresh()?;
+        }
+        let among = self.take_all();
+        self.note_all_contacts(&among);
+        self.mark_ledger();
+        match self.list.is_some() {
+            true => self.forces_among(&among, true),
+            false => self.parts.particles.clear_forces(),
+        }
+        self.return_all(among);
+        self.apply_effects();
+        self.check_overlaps()
+    }
+
+    /// Forces and torques of all but contacts.
+    pub(super) fn evaluate_effects(&mut self) {
+        self.parts.particles.clear_forces();
+        self.apply_effects();
+    }
+
+    pub(super) fn apply_effects(&mut self) {
+        if self.parts.shielded {
+            let (near, particles) = (&mut self.near, &self.parts.particles);
+            near.count_shielding(self.level, particles);
+            self.mark(Part::Shield);
+        }
+        let effects = self.parts.effects.len();
+        if self.ledger.is_none() {
+            self.act(0..effects);
+            return;
+        }
+        let (particles, all) = (&self.parts.particles, &self.parts.effects);
+        let potential = all.iter().take_while(|it| it.energy(particles).is_some());
+        let potential = potential.count();
+        self.act(0..potential);
+        let particles = &self.parts.particles;
+        let before = [particles.force.clone(), particles.torque.clone()];
+        self.act(potential..effects);
+        if let Some(ledger) = &mut self.ledger {
+            ledger
+                .books
+                .note_air([&before[0], &before[1]], &self.parts.particles);
+        }
+    }
+
+    /// Adds the forces and torques of some effects, block by block.
+    fn act(&mut self, effects: Range<usize>) {
+        let Parts {
+            particles,
+            effects: all,
+            ..
+        } = &mut self.parts;
+        let (effects, bodies) = (&mut all[effects], &mut *self.bodies);
+        if effects.is_empty() {
+            return;
+        }
+        let turn = effects.iter().any(|effect| effect.turns());
+        for first in (0..particles.len()).step_by(BLOCK) {
+            bodies.take(self.level, particles, first, turn);
+            profile::mark(&mut self.profile, Part::Rest);
+            for effect in effects.iter_mut() {
+                effect.apply(self.level, bodies, self.near.shielding());
+                profile::mark(&mut self.profile, effect.part());
+            }
+            bodies.give(self.level, particles, turn);
+        }
+        self.mark(Part::Rest);
+    }
+
+    /// Reports a contact that the latest forces found too deep.
+    pub(super) fn check_overlaps(&mut self) -> Result<(), Instability> {
+        match self.too_deep.take() {
+            Some((sphere, overlap)) => {
+                Err(self
+                    .parts
+                    .limits
+                    .overlap_broken(self.step, self.parts.dt, sphere, overlap))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Takes out what may touch, all of it.
+    pub(super) fn take_all(&mut self) -> Among {
+        let mut among = Among {
+            pairs: self.near.take_pairs(),
+            ..Among::default()
+        };
+        for (all, wall) in among.walls.iter_mut().zip(&mut self.walls) {
+            *all = std::mem::take(&mut wall.near);
+        }
+        among
+    }
+
+    pub(super) fn return_all(&mut self, among: Among) {
+        self.near.return_pairs(among.pairs);
+        for (wall, all) in self.walls.iter_mut().zip(among.walls) {
+            wall.near = all;
+        }
+    }
+
+    /// Adds the forces and torques of contacts, or evaluates those of all anew.
+    pub(super) fn forces_among(&mut self, among: &Among, anew: bool) {
+        let Particles { force, torque, .. } = &mut self.parts.particles;
+        let (mut force, mut torque) = (std::mem::take(force), std::mem::take(torque));
+        let scenery = Scenery {
+            laws: self.laws(),
+            particles: &self.parts.particles,
+            earlier: &self.earlier,
+            alike: self.alike,
+        };
+        let pairs = Known {
+            contacts: &among.pairs[..],
+            histories: &mut self.pair_history[..],
+        };
+        let walls = self.walls.iter_mut().zip(&among.walls);
+        let walls = walls.map(|(wall, near)| {
+            let known = Known {
+                contacts: &near[..],
+                histories: &mut wall.histories[..],
+            };
+            (wall.wall, known)
+        });
+        let too_deep = match self.division.as_mut().filter(|_| anew) {
+            Some(division) => {
+                let sums = [&mut force[..], &mut torque[..]];
+                let mut walls: Vec<_> = walls.collect();
+                let too_deep = division.evaluate(self.level, &scenery, sums, pairs, &mut walls);
+                profile::mark(&mut self.profile, Part::Pairs);
+                too_deep
+            }
+            None => {
+                let mut at_walls = [const { None }; TankWall::MOST];
+                for (place, wall) in at_walls.iter_mut().zip(walls) {
+                    *place = Some(wall);
+                }
+                let mut share = Share {
+                    sums: Sums {
+                        first: 0,
+                        force: &mut force,
+                        torque: &mut torque,
+                    },
+                    clear: anew,
+                    block: &mut self.block,
+                    crossing: Known {
+                        contacts: &[],
+                        histories: &mut [],
+                    },
+                    pairs,
+                    walls: at_walls,
+                    too_deep: [None; 1 + TankWall::MOST],
+                };
+                share.add_contacts(self.level, &scenery, &mut self.profile);
+                share.too_deep.into_iter().flatten().next()
+            }
+        };
+        self.too_deep = self.too_deep.or(too_deep);
+        (self.parts.particles.force, self.parts.particles.torque) = (force, torque);
+    }
+}

@@ -1,0 +1,50 @@
+//! Forces and torques, as contacts add to them.
+
+use crate::dem::friction::TangentialLaw;
+use crate::dem::vector::Vector;
+use fearless_simd::{Simd, f64x4};
+
+/// Forces and torques of the spheres from one on, or of all.
+pub(super) struct Sums<'a> {
+    /// The index of the first one.
+    pub(super) first: usize,
+    /// Forces (N).
+    pub(super) force: &'a mut [Vector],
+    /// Torques (N m), of spheres that turn.
+    pub(super) torque: &'a mut [Vector],
+}
+
+impl Sums<'_> {
+    /// The same, for a loop: whose bounds then stay in registers, whatever is written.
+    #[inline(always)]
+    pub(super) fn here(&mut self) -> Sums<'_> {
+        Sums {
+            first: self.first,
+            force: self.force,
+            torque: self.torque,
+        }
+    }
+
+    /// Adds to a sphere, if it is one of these.
+    #[inline(always)]
+    pub(super) fn add<S: Simd, T: TangentialLaw>(
+        &mut self,
+        simd: S,
+        sphere: u32,
+        force: f64x4<S>,
+        torque: f64x4<S>,
+    ) {
+        let at = (sphere as usize).wrapping_sub(self.first);
+        if at < self.force.len() {
+            add(simd, &mut self.force[at], force);
+            if T::ROTATES {
+                add(simd, &mut self.torque[at], torque);
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn add<S: Simd>(simd: S, sum: &mut Vector, force: f64x4<S>) {
+    *sum = Vector::of_row((sum.simd(simd) + force).into());
+}
