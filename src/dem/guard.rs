@@ -10,8 +10,6 @@ use crate::scene::{Scene, Tank};
 pub(super) struct Limits {
     /// Largest overlap, in radii of the smaller partner.
     pub(super) overlap: f64,
-    /// Square of the largest speed of each sphere, from the largest displacement per step (m2/s2).
-    pub(super) speed_squared: Vec<f64>,
     /// A sphere none of whose components of velocity is beyond this is slow enough, whichever it is (m/s).
     pub(super) slow: f64,
     displacement: f64,
@@ -33,7 +31,6 @@ impl Limits {
             .fold(0.0, |most: f64, centre| most.max(centre.z.abs()));
         let mut limits = Self {
             overlap: guards.overlap,
-            speed_squared: Vec::new(),
             slow: f64::MAX,
             displacement: guards.displacement,
             horizontal: guards
@@ -51,18 +48,21 @@ impl Limits {
 
     /// The limits of these spheres instead of those before.
     pub(super) fn fit(&mut self, radius: &[f64], dt: f64) {
-        self.speed_squared.clear();
+        self.slow = f64::MAX;
         for &radius in radius {
             self.add_sphere(radius, dt);
         }
     }
 
-    /// The limits of another sphere.
+    /// Heeds the limit of another sphere.
     pub(super) fn add_sphere(&mut self, radius: f64, dt: f64) {
-        let speed = self.displacement * radius / dt;
-        self.speed_squared.push(speed * speed);
-        // A hair less, for what rounding adds.
-        self.slow = self.slow.min(0.577 * speed);
+        // A hair less than 1 / sqrt(3), for what rounding adds.
+        self.slow = self.slow.min(0.577 * self.largest_speed(radius, dt));
+    }
+
+    /// The speed (m/s) of the largest displacement per step of a sphere of that radius (m).
+    fn largest_speed(&self, radius: f64, dt: f64) -> f64 {
+        self.displacement * radius / dt
     }
 
     /// Refuses positions that are not a number or out of bounds, and spins whose squares are not finite.
@@ -121,7 +121,10 @@ impl Limits {
         dt: f64,
     ) -> Result<(), Instability> {
         let speed = |i: usize| particles.velocity[i].norm_squared();
-        let broken = |&i: &usize| !(speed(i) <= self.speed_squared[i]);
+        let broken = |&i: &usize| {
+            let largest = self.largest_speed(particles.radius[i], dt);
+            !(speed(i) <= largest * largest)
+        };
         let Some(sphere) = (0..particles.len()).find(broken) else {
             return Ok(());
         };

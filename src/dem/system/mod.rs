@@ -292,7 +292,6 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         if let Some(ledger) = &mut self.ledger {
             ledger.books.retain(keep);
         }
-        retain(&mut self.parts.limits.speed_squared, keep);
         self.walls.iter_mut().for_each(|wall| wall.retain(keep));
         self.list.iter_mut().for_each(VerletList::outdate);
         retain(&mut self.pair_history, &self.near.remove_spheres(keep));

@@ -4,7 +4,7 @@ use super::System;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::neighbours::NearPair;
-use crate::dem::order::{self, reorder};
+use crate::dem::order;
 use crate::dem::profile::Part;
 use crate::record::Instability;
 
@@ -26,7 +26,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let places = order::places(order);
         self.follow_pairs(&places);
         self.parts.particles.reorder(order);
-        reorder(&mut self.parts.limits.speed_squared, order);
         for effect in &mut self.parts.effects {
             effect.reorder(order);
         }
