@@ -73,7 +73,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if effects.is_empty() {
             return;
         }
-        let turn = effects.iter().any(|effect| effect.turns());
+        // Without rotation there are neither spins nor torques.
+        let turn = particles.rotate() && effects.iter().any(|effect| effect.turns());
         for first in (0..particles.len()).step_by(BLOCK) {
             bodies.take(self.level, particles, first, turn);
             profile::mark(&mut self.profile, Part::Rest);
@@ -120,6 +121,26 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Adds the forces and torques of contacts, or evaluates those of all anew.
     pub(super) fn forces_among(&mut self, among: &Among, anew: bool) {
+        if anew || !Self::REMEMBERS {
+            self.forces_of(among, anew);
+            return;
+        }
+        // Loops over contacts have the history of each beside it; that of some stands among those of all.
+        let entries = among.pairs.iter().map(|pair| pair.entry);
+        let all = exchange(&mut self.pair_history, entries);
+        let mut walls = [const { Vec::new() }; TankWall::MOST];
+        for ((all, wall), near) in walls.iter_mut().zip(&mut self.walls).zip(&among.walls) {
+            *all = exchange(&mut wall.histories, near.iter().map(|sphere| sphere.entry));
+        }
+        self.forces_of(among, anew);
+        let entries = among.pairs.iter().map(|pair| pair.entry);
+        put_back(&mut self.pair_history, all, entries);
+        for ((all, wall), near) in walls.into_iter().zip(&mut self.walls).zip(&among.walls) {
+            put_back(&mut wall.histories, all, near.iter().map(|it| it.entry));
+        }
+    }
+
+    fn forces_of(&mut self, among: &Among, anew: bool) {
         let Particles { force, torque, .. } = &mut self.parts.particles;
         let (mut force, mut torque) = (std::mem::take(force), std::mem::take(torque));
         let scenery = Scenery {
@@ -175,5 +196,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         };
         self.too_deep = self.too_deep.or(too_deep);
         (self.parts.particles.force, self.parts.particles.torque) = (force, torque);
+    }
+}
+
+/// Puts the histories at these entries in the place of all, and returns those.
+fn exchange<H: Copy>(histories: &mut Vec<H>, entries: impl Iterator<Item = u32>) -> Vec<H> {
+    let some = entries.map(|entry| histories[entry as usize]).collect();
+    std::mem::replace(histories, some)
+}
+
+/// Puts all histories back, with those at these entries as they are now.
+fn put_back<H: Copy>(histories: &mut Vec<H>, all: Vec<H>, entries: impl Iterator<Item = u32>) {
+    let some = std::mem::replace(histories, all);
+    for (entry, history) in entries.zip(some) {
+        histories[entry as usize] = history;
     }
 }

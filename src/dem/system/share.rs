@@ -117,6 +117,7 @@ impl<H: History> Share<'_, H> {
             true => &mut self.crossing,
             false => &mut self.pairs,
         };
+        debug_assert!(known.contacts.len() <= known.histories.len());
         let block = &mut *self.block;
         let blocks = (known.contacts.chunks(BLOCK)).zip(known.histories.chunks_mut(BLOCK));
         let mut rest = [NearPair::default(); BLOCK];
@@ -149,6 +150,7 @@ impl<H: History> Share<'_, H> {
         let Some((_, near)) = &mut self.walls[place] else {
             return;
         };
+        debug_assert!(near.contacts.len() <= near.histories.len());
         let block = &mut *self.block;
         let blocks = (near.contacts.chunks(BLOCK)).zip(near.histories.chunks_mut(BLOCK));
         let mut rest = [NearSphere::default(); BLOCK];
