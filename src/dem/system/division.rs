@@ -5,8 +5,7 @@
 //! its other pairs: so every sum is in the order of the list, as with one thread, and there is nothing to wait
 //! for. What such a pair remembers, both have.
 
-use super::pair_block::PairBlock;
-use super::share::{AtWall, Known, Scenery, Share, TooDeep};
+use super::share::{AtWall, Buffers, Known, Scenery, Share, TooDeep};
 use super::sums::Sums;
 use super::wall_contacts::WallContacts;
 use crate::dem::contact::NormalLaw;
@@ -32,7 +31,7 @@ struct Region<H> {
     walls: [Range<usize>; TankWall::MOST],
     crossing: Vec<NearPair>,
     crossing_history: Vec<H>,
-    block: Box<PairBlock<H>>,
+    buffers: Box<Buffers<H>>,
 }
 
 impl<H: History> Division<H> {
@@ -44,7 +43,7 @@ impl<H: History> Division<H> {
             walls: [const { 0..0 }; TankWall::MOST],
             crossing: Vec::new(),
             crossing_history: Vec::new(),
-            block: Box::new(PairBlock::new()),
+            buffers: Buffers::new(),
         };
         Self {
             parts: (0..threads).map(|_| region()).collect(),
@@ -125,7 +124,7 @@ impl<H: History> Division<H> {
                     torque: split(&mut torques, count),
                 },
                 clear: true,
-                block: &mut region.block,
+                buffers: &mut region.buffers,
                 crossing: Known {
                     contacts: &region.crossing,
                     histories: &mut region.crossing_history,

@@ -181,7 +181,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                         torque: &mut torque,
                     },
                     clear: anew,
-                    block: &mut self.block,
+                    buffers: &mut self.buffers,
                     crossing: Known {
                         contacts: &[],
                         histories: &mut [],

@@ -15,6 +15,7 @@ mod pair_block;
 mod share;
 mod state;
 mod sums;
+mod touching;
 mod wall_contacts;
 
 use self::adaptive::Workspace;
@@ -23,7 +24,8 @@ use self::integrate::Before;
 use self::ledger::Ledger;
 pub(in crate::dem) use self::ledger::Work;
 use self::meeting::{Loading, Solid};
-use self::pair_block::{EarlierRows, PairBlock};
+use self::pair_block::EarlierRows;
+use self::share::Buffers;
 pub(in crate::dem) use self::state::EngineState;
 use self::wall_contacts::WallContacts;
 use super::bodies::Bodies;
@@ -126,7 +128,7 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     profile: Option<Box<Profile>>,
     /// What all spheres are like, if they are alike.
     alike: Option<Solid>,
-    block: Box<PairBlock<T::History>>,
+    buffers: Box<Buffers<T::History>>,
     bodies: Box<Bodies>,
     /// The walls, and what may touch them.
     walls: Vec<WallContacts<T::History>>,
@@ -178,7 +180,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             ledger: None,
             profile: None,
             alike: Self::alike(&parts.particles),
-            block: Box::new(PairBlock::new()),
+            buffers: Buffers::new(),
             bodies: Box::new(Bodies::new()),
             walls: parts.walls.iter().copied().map(WallContacts::new).collect(),
             pair_history: Vec::new(),

@@ -7,6 +7,7 @@
 use super::lanes::{Solids, WallMeetings};
 use super::meeting::{Couple, Earlier, Laws, Meeting, Roots, Solid};
 use super::sums::Sums;
+use super::touching::Entry;
 use super::wall_contacts::NearSphere;
 use crate::dem::block::{BLOCK, Column, Columns, ROWS, Row, row};
 use crate::dem::contact::NormalLaw;
@@ -153,7 +154,7 @@ impl<H: History> PairBlock<H> {
                 *inverse = 1.0 / (one.radius[k] + other.radius[k]);
             }
         }
-        self.take_springs(simd, histories);
+        self.take_springs(simd, pairs, histories);
         if Self::REMEMBERS && !earlier.is_empty() {
             self.earlier_velocity.fill::<S>(
                 #[inline(always)]
@@ -175,29 +176,13 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Fetches springs, up to a block of them.
+    /// Fetches springs.
     #[inline(always)]
-    fn take_springs<S: Simd>(&mut self, simd: S, histories: &[H]) {
-        if !Self::REMEMBERS {
-            return;
-        }
-        if let Ok(all) = <&[H; BLOCK]>::try_from(histories) {
+    fn take_springs<S: Simd, C: Entry>(&mut self, simd: S, contacts: &[C; BLOCK], histories: &[H]) {
+        if Self::REMEMBERS {
             self.spring.fill::<S>(
                 #[inline(always)]
-                |k| all[k].spring().force.simd(simd),
-            );
-        } else {
-            self.spring.fill::<S>(
-                #[inline(always)]
-                |k| {
-                    histories
-                        .get(k)
-                        .copied()
-                        .unwrap_or_default()
-                        .spring()
-                        .force
-                        .simd(simd)
-                },
+                |k| histories[contacts[k].entry()].spring().force.simd(simd),
             );
         }
     }
@@ -229,7 +214,7 @@ impl<H: History> PairBlock<H> {
         if !self.alike {
             self.solid[0].take::<N, T>(particles, |k| spheres[k].i);
         }
-        self.take_springs(simd, histories);
+        self.take_springs(simd, spheres, histories);
         if Self::REMEMBERS && !earlier.is_empty() {
             self.earlier_velocity.fill::<S>(
                 #[inline(always)]
@@ -466,25 +451,22 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Writes down what the contacts remember.
+    /// Writes down what the contacts remember; lanes that repeat a contact write the same.
     #[inline(always)]
-    pub(super) fn remember<S: Simd>(&self, simd: S, histories: &mut [H]) {
+    pub(super) fn remember<S: Simd, C: Entry>(
+        &self,
+        simd: S,
+        contacts: &[C; BLOCK],
+        histories: &mut [H],
+    ) {
         if !Self::REMEMBERS {
             return;
         }
-        for (at, histories) in (0..BLOCK).step_by(ROWS).zip(histories.chunks_mut(ROWS)) {
+        for at in (0..BLOCK).step_by(ROWS) {
             let rows = self.spring.rows(simd, at);
-            let spring = |row: f64x4<S>| Spring {
-                force: Vector::of_row(row.into()),
-            };
-            if let Ok(all) = <&mut [H; ROWS]>::try_from(&mut *histories) {
-                for k in 0..ROWS {
-                    all[k] = H::of_spring(spring(rows[k]));
-                }
-            } else {
-                for (history, &row) in histories.iter_mut().zip(&rows) {
-                    *history = H::of_spring(spring(row));
-                }
+            for k in 0..ROWS {
+                let force = Vector::of_row(rows[k].into());
+                histories[contacts[at + k].entry()] = H::of_spring(Spring { force });
             }
         }
     }

@@ -5,6 +5,7 @@ use super::lanes::whole;
 use super::meeting::{Laws, Solid};
 use super::pair_block::{EarlierRows, PairBlock};
 use super::sums::Sums;
+use super::touching::{LOOK, Touching};
 use super::wall_contacts::NearSphere;
 use crate::dem::block::BLOCK;
 use crate::dem::contact::NormalLaw;
@@ -39,12 +40,29 @@ pub(super) type AtWall<'a, H> = (TankWall, Known<'a, NearSphere, H>);
 /// A sphere whose contact is beyond the overlap limit, and the overlap (m).
 pub(super) type TooDeep = Option<(usize, f64)>;
 
+/// What a thread computes contacts in.
+pub(super) struct Buffers<H> {
+    block: PairBlock<H>,
+    pairs: Touching<NearPair>,
+    spheres: Touching<NearSphere>,
+}
+
+impl<H: History> Buffers<H> {
+    pub(super) fn new() -> Box<Self> {
+        Box::new(Self {
+            block: PairBlock::new(),
+            pairs: Touching::new(),
+            spheres: Touching::new(),
+        })
+    }
+}
+
 /// What a thread answers for: forces and torques of some spheres, or of all.
 pub(super) struct Share<'a, H> {
     pub(super) sums: Sums<'a>,
     /// Whether sums begin anew.
     pub(super) clear: bool,
-    pub(super) block: &'a mut PairBlock<H>,
+    pub(super) buffers: &'a mut Buffers<H>,
     /// Pairs whose first sphere is another share's, which answers for its force and the pair's history: here
     /// is a copy.
     pub(super) crossing: Known<'a, NearPair, H>,
@@ -81,7 +99,7 @@ impl<H: History> Share<'_, H> {
             self.sums.torque.fill(Vector::ZERO);
             profile::mark(profile, Part::Rest);
         }
-        self.block.set_alike(scenery.alike);
+        self.buffers.block.set_alike(scenery.alike);
         // In one loop, as all that stands in it is compiled for every instruction set.
         for crossing in [true, false] {
             self.pair_forces::<S, N, T>(simd, scenery, crossing);
@@ -111,28 +129,31 @@ impl<H: History> Share<'_, H> {
             laws,
             particles,
             earlier,
-            ..
+            alike,
         } = scenery;
         let known = match crossing {
             true => &mut self.crossing,
             false => &mut self.pairs,
         };
         debug_assert!(known.contacts.len() <= known.histories.len());
-        let block = &mut *self.block;
-        let blocks = (known.contacts.chunks(BLOCK)).zip(known.histories.chunks_mut(BLOCK));
+        let Buffers { block, pairs, .. } = &mut *self.buffers;
+        let histories = &mut *known.histories;
         let mut rest = [NearPair::default(); BLOCK];
-        for (pairs, histories) in blocks {
-            let lanes = whole(pairs, &mut rest);
-            block.take_pairs::<S, N, T>(simd, lanes, histories, particles, earlier);
-            block.interact(laws);
-            block.remember(simd, histories);
-            block.add_to_pairs::<S, T>(simd, lanes, pairs.len(), &mut self.sums);
-            if let Some((k, overlap)) = block.first_too_deep(pairs.len()) {
-                let NearPair { i, j, .. } = pairs[k];
-                let sphere = particles.moving_partner(i, j);
-                // The other share says so of one that crosses.
-                if !crossing {
-                    self.too_deep[0].get_or_insert((sphere, overlap));
+        for (first, near) in (0..).step_by(LOOK).zip(known.contacts.chunks(LOOK)) {
+            let touching = pairs.pairs(simd, near, first, histories, particles, *alike);
+            for pairs in touching.chunks(BLOCK) {
+                let lanes = whole(pairs, &mut rest);
+                block.take_pairs::<S, N, T>(simd, lanes, histories, particles, earlier);
+                block.interact(laws);
+                block.remember(simd, lanes, histories);
+                block.add_to_pairs::<S, T>(simd, lanes, pairs.len(), &mut self.sums);
+                if let Some((k, overlap)) = block.first_too_deep(pairs.len()) {
+                    let NearPair { i, j, .. } = pairs[k];
+                    let sphere = particles.moving_partner(i, j);
+                    // The other share says so of one that crosses.
+                    if !crossing {
+                        self.too_deep[0].get_or_insert((sphere, overlap));
+                    }
                 }
             }
         }
@@ -151,24 +172,37 @@ impl<H: History> Share<'_, H> {
             return;
         };
         debug_assert!(near.contacts.len() <= near.histories.len());
-        let block = &mut *self.block;
-        let blocks = (near.contacts.chunks(BLOCK)).zip(near.histories.chunks_mut(BLOCK));
+        let Buffers { block, spheres, .. } = &mut *self.buffers;
+        let Scenery {
+            laws,
+            particles,
+            earlier,
+            ..
+        } = scenery;
+        let histories = &mut *near.histories;
         let mut rest = [NearSphere::default(); BLOCK];
-        for (spheres, histories) in blocks {
-            let lanes = whole(spheres, &mut rest);
-            let Scenery {
-                particles, earlier, ..
-            } = scenery;
-            block.take_spheres::<S, N, T>(simd, lanes, histories, particles, earlier);
-            match wall {
-                TankWall::Floor(wall) | TankWall::Side(wall) => block.meet(wall, &scenery.laws),
-                TankWall::Cylinder(wall) => block.meet(wall, &scenery.laws),
-            }
-            block.interact_with_wall(&scenery.laws);
-            block.remember(simd, histories);
-            block.add_to_spheres::<S, T>(simd, lanes, spheres.len(), &mut self.sums);
-            if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
-                self.too_deep[1 + place].get_or_insert((spheres[k].i as usize, overlap));
+        for (first, near) in (0..).step_by(LOOK).zip(near.contacts.chunks(LOOK)) {
+            let touching = match wall {
+                TankWall::Floor(wall) | TankWall::Side(wall) => {
+                    spheres.spheres(near, first, histories, particles, wall)
+                }
+                TankWall::Cylinder(wall) => {
+                    spheres.spheres(near, first, histories, particles, wall)
+                }
+            };
+            for spheres in touching.chunks(BLOCK) {
+                let lanes = whole(spheres, &mut rest);
+                block.take_spheres::<S, N, T>(simd, lanes, histories, particles, earlier);
+                match wall {
+                    TankWall::Floor(wall) | TankWall::Side(wall) => block.meet(wall, laws),
+                    TankWall::Cylinder(wall) => block.meet(wall, laws),
+                }
+                block.interact_with_wall(laws);
+                block.remember(simd, lanes, histories);
+                block.add_to_spheres::<S, T>(simd, lanes, spheres.len(), &mut self.sums);
+                if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
+                    self.too_deep[1 + place].get_or_insert((spheres[k].i as usize, overlap));
+                }
             }
         }
     }
