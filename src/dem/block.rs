@@ -134,3 +134,16 @@ fn transpose<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
 pub(in crate::dem) fn row<S: Simd>(simd: S, vectors: &[Vector], i: u32) -> f64x4<S> {
     vectors[i as usize].simd(simd)
 }
+
+/// The places of the ones among bits.
+#[inline(always)]
+pub(in crate::dem) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(
+        #[inline(always)]
+        move || {
+            let place = (bits != 0).then(|| bits.trailing_zeros() as usize);
+            bits &= bits.wrapping_sub(1);
+            place
+        },
+    )
+}

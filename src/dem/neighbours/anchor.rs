@@ -3,6 +3,7 @@
 //! A rotation of all spheres about the axis is not counted: it leaves the distances of all pairs as
 //! they are.
 
+use crate::dem::block::ROWS;
 use crate::dem::particles::{Particles, retain};
 use crate::dem::vector::Vector;
 
@@ -93,9 +94,29 @@ pub struct Allowance {
 
 impl Allowance {
     /// Whether all spheres are still near enough to their references.
+    #[inline(always)]
     pub fn hold(&self, positions: &[Vector], references: &[Reference]) -> bool {
-        let mut spheres = positions.iter().zip(references);
-        spheres.all(|(&position, &reference)| self.holds(position, reference))
+        let groups = positions.chunks(ROWS).zip(references.chunks(ROWS));
+        for (positions, references) in groups {
+            // Of a group all are looked at, which the compiler then does at once.
+            let mut hold = true;
+            if let (Ok(positions), Ok(references)) = (
+                <&[Vector; ROWS]>::try_from(positions),
+                <&[Reference; ROWS]>::try_from(references),
+            ) {
+                for k in 0..ROWS {
+                    hold &= self.holds(positions[k], references[k]);
+                }
+            } else {
+                for (&position, &reference) in positions.iter().zip(references) {
+                    hold &= self.holds(position, reference);
+                }
+            }
+            if !hold {
+                return false;
+            }
+        }
+        true
     }
 
     /// Whether a sphere at `position` is still near enough to its `reference`. Not so if a

@@ -6,27 +6,75 @@
 //! a wide margin leaves more pairs to look at in every step.
 //!
 //! Pairs are looked at in blocks: what is true of each is found for all at once, as bits of one
-//! number, and then written or counted one by one without a branch.
+//! number, and those that matter are written without a branch.
 
 use super::anchor::{Allowance, Anchor};
 use super::shield::Shield;
 use super::{Particles, VerletList};
-use crate::dem::block::{BLOCK, Column, Columns, row};
+use crate::dem::block::{BLOCK, Column, Columns, ROWS, ones, row};
 use crate::dem::particles::retain;
 use crate::dem::threads::in_parallel;
 use crate::dem::vector::Vector;
-use fearless_simd::{Level, Simd};
+use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8, mask64x8, u64x8};
+use std::cmp::Ordering;
 use std::ops::Range;
 
-/// A pair that may touch, and its entry in this list.
-#[derive(Clone, Copy, Debug, Default)]
+/// A pair that may touch: two indices in one number, in the order of which pairs stand in a list.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(C, align(8))]
 pub struct NearPair {
+    // On most machines these are the halves of one number.
+    second: u32,
+    first: u32,
+}
+
+impl NearPair {
+    /// The pair of a sphere of lower index and another one.
+    #[inline(always)]
+    pub fn new(i: u32, j: u32) -> Self {
+        Self { first: i, second: j }
+    }
+
     /// The sphere of lower index.
-    pub i: u32,
+    #[inline(always)]
+    pub fn i(self) -> u32 {
+        self.first
+    }
+
     /// The other sphere.
-    pub j: u32,
-    /// The pair's entry in the list of near pairs: where its history is.
-    pub entry: u32,
+    #[inline(always)]
+    pub fn j(self) -> u32 {
+        self.second
+    }
+
+    /// As one number.
+    #[inline(always)]
+    pub(in crate::dem) fn word(self) -> u64 {
+        u64::from(self.first) << 32 | u64::from(self.second)
+    }
+
+    /// The pair of a number.
+    #[inline(always)]
+    pub(in crate::dem) fn of_word(word: u64) -> Self {
+        Self::new((word >> 32) as u32, word as u32)
+    }
+
+    /// Both.
+    pub fn sides(self) -> [u32; 2] {
+        [self.i(), self.j()]
+    }
+}
+
+impl Ord for NearPair {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.word().cmp(&other.word())
+    }
+}
+
+impl PartialOrd for NearPair {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
 }
 
 /// Steps from one refresh to the next that the margin adapts to, for the long lists of the shield.
@@ -38,6 +86,9 @@ const CONTACT_LIFE: Range<u64> = 2..5;
 
 /// Steps after which pairs that hold still are looked for anew, with a smaller margin.
 const LONG_LIFE: u64 = 64;
+
+/// Bits of a number.
+const WORD: usize = u64::BITS as usize;
 
 /// The inner list.
 pub struct Near {
@@ -134,9 +185,7 @@ impl Near {
     /// Takes these pairs for all that are near, until they are looked for anew.
     pub fn set_pairs(&mut self, pairs: impl Iterator<Item = (u32, u32)>) {
         self.pairs.clear();
-        let entries = (0..).zip(pairs);
-        self.pairs
-            .extend(entries.map(|(entry, (i, j))| NearPair { i, j, entry }));
+        self.pairs.extend(pairs.map(|(i, j)| NearPair::new(i, j)));
     }
 
     /// Notes that the spheres that are not to be kept were removed: their pairs go, and the others get
@@ -151,12 +200,11 @@ impl Near {
                 next.saturating_sub(1)
             })
             .collect();
-        let stays = |pair: &NearPair| keep[pair.i as usize] && keep[pair.j as usize];
+        let stays = |pair: &NearPair| keep[pair.i() as usize] && keep[pair.j() as usize];
         let kept: Vec<bool> = self.pairs.iter().map(stays).collect();
         retain(&mut self.pairs, &kept);
-        for (entry, pair) in (0..).zip(&mut self.pairs) {
-            let (i, j) = (index[pair.i as usize], index[pair.j as usize]);
-            *pair = NearPair { i, j, entry };
+        for pair in &mut self.pairs {
+            *pair = NearPair::new(index[pair.i() as usize], index[pair.j() as usize]);
         }
         // Lanes without a pair repeat one of the past, whose spheres may be gone.
         self.glance.index = [[0; BLOCK]; 2];
@@ -216,12 +264,7 @@ impl Near {
                 near.find_among(level, list, particles, part);
             });
             for helper in &mut helpers {
-                let first = self.pairs.len() as u32;
-                let pairs = helper.pairs.drain(..);
-                self.pairs.extend(pairs.map(|pair| NearPair {
-                    entry: first + pair.entry,
-                    ..pair
-                }));
+                self.pairs.append(&mut helper.pairs);
             }
             self.helpers = helpers;
         }
@@ -265,27 +308,25 @@ impl Near {
             list.fill_owners(first, &mut owner, &mut glance.index[0][..partners.len()]);
             glance.index[1][..partners.len()].copy_from_slice(partners);
             glance.gather(simd, particles);
-            glance.classify(self.margin);
-            // A pair is always written, and kept only if it belongs there.
             make_room(&mut self.pairs, near);
             make_room(undecided, open);
-            let (pairs, undecided) = (&mut self.pairs[near..], &mut undecided[open..]);
-            let (mut kept, mut left) = (0, 0);
-            for (k, &j) in partners.iter().enumerate() {
-                let i = glance.index[0][k];
-                let facts = glance.facts[k];
-                let entry = (near + kept) as u32;
-                pairs[kept] = NearPair { i, j, entry };
-                undecided[left] = [i, j];
-                kept += has(facts, NEAR) as usize;
-                left += has(facts, UNDECIDED) as usize;
+            let (mut shields_first, mut shields_second) = (0, 0);
+            for at in (0..partners.len()).step_by(ROWS) {
+                let facts = glance.look(simd, at, self.margin, shield);
+                let all = u64::MAX >> (WORD - (partners.len() - at).min(ROWS));
+                let pairs = glance.pairs(simd, at);
+                near += keep(simd, pairs, facts.near & all, &mut self.pairs[near..]);
                 if shield {
-                    counts[i as usize] += has(facts, SHIELDS_FIRST);
-                    counts[j as usize] += has(facts, SHIELDS_SECOND);
+                    open += keep(simd, pairs, facts.undecided & all, &mut undecided[open..]);
+                    shields_first |= (facts.shields_first & all) << at;
+                    shields_second |= (facts.shields_second & all) << at;
                 }
             }
-            near += kept;
-            open += left;
+            for (side, shields) in [shields_first, shields_second].into_iter().enumerate() {
+                for k in ones(shields) {
+                    counts[glance.index[side][k] as usize] += 1;
+                }
+            }
         }
         self.pairs.truncate(if self.contacts { near } else { 0 });
         self.shielding.begin(if self.shield { open } else { 0 });
@@ -306,20 +347,36 @@ impl Near {
 /// Makes sure that a block can be written from there on.
 #[inline(always)]
 fn make_room<P: Copy + Default>(list: &mut Vec<P>, from: usize) {
-    if list.len() < from + BLOCK + 1 {
+    if list.len() < from + BLOCK + ROWS {
         // Not twice as much: what a large list does not need in the end is memory too.
         list.resize(from + from / 8 + 4 * BLOCK, P::default());
     }
 }
 
-/// What may be true of a pair: near enough to touch,
-const NEAR: u64 = 1;
-/// its part in the shield may change,
-const UNDECIDED: u64 = 2;
-/// the second sphere shields the first,
-const SHIELDS_FIRST: u64 = 4;
-/// or the first the second.
-const SHIELDS_SECOND: u64 = 8;
+/// Writes those of eight pairs that are to be kept to the front, and anything after them. Says how many.
+#[inline(always)]
+fn keep<S: Simd>(simd: S, pairs: u64x8<S>, which: u64, list: &mut [NearPair]) -> usize {
+    let mut kept = [0; ROWS];
+    let mask = mask64x8::from_bitmask(simd, which);
+    pairs.compress(mask).store_slice(&mut kept);
+    let list = &mut list[..ROWS];
+    for k in 0..ROWS {
+        list[k] = NearPair::of_word(kept[k]);
+    }
+    which.count_ones() as usize
+}
+
+/// What is true of eight pairs, as bits.
+struct Facts {
+    /// Near enough to touch.
+    near: u64,
+    /// Their part in the shield may change.
+    undecided: u64,
+    /// The second sphere shields the first,
+    shields_first: u64,
+    /// or the first the second.
+    shields_second: u64,
+}
 
 /// A block of pairs to look at.
 struct Glance {
@@ -329,7 +386,6 @@ struct Glance {
     /// Radii (m); all the same if that is given.
     radius: [Column; 2],
     common_radius: Option<f64>,
-    facts: [u64; BLOCK],
 }
 
 impl Glance {
@@ -339,7 +395,6 @@ impl Glance {
             offset: Columns::ZERO,
             radius: [[0.0; BLOCK]; 2],
             common_radius: None,
-            facts: [0; BLOCK],
         }
     }
 
@@ -371,38 +426,45 @@ impl Glance {
         }
     }
 
-    /// What is certain while offsets change by less than the margin (m).
+    /// Eight of the pairs.
     #[inline(always)]
-    fn classify(&mut self, margin: f64) {
-        let ([x, y, z], [ri, rj]) = (&self.offset.0, &self.radius);
-        for k in 0..BLOCK {
-            let (dx, dy, dz) = (x[k], y[k], z[k]);
-            let reach = ri[k] + rj[k] + margin;
-            let near = dx * dx + dy * dy + dz * dz < reach * reach;
-            let (dx, dy) = (dx.abs(), dy.abs());
-            let within = |r: f64, depth: f64, margin: f64| {
-                let reach = 2.0 * r + margin;
-                (dx < reach) & (dy < reach) & (depth > -margin)
-            };
-            let first = within(ri[k], dz, -margin);
-            let second = within(rj[k], -dz, -margin);
-            let decided =
-                (first == within(ri[k], dz, margin)) & (second == within(rj[k], -dz, margin));
-            self.facts[k] = bit(near, NEAR)
-                | bit(!decided, UNDECIDED)
-                | bit(decided & first, SHIELDS_FIRST)
-                | bit(decided & second, SHIELDS_SECOND);
+    fn pairs<S: Simd>(&self, simd: S, at: usize) -> u64x8<S> {
+        let [one, other] = &self.index;
+        let (one, other) = (&one[at..at + ROWS], &other[at..at + ROWS]);
+        let mut pairs = [0; ROWS];
+        for k in 0..ROWS {
+            pairs[k] = NearPair::new(one[k], other[k]).word();
         }
+        u64x8::from_slice(simd, &pairs)
     }
-}
 
-/// 1 if that is among the facts.
-#[inline(always)]
-fn has(facts: u64, bit: u64) -> u32 {
-    u32::from(facts & bit != 0)
-}
-
-#[inline(always)]
-fn bit(fact: bool, bit: u64) -> u64 {
-    if fact { bit } else { 0 }
+    /// What is certain of eight pairs while their offsets change by less than the margin (m).
+    #[inline(always)]
+    fn look<S: Simd>(&self, simd: S, at: usize, margin: f64, shield: bool) -> Facts {
+        let eight = |column: &Column| f64x8::from_slice(simd, &column[at..at + ROWS]);
+        let ([x, y, z], [ri, rj]) = (&self.offset.0, &self.radius);
+        let (dx, dy, dz) = (eight(x), eight(y), eight(z));
+        let (ri, rj) = (eight(ri), eight(rj));
+        let reach = ri + rj + margin;
+        let near = (dx * dx + dy * dy + dz * dz).simd_lt(reach * reach);
+        let mut facts = Facts {
+            near: near.to_bitmask(),
+            undecided: 0,
+            shields_first: 0,
+            shields_second: 0,
+        };
+        if shield {
+            let (dx, dy) = (dx.abs(), dy.abs());
+            let within = |r: f64x8<S>, depth: f64x8<S>, margin: f64| {
+                let reach = r * 2.0 + margin;
+                let deep = depth.simd_gt(f64x8::splat(simd, -margin));
+                (dx.simd_lt(reach) & dy.simd_lt(reach) & deep).to_bitmask()
+            };
+            let (first, second) = (within(ri, dz, -margin), within(rj, -dz, -margin));
+            facts.undecided = first ^ within(ri, dz, margin) | second ^ within(rj, -dz, margin);
+            facts.shields_first = first & !facts.undecided;
+            facts.shields_second = second & !facts.undecided;
+        }
+        facts
+    }
 }

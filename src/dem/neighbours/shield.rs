@@ -1,7 +1,7 @@
 //! Who shields whom from below: what is known for some steps, and the pairs that must be looked at in each.
 
-use super::Particles;
-use crate::dem::block::{ROWS, row, turned};
+use super::{NearPair, Particles};
+use crate::dem::block::{ROWS, ones, row, turned};
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
 /// The count of spheres that shield each one, kept up with the pairs whose part in it may change. From one step
@@ -11,7 +11,7 @@ pub(super) struct Shield {
     /// Spheres that shield each one.
     pub(super) counts: Vec<u32>,
     /// Undecided pairs; whole groups, filled up with a sphere that does not shield itself.
-    pub(super) pairs: Vec<[u32; 2]>,
+    pub(super) pairs: Vec<NearPair>,
     /// Of every group of pairs, as bits: whose second sphere shields the first, and whose first the second,
     /// as far as `counts` has it.
     shields: Vec<[u64; 2]>,
@@ -22,7 +22,7 @@ impl Shield {
     pub(super) fn begin(&mut self, pairs: usize) {
         self.pairs.truncate(pairs);
         let groups = pairs.div_ceil(ROWS);
-        self.pairs.resize(groups * ROWS, [0; 2]);
+        self.pairs.resize(groups * ROWS, NearPair::default());
         self.shields.clear();
         self.shields.resize(groups, [0; 2]);
     }
@@ -44,7 +44,7 @@ impl Shield {
         for (pairs, shields) in groups {
             let [dx, dy, dz] = turned::<S>(
                 #[inline(always)]
-                |k| row(simd, position, pairs[k][0]) - row(simd, position, pairs[k][1]),
+                |k| row(simd, position, pairs[k].i()) - row(simd, position, pairs[k].j()),
             );
             let (dx, dy) = (dx.abs(), dy.abs());
             let within = |diameter: f64x8<S>| dx.simd_lt(diameter) & dy.simd_lt(diameter);
@@ -55,7 +55,9 @@ impl Shield {
                 }
                 None => {
                     let diameter = |side: usize| -> [f64; ROWS] {
-                        std::array::from_fn(|k| 2.0 * particles.radius[pairs[k][side] as usize])
+                        std::array::from_fn(|k| {
+                            2.0 * particles.radius[pairs[k].sides()[side] as usize]
+                        })
                     };
                     (
                         within(f64x8::from_slice(simd, &diameter(0))),
@@ -78,17 +80,14 @@ impl Shield {
 
 /// Notes what has changed in a group of pairs.
 #[cold]
-fn note(counts: &mut [u32], pairs: &[[u32; 2]], before: [u64; 2], now: [u64; 2]) {
+fn note(counts: &mut [u32], pairs: &[NearPair], before: [u64; 2], now: [u64; 2]) {
     for side in [0, 1] {
-        let mut changed = before[side] ^ now[side];
-        while changed != 0 {
-            let k = changed.trailing_zeros() as usize;
-            let count = &mut counts[pairs[k][side] as usize];
+        for k in ones(before[side] ^ now[side]) {
+            let count = &mut counts[pairs[k].sides()[side] as usize];
             match now[side] >> k & 1 {
                 1 => *count += 1,
                 _ => *count -= 1,
             }
-            changed &= changed - 1;
         }
     }
 }

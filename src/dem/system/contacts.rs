@@ -15,8 +15,19 @@ use crate::dem::walls::TankWall;
 pub(super) struct Among {
     /// Pairs, in the order of the list.
     pub(super) pairs: Vec<NearPair>,
+    /// Where their histories are, of pairs that are not all there are.
+    pub(super) entries: Vec<u32>,
     /// Spheres near each wall.
     pub(super) walls: [Vec<NearSphere>; TankWall::MOST],
+}
+
+impl Among {
+    /// The pairs, with where their histories are.
+    pub(super) fn pairs(&self) -> impl Iterator<Item = (NearPair, usize)> {
+        let entry = |k: usize| self.entries.get(k).map_or(k, |&entry| entry as usize);
+        let pairs = self.pairs.iter().enumerate();
+        pairs.map(move |(k, &pair)| (pair, entry(k)))
+    }
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {

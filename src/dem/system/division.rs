@@ -64,26 +64,26 @@ impl<H: History> Division<H> {
             _ if k == threads => spheres,
             _ => {
                 let pair = pairs.get(pairs.len() * k / threads);
-                pair.map_or(spheres * k / threads, |pair| pair.i as usize)
+                pair.map_or(spheres * k / threads, |pair| pair.i() as usize)
             }
         };
         let bounds: Vec<usize> = (0..=threads).map(bound).collect();
         let mut regions: Vec<_> = self.parts.iter_mut().zip(bounds.windows(2)).collect();
         in_parallel(&mut regions, &|(region, bounds)| {
             let range = bounds[0]..bounds[1];
-            let from = |bound: usize| pairs.partition_point(|it| (it.i as usize) < bound);
+            let from = |bound: usize| pairs.partition_point(|it| (it.i() as usize) < bound);
             region.pairs = from(range.start)..from(range.end);
             for (place, wall) in region.walls.iter_mut().zip(walls) {
                 let from = |bound: usize| wall.near.partition_point(|it| (it.i as usize) < bound);
                 *place = from(range.start)..from(range.end);
             }
-            let before = pairs[..region.pairs.start].iter();
-            let crossing = before.filter(|it| range.contains(&(it.j as usize)));
+            let before = pairs[..region.pairs.start].iter().zip(histories);
+            let crossing = before.filter(|(it, _)| range.contains(&(it.j() as usize)));
             region.crossing.clear();
             region.crossing_history.clear();
-            for (entry, pair) in (0..).zip(crossing) {
-                region.crossing.push(NearPair { entry, ..*pair });
-                region.crossing_history.push(histories[pair.entry as usize]);
+            for (pair, history) in crossing {
+                region.crossing.push(*pair);
+                region.crossing_history.push(*history);
             }
             region.spheres = range;
         });

@@ -126,15 +126,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return;
         }
         // Loops over contacts have the history of each beside it; that of some stands among those of all.
-        let entries = among.pairs.iter().map(|pair| pair.entry);
-        let all = exchange(&mut self.pair_history, entries);
+        let entries = || among.entries.iter().copied();
+        let all = exchange(&mut self.pair_history, entries());
         let mut walls = [const { Vec::new() }; TankWall::MOST];
         for ((all, wall), near) in walls.iter_mut().zip(&mut self.walls).zip(&among.walls) {
             *all = exchange(&mut wall.histories, near.iter().map(|sphere| sphere.entry));
         }
         self.forces_of(among, anew);
-        let entries = among.pairs.iter().map(|pair| pair.entry);
-        put_back(&mut self.pair_history, all, entries);
+        put_back(&mut self.pair_history, all, entries());
         for ((all, wall), near) in walls.into_iter().zip(&mut self.walls).zip(&among.walls) {
             put_back(&mut wall.histories, all, near.iter().map(|it| it.entry));
         }

@@ -10,7 +10,6 @@ use super::wall_contacts::{NearSphere, WallContacts};
 use super::{Engine, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, Spring, TangentialLaw};
-use crate::dem::neighbours::NearPair;
 use crate::dem::order::reorder;
 use crate::dem::particles::{Particles, retain};
 use crate::dem::profile::Part;
@@ -222,9 +221,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     fn note_pairs(&self, among: &Among, ledger: &mut Ledger) {
         let laws = self.laws();
-        for &NearPair { i, j, entry } in &among.pairs {
+        for (pair, entry) in among.pairs() {
+            let (i, j) = (pair.i(), pair.j());
             let spring = match Self::REMEMBERS {
-                true => self.pair_history[entry as usize].spring(),
+                true => self.pair_history[entry].spring(),
                 false => Spring::default(),
             };
             let meeting = laws.between(&self.couple(i, j), spring);

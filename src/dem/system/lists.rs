@@ -100,17 +100,16 @@ fn carry_over<H: History>(before: &[NearPair], now: &[NearPair], histories: &mut
     // What is remembered moves to the front; it stands in the order of its places, none of which
     // comes before the one it then has.
     let mut places: Vec<u32> = Vec::with_capacity(before.len());
-    let mut rest = now.iter().peekable();
+    let mut rest = now.iter().zip(0..).peekable();
     for (pair, at) in before.iter().zip(0..) {
         let history: H = histories[at];
         if history.is_new() {
             continue;
         }
-        let key = |pair: &NearPair| (pair.i, pair.j);
-        while rest.next_if(|it| key(it) < key(pair)).is_some() {}
-        if let Some(known) = rest.next_if(|it| key(it) == key(pair)) {
+        while rest.next_if(|(it, _)| *it < pair).is_some() {}
+        if let Some((_, place)) = rest.next_if(|(it, _)| *it == pair) {
             histories[places.len()] = history;
-            places.push(known.entry);
+            places.push(place);
         }
     }
     histories.truncate(places.len());
@@ -128,10 +127,7 @@ mod tests {
     use crate::dem::vector::Vector;
 
     fn pairs(of: &[[u32; 2]]) -> Vec<NearPair> {
-        let entries = (0..).zip(of);
-        entries
-            .map(|(entry, &[i, j])| NearPair { i, j, entry })
-            .collect()
+        of.iter().map(|&[i, j]| NearPair::new(i, j)).collect()
     }
 
     fn springs(of: &[f64]) -> Vec<Spring> {

@@ -34,7 +34,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
         };
         let count = &mut contacts.of_moving_spheres;
-        let mut pairs = self.near.pairs().iter().peekable();
+        let mut pairs = self.near.pairs().iter().enumerate().peekable();
         let mut walls: Vec<_> = self
             .walls
             .iter()
@@ -42,15 +42,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             .collect();
         for i in 0..radius.len() {
             let (centre, ri) = (position[i], radius[i]);
-            while let Some(pair) = pairs.next_if(|pair| pair.i as usize == i) {
-                let j = pair.j as usize;
+            while let Some((entry, pair)) = pairs.next_if(|(_, pair)| pair.i() as usize == i) {
+                let j = pair.j() as usize;
                 let rj = radius[j];
                 let distance_squared = (centre - position[j]).norm_squared();
                 if distance_squared < (ri + rj) * (ri + rj) {
                     let overlap = ri + rj - distance_squared.sqrt();
                     let effective_radius = ri * rj / (ri + rj);
                     energy += self.normal.elastic_energy(overlap, effective_radius);
-                    let entry = pair.entry as usize;
                     springs += spring(&self.pair_history, entry, overlap, effective_radius);
                     *count += usize::from(i >= *fixed) + usize::from(j >= *fixed);
                 }

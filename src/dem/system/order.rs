@@ -57,25 +57,24 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             if histories[at].is_new() {
                 continue;
             }
-            let (i, j) = (pairs[at].i as usize, pairs[at].j as usize);
-            let (i, j, entry) = (places[i], places[j], known as u32);
+            let (i, j) = (places[pairs[at].i() as usize], places[pairs[at].j() as usize]);
             histories[known] = match i < j {
                 true => histories[at],
                 false => histories[at].turned_round(),
             };
-            let (i, j) = (i.min(j), i.max(j));
-            pairs[known] = NearPair { i, j, entry };
+            pairs[known] = NearPair::new(i.min(j), i.max(j));
             known += 1;
         }
         pairs.truncate(known);
         histories.truncate(known);
-        pairs.sort_unstable_by_key(|pair| (pair.i, pair.j));
-        // Round each cycle of places once: an entry that says its own place is done.
+        let mut order: Vec<u32> = (0..known as u32).collect();
+        order.sort_unstable_by_key(|&at| pairs[at as usize]);
+        pairs.sort_unstable();
+        // Round each cycle of places once: one that says its own place is done.
         for first in 0..known {
             let (mut at, history) = (first, histories[first]);
             loop {
-                let from = pairs[at].entry as usize;
-                pairs[at].entry = at as u32;
+                let from = std::mem::replace(&mut order[at], at as u32) as usize;
                 if from == first || from == at {
                     break;
                 }

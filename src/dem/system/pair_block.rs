@@ -7,7 +7,7 @@
 use super::lanes::{Solids, WallMeetings};
 use super::meeting::{Couple, Earlier, Laws, Meeting, Roots, Solid};
 use super::sums::Sums;
-use super::touching::Entry;
+use super::touching::Lanes;
 use super::wall_contacts::NearSphere;
 use crate::dem::block::{BLOCK, Column, Columns, ROWS, Row, row};
 use crate::dem::contact::NormalLaw;
@@ -17,7 +17,7 @@ use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;
-use fearless_simd::{Simd, SimdFrom, f64x4};
+use fearless_simd::{Simd, SimdBase, SimdFrom, f64x4, f64x8};
 use std::marker::PhantomData;
 
 /// Stands for an overlap within the limit; no touching pair has a negative one.
@@ -100,7 +100,7 @@ impl<H: History> PairBlock<H> {
     pub(super) fn take_pairs<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        pairs: &[NearPair; BLOCK],
+        pairs: &Lanes<'_>,
         histories: &[H],
         particles: &Particles,
         earlier: &[EarlierRows],
@@ -113,17 +113,13 @@ impl<H: History> PairBlock<H> {
         } else {
             position
         };
+        self.take_offset(simd, pairs);
         let [first_spin, second_spin] = &mut self.spin;
         for at in (0..BLOCK).step_by(ROWS) {
-            self.offset.fill_from::<S>(
-                at,
-                #[inline(always)]
-                |k| row(simd, position, pairs[k].i) - row(simd, position, pairs[k].j),
-            );
             self.velocity.fill_from::<S>(
                 at,
                 #[inline(always)]
-                |k| row(simd, velocity, pairs[k].i) - row(simd, velocity, pairs[k].j),
+                |k| row(simd, velocity, pairs.pairs[k].i()) - row(simd, velocity, pairs.pairs[k].j()),
             );
             // Of spheres that are alike, which have the same lever, laws ask for the sum of both spins
             // alone: the first gets all of it.
@@ -131,58 +127,72 @@ impl<H: History> PairBlock<H> {
                 first_spin.fill_from::<S>(
                     at,
                     #[inline(always)]
-                    |k| row(simd, spin, pairs[k].i) + row(simd, spin, pairs[k].j),
+                    |k| row(simd, spin, pairs.pairs[k].i()) + row(simd, spin, pairs.pairs[k].j()),
                 );
             } else if T::ROTATES {
                 first_spin.fill_from::<S>(
                     at,
                     #[inline(always)]
-                    |k| row(simd, spin, pairs[k].i),
+                    |k| row(simd, spin, pairs.pairs[k].i()),
                 );
                 second_spin.fill_from::<S>(
                     at,
                     #[inline(always)]
-                    |k| row(simd, spin, pairs[k].j),
+                    |k| row(simd, spin, pairs.pairs[k].j()),
                 );
             }
         }
         if !self.alike {
-            self.solid[0].take::<N, T>(particles, |k| pairs[k].i);
-            self.solid[1].take::<N, T>(particles, |k| pairs[k].j);
+            self.solid[0].take::<N, T>(particles, |k| pairs.pairs[k].i());
+            self.solid[1].take::<N, T>(particles, |k| pairs.pairs[k].j());
             let [one, other] = &self.solid;
             for (k, inverse) in self.inverse_sum.iter_mut().enumerate() {
                 *inverse = 1.0 / (one.radius[k] + other.radius[k]);
             }
         }
-        self.take_springs(simd, pairs, histories);
+        self.take_springs(
+            simd,
+            #[inline(always)]
+            |k| histories[pairs.entries[k] as usize],
+        );
         if Self::REMEMBERS && !earlier.is_empty() {
             self.earlier_velocity.fill::<S>(
                 #[inline(always)]
                 |k| {
-                    let one = earlier[pairs[k].i as usize][0];
-                    let other = earlier[pairs[k].j as usize][0];
+                    let one = earlier[pairs.pairs[k].i() as usize][0];
+                    let other = earlier[pairs.pairs[k].j() as usize][0];
                     f64x4::simd_from(simd, one) - f64x4::simd_from(simd, other)
                 },
             );
             let [one, other] = &mut self.earlier_spin;
             one.fill::<S>(
                 #[inline(always)]
-                |k| f64x4::simd_from(simd, earlier[pairs[k].i as usize][1]),
+                |k| f64x4::simd_from(simd, earlier[pairs.pairs[k].i() as usize][1]),
             );
             other.fill::<S>(
                 #[inline(always)]
-                |k| f64x4::simd_from(simd, earlier[pairs[k].j as usize][1]),
+                |k| f64x4::simd_from(simd, earlier[pairs.pairs[k].j() as usize][1]),
             );
+        }
+    }
+
+    #[inline(always)]
+    fn take_offset<S: Simd>(&mut self, simd: S, pairs: &Lanes<'_>) {
+        for (column, lanes) in self.offset.0.iter_mut().zip(pairs.offset) {
+            for at in (0..BLOCK).step_by(ROWS) {
+                let eight = f64x8::from_slice(simd, &lanes[at..at + ROWS]);
+                eight.store_slice(&mut column[at..at + ROWS]);
+            }
         }
     }
 
     /// Fetches springs.
     #[inline(always)]
-    fn take_springs<S: Simd, C: Entry>(&mut self, simd: S, contacts: &[C; BLOCK], histories: &[H]) {
+    fn take_springs<S: Simd>(&mut self, simd: S, history: impl Fn(usize) -> H) {
         if Self::REMEMBERS {
             self.spring.fill::<S>(
                 #[inline(always)]
-                |k| histories[contacts[k].entry()].spring().force.simd(simd),
+                |k| history(k).spring().force.simd(simd),
             );
         }
     }
@@ -214,7 +224,11 @@ impl<H: History> PairBlock<H> {
         if !self.alike {
             self.solid[0].take::<N, T>(particles, |k| spheres[k].i);
         }
-        self.take_springs(simd, spheres, histories);
+        self.take_springs(
+            simd,
+            #[inline(always)]
+            |k| histories.get(k).copied().unwrap_or_default(),
+        );
         if Self::REMEMBERS && !earlier.is_empty() {
             self.earlier_velocity.fill::<S>(
                 #[inline(always)]
@@ -414,11 +428,10 @@ impl<H: History> PairBlock<H> {
     pub(super) fn add_to_pairs<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        pairs: &[NearPair; BLOCK],
-        contacts: usize,
+        pairs: &Lanes<'_>,
         sums: &mut Sums<'_>,
     ) {
-        self.clear_from(contacts);
+        self.clear_from(pairs.count);
         let mut sums = sums.here();
         // Both get the same torque where they are alike.
         let second = if self.alike { 0 } else { 1 };
@@ -432,8 +445,8 @@ impl<H: History> PairBlock<H> {
                 false => [force; 2],
             };
             for k in 0..ROWS {
-                sums.add::<S, T>(simd, pairs[at + k].i, force[k], torque[0][k]);
-                sums.add::<S, T>(simd, pairs[at + k].j, -force[k], torque[1][k]);
+                sums.add::<S, T>(simd, pairs.pairs[at + k].i(), force[k], torque[0][k]);
+                sums.add::<S, T>(simd, pairs.pairs[at + k].j(), -force[k], torque[1][k]);
             }
         }
     }
@@ -451,13 +464,13 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Writes down what the contacts remember; lanes that repeat a contact write the same.
+    /// Writes down what the contacts remember, each at its entry.
     #[inline(always)]
-    pub(super) fn remember<S: Simd, C: Entry>(
+    pub(super) fn remember<S: Simd>(
         &self,
         simd: S,
-        contacts: &[C; BLOCK],
         histories: &mut [H],
+        entry: impl Fn(usize) -> usize,
     ) {
         if !Self::REMEMBERS {
             return;
@@ -465,8 +478,10 @@ impl<H: History> PairBlock<H> {
         for at in (0..BLOCK).step_by(ROWS) {
             let rows = self.spring.rows(simd, at);
             for k in 0..ROWS {
-                let force = Vector::of_row(rows[k].into());
-                histories[contacts[at + k].entry()] = H::of_spring(Spring { force });
+                if let Some(history) = histories.get_mut(entry(at + k)) {
+                    let force = Vector::of_row(rows[k].into());
+                    *history = H::of_spring(Spring { force });
+                }
             }
         }
     }

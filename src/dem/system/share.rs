@@ -1,8 +1,8 @@
 //! Forces at contacts, block by block: which of them touch, and what acts on whom. One thread answers for all,
 //! or each for a share of the spheres.
 
-use super::lanes::whole;
 use super::meeting::{Laws, Solid};
+use super::lanes::whole;
 use super::pair_block::{EarlierRows, PairBlock};
 use super::sums::Sums;
 use super::touching::{LOOK, Touching};
@@ -43,8 +43,7 @@ pub(super) type TooDeep = Option<(usize, f64)>;
 /// What a thread computes contacts in.
 pub(super) struct Buffers<H> {
     block: PairBlock<H>,
-    pairs: Touching<NearPair>,
-    spheres: Touching<NearSphere>,
+    pairs: Touching,
 }
 
 impl<H: History> Buffers<H> {
@@ -52,7 +51,6 @@ impl<H: History> Buffers<H> {
         Box::new(Self {
             block: PairBlock::new(),
             pairs: Touching::new(),
-            spheres: Touching::new(),
         })
     }
 }
@@ -136,20 +134,24 @@ impl<H: History> Share<'_, H> {
             false => &mut self.pairs,
         };
         debug_assert!(known.contacts.len() <= known.histories.len());
-        let Buffers { block, pairs, .. } = &mut *self.buffers;
+        let Buffers { block, pairs } = &mut *self.buffers;
         let histories = &mut *known.histories;
-        let mut rest = [NearPair::default(); BLOCK];
         for (first, near) in (0..).step_by(LOOK).zip(known.contacts.chunks(LOOK)) {
-            let touching = pairs.pairs(simd, near, first, histories, particles, *alike);
-            for pairs in touching.chunks(BLOCK) {
-                let lanes = whole(pairs, &mut rest);
+            let found = pairs.pairs(simd, near, first, histories, particles, *alike);
+            for at in (0..found).step_by(BLOCK) {
+                let lanes = &pairs.block(at, found);
                 block.take_pairs::<S, N, T>(simd, lanes, histories, particles, earlier);
                 block.interact(laws);
-                block.remember(simd, lanes, histories);
-                block.add_to_pairs::<S, T>(simd, lanes, pairs.len(), &mut self.sums);
-                if let Some((k, overlap)) = block.first_too_deep(pairs.len()) {
-                    let NearPair { i, j, .. } = pairs[k];
-                    let sphere = particles.moving_partner(i, j);
+                block.remember(
+                    simd,
+                    histories,
+                    #[inline(always)]
+                    |k| lanes.entries[k] as usize,
+                );
+                block.add_to_pairs::<S, T>(simd, lanes, &mut self.sums);
+                if let Some((k, overlap)) = block.first_too_deep(lanes.count) {
+                    let pair = lanes.pairs[k];
+                    let sphere = particles.moving_partner(pair.i(), pair.j());
                     // The other share says so of one that crosses.
                     if !crossing {
                         self.too_deep[0].get_or_insert((sphere, overlap));
@@ -172,37 +174,24 @@ impl<H: History> Share<'_, H> {
             return;
         };
         debug_assert!(near.contacts.len() <= near.histories.len());
-        let Buffers { block, spheres, .. } = &mut *self.buffers;
-        let Scenery {
-            laws,
-            particles,
-            earlier,
-            ..
-        } = scenery;
-        let histories = &mut *near.histories;
+        let block = &mut self.buffers.block;
+        let blocks = (near.contacts.chunks(BLOCK)).zip(near.histories.chunks_mut(BLOCK));
         let mut rest = [NearSphere::default(); BLOCK];
-        for (first, near) in (0..).step_by(LOOK).zip(near.contacts.chunks(LOOK)) {
-            let touching = match wall {
-                TankWall::Floor(wall) | TankWall::Side(wall) => {
-                    spheres.spheres(near, first, histories, particles, wall)
-                }
-                TankWall::Cylinder(wall) => {
-                    spheres.spheres(near, first, histories, particles, wall)
-                }
-            };
-            for spheres in touching.chunks(BLOCK) {
-                let lanes = whole(spheres, &mut rest);
-                block.take_spheres::<S, N, T>(simd, lanes, histories, particles, earlier);
-                match wall {
-                    TankWall::Floor(wall) | TankWall::Side(wall) => block.meet(wall, laws),
-                    TankWall::Cylinder(wall) => block.meet(wall, laws),
-                }
-                block.interact_with_wall(laws);
-                block.remember(simd, lanes, histories);
-                block.add_to_spheres::<S, T>(simd, lanes, spheres.len(), &mut self.sums);
-                if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
-                    self.too_deep[1 + place].get_or_insert((spheres[k].i as usize, overlap));
-                }
+        for (spheres, histories) in blocks {
+            let lanes = whole(spheres, &mut rest);
+            let Scenery {
+                particles, earlier, ..
+            } = scenery;
+            block.take_spheres::<S, N, T>(simd, lanes, histories, particles, earlier);
+            match wall {
+                TankWall::Floor(wall) | TankWall::Side(wall) => block.meet(wall, &scenery.laws),
+                TankWall::Cylinder(wall) => block.meet(wall, &scenery.laws),
+            }
+            block.interact_with_wall(&scenery.laws);
+            block.remember(simd, histories, |k| k);
+            block.add_to_spheres::<S, T>(simd, lanes, spheres.len(), &mut self.sums);
+            if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
+                self.too_deep[1 + place].get_or_insert((spheres[k].i as usize, overlap));
             }
         }
     }

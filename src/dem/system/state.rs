@@ -67,7 +67,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let known = self.near.pairs().iter().zip(&self.pair_history);
         let known = known.filter(|(_, history)| Self::REMEMBERS && !history.is_new());
         known
-            .map(|(pair, &history)| (pair.i, pair.j, history))
+            .map(|(pair, &history)| (pair.i(), pair.j(), history))
             .collect()
     }
 

@@ -18,6 +18,7 @@ impl Island {
     fn clear(&mut self) {
         self.spheres.clear();
         self.among.pairs.clear();
+        self.among.entries.clear();
         self.among.walls.iter_mut().for_each(Vec::clear);
     }
 }
@@ -108,10 +109,12 @@ impl Islands {
             }
             self.island(first).spheres.push(sphere);
         }
-        for pair in pairs {
-            if self.holds_pair(pair.i, pair.j, fixed) {
-                let first = self.first(pair.j);
-                self.island(first).among.pairs.push(*pair);
+        for (pair, entry) in pairs.iter().zip(0..) {
+            if self.holds_pair(pair.i(), pair.j(), fixed) {
+                let first = self.first(pair.j());
+                let among = &mut self.island(first).among;
+                among.pairs.push(*pair);
+                among.entries.push(entry);
             }
         }
         for (wall, near) in walls.enumerate() {

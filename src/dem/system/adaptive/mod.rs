@@ -13,7 +13,6 @@ use super::wall_contacts::{NearSphere, WallContacts};
 use super::{Engine, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{Grip, TangentialLaw};
-use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;
@@ -157,8 +156,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if !N::ACTS {
             return;
         }
-        for &NearPair { i, j, .. } in self.near.pairs() {
-            self.look_at_pair(i as usize, j as usize, work);
+        for pair in self.near.pairs() {
+            self.look_at_pair(pair.i() as usize, pair.j() as usize, work);
         }
         for wall in &self.walls {
             self.look_at_wall(wall, work);
