@@ -410,7 +410,7 @@ impl<H: History> PairBlock<H> {
         sums: &mut Sums<'_>,
     ) {
         self.clear_from(contacts);
-        let mut sums = sums.here();
+        let mut sums = sums.here::<T>();
         for at in (0..BLOCK).step_by(ROWS) {
             let force = self.force.rows(simd, at);
             let torque = match T::ROTATES {
@@ -432,7 +432,7 @@ impl<H: History> PairBlock<H> {
         sums: &mut Sums<'_>,
     ) {
         self.clear_from(pairs.count);
-        let mut sums = sums.here();
+        let mut sums = sums.here::<T>();
         // Both get the same torque where they are alike.
         let second = if self.alike { 0 } else { 1 };
         for at in (0..BLOCK).step_by(ROWS) {

@@ -17,11 +17,15 @@ pub(super) struct Sums<'a> {
 impl Sums<'_> {
     /// The same, for a loop: whose bounds then stay in registers, whatever is written.
     #[inline(always)]
-    pub(super) fn here(&mut self) -> Sums<'_> {
+    pub(super) fn here<T: TangentialLaw>(&mut self) -> Sums<'_> {
+        let torque = match T::ROTATES {
+            true => &mut self.torque[..self.force.len()],
+            false => &mut [],
+        };
         Sums {
             first: self.first,
             force: self.force,
-            torque: self.torque,
+            torque,
         }
     }
 
