@@ -78,11 +78,10 @@ impl PartialOrd for NearPair {
 }
 
 /// Steps from one refresh to the next that the margin adapts to, for the long lists of the shield.
-const COLUMN_LIFE: Range<u64> = 7..14;
+const COLUMN_LIFE: Range<u64> = 10..20;
 
-/// The same for lists of contacts, which are short, while a pair that is near costs as much as one
-/// that touches.
-const CONTACT_LIFE: Range<u64> = 2..5;
+/// The same for lists of contacts, which are short.
+const CONTACT_LIFE: Range<u64> = 16..32;
 
 /// Steps after which pairs that hold still are looked for anew, with a smaller margin.
 const LONG_LIFE: u64 = 64;
