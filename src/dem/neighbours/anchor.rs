@@ -33,6 +33,9 @@ pub struct Anchor {
     rounding: f64,
     /// Rotation rate about the z axis (rad/s).
     rotation: f64,
+    /// The angle (rad) by which the spheres are turned for a list of boxes, which do not turn: as far as they
+    /// will have come half-way through the life of the list, so that they are never far from it.
+    middle: f64,
 }
 
 impl Anchor {
@@ -44,6 +47,14 @@ impl Anchor {
             self.add_sphere(place);
         }
         self.rotation = mean_rotation(particles);
+        self.middle = 0.0;
+    }
+
+    /// Turns the spheres to where they will be half-way through a life (s), but by no more than an angle (rad).
+    /// Returns sine and cosine.
+    pub(super) fn turn(&mut self, life: f64, most: f64) -> (f64, f64) {
+        self.middle = (0.5 * self.rotation * life).clamp(-most, most);
+        libm::sincos(self.middle)
     }
 
     /// Adds a sphere that came in where it is now.
@@ -72,7 +83,7 @@ impl Anchor {
         let angle = self.rotation * time;
         // The box does not turn with the pair: that moves a partner relative to it by at most the
         // angle times the half diagonal.
-        let turned = angle.abs() * half_diagonal;
+        let turned = (angle - self.middle).abs() * half_diagonal;
         // A hair less than half, for what rounding adds.
         let displacement = (0.499_999_999 * (margin - turned) - self.rounding).max(0.0);
         let (sine, cosine) = libm::sincos(angle);

@@ -21,8 +21,8 @@ pub(super) struct FewSpheres {
 }
 
 impl FewSpheres {
-    /// Takes the spheres.
-    pub(super) fn fill(&mut self, particles: &Particles) {
+    /// Takes the spheres, turned about the z axis by an angle of this sine and cosine.
+    pub(super) fn fill(&mut self, particles: &Particles, (sine, cosine): (f64, f64)) {
         // What is not a number is near nothing.
         let padded = particles.len().next_multiple_of(WORD);
         let positions = || particles.position.iter();
@@ -30,8 +30,8 @@ impl FewSpheres {
         for column in [&mut *x, &mut *y, &mut *z, &mut self.radius] {
             column.clear();
         }
-        x.extend(positions().map(|centre| centre.x));
-        y.extend(positions().map(|centre| centre.y));
+        x.extend(positions().map(|centre| cosine * centre.x - sine * centre.y));
+        y.extend(positions().map(|centre| sine * centre.x + cosine * centre.y));
         z.extend(positions().map(|centre| centre.z));
         self.radius.extend(&particles.radius);
         for column in [x, y, z, &mut self.radius] {

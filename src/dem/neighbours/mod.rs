@@ -28,6 +28,7 @@ use super::threads::in_parallel;
 use super::vector::Vector;
 use crate::scene::Neighbours;
 use fearless_simd::Level;
+use std::f64::consts::SQRT_2;
 
 pub use self::anchor::{Allowance, Reference};
 
@@ -43,6 +44,9 @@ pub enum Reach {
 
 /// Steps from one build to the next that the skin adapts to.
 const LIFE: std::ops::Range<u64> = 30..80;
+
+/// The part of the skin that a turn of all spheres may take: near pairs have up to seven tenths.
+const TURN: f64 = 0.2;
 
 /// The Verlet list.
 #[derive(Clone, Debug)]
@@ -62,6 +66,8 @@ pub struct VerletList {
     /// Half the diagonal of the largest sphere's shielding box, plus the skin (m); zero if the
     /// list holds contacts alone.
     half_diagonal: f64,
+    /// How long the list before held (s).
+    life: f64,
     search: Search,
     few: FewSpheres,
     level: Level,
@@ -87,6 +93,7 @@ impl VerletList {
             owner: Vec::new(),
             anchor: Anchor::default(),
             half_diagonal: 0.0,
+            life: 0.0,
             search: Search::new(neighbours),
             few: FewSpheres::default(),
             level: Level::new(),
@@ -185,8 +192,9 @@ impl VerletList {
         *owner = i - 1;
     }
 
-    /// Widens or narrows the skin after a list that held for this many steps.
-    pub fn adapt(&mut self, steps: u64) {
+    /// Widens or narrows the skin after a list that held for this many steps and this time (s).
+    pub fn adapt(&mut self, steps: u64, time: f64) {
+        self.life = time;
         if self.builds == 0 {
             return;
         }
@@ -203,8 +211,20 @@ impl VerletList {
         let count = particles.len();
         let largest = particles.largest_radius();
         let few = count <= FEW && !self.sorted && self.search.may_be_replaced();
+        self.anchor.drop(particles);
+        self.half_diagonal = match self.reach {
+            Reach::Contact => 0.0,
+            Reach::Column => SQRT_2 * (2.0 * largest + self.skin),
+        };
         if few {
-            self.few.fill(particles);
+            let turned = match self.reach {
+                Reach::Column if self.least == 0.0 => {
+                    let most = TURN * self.skin / self.half_diagonal;
+                    self.anchor.turn(self.life, most)
+                }
+                _ => (0.0, 1.0),
+            };
+            self.few.fill(particles, turned);
         } else {
             let columns = self.reach == Reach::Column;
             let reach = 2.0 * largest + self.skin;
@@ -237,11 +257,6 @@ impl VerletList {
         if self.sorted {
             self.search.forget();
         }
-        self.anchor.drop(particles);
-        self.half_diagonal = match self.reach {
-            Reach::Contact => 0.0,
-            Reach::Column => std::f64::consts::SQRT_2 * (2.0 * largest + self.skin),
-        };
         self.builds += 1;
         self.outdated = false;
     }

@@ -17,6 +17,7 @@ use crate::dem::threads::in_parallel;
 use crate::dem::vector::Vector;
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8, mask64x8, u64x8};
 use std::cmp::Ordering;
+use std::f64::consts::SQRT_2;
 use std::ops::Range;
 
 /// A pair that may touch: two indices in one number, in the order of which pairs stand in a list.
@@ -86,6 +87,9 @@ const CONTACT_LIFE: Range<u64> = 16..32;
 /// Steps after which pairs that hold still are looked for anew, with a smaller margin.
 const LONG_LIFE: u64 = 64;
 
+/// The part of the margin that a turn of all spheres may take.
+const TURN: f64 = 0.4;
+
 /// Bits of a number.
 const WORD: usize = u64::BITS as usize;
 
@@ -102,6 +106,10 @@ pub struct Near {
     smallest: f64,
     anchor: Anchor,
     half_diagonal: f64,
+    /// How long the list before held (s).
+    life: f64,
+    /// Sine and cosine of the angle by which the spheres are turned for the shield.
+    turned: (f64, f64),
     pairs: Vec<NearPair>,
     /// The part of all pairs in the shield.
     shielding: Shield,
@@ -121,6 +129,8 @@ impl Near {
             smallest: 0.0,
             anchor: Anchor::default(),
             half_diagonal: 0.0,
+            life: 0.0,
+            turned: (0.0, 1.0),
             pairs: Vec::new(),
             shielding: Shield::default(),
             glance: Box::new(Glance::new()),
@@ -131,6 +141,15 @@ impl Near {
     /// How far the offset of a pair may change until the next refresh (m).
     pub fn margin(&self) -> f64 {
         self.margin
+    }
+
+    /// How far outside (m) those pairs are that a new list must know nothing of: farther than the margin where
+    /// spheres are turned first.
+    pub fn reach(&self) -> f64 {
+        match self.shield {
+            true => (1.0 + TURN) * self.margin,
+            false => self.margin,
+        }
     }
 
     /// The pairs that may touch.
@@ -215,9 +234,10 @@ impl Near {
         self.anchor.allowance(time, self.margin, self.half_diagonal)
     }
 
-    /// Widens or narrows the margin after a list that held for this many steps, for a Verlet list
-    /// of that skin (m).
-    pub fn adapt(&mut self, steps: u64, skin: f64) {
+    /// Widens or narrows the margin after a list that held for this many steps and this time (s), for a
+    /// Verlet list of that skin (m).
+    pub fn adapt(&mut self, steps: u64, time: f64, skin: f64) {
+        self.life = time;
         let life = if self.shield {
             COLUMN_LIFE
         } else {
@@ -247,6 +267,14 @@ impl Near {
         particles: &Particles,
         threads: usize,
     ) {
+        self.anchor.drop(particles);
+        if self.shield {
+            // A pair inside the box, or that comes inside, is no longer than this.
+            self.half_diagonal = SQRT_2 * 2.0 * particles.largest_radius() + self.margin;
+            // Who asks for a margin asks for all of it from the beginning.
+            let life = if self.least > 0.0 { 0.0 } else { self.life };
+            self.turned = self.anchor.turn(life, TURN * self.margin / self.half_diagonal);
+        }
         let entries = list.pairs();
         if threads == 1 || self.shield {
             self.find_among(level, list, particles, 0..entries);
@@ -267,8 +295,6 @@ impl Near {
             }
             self.helpers = helpers;
         }
-        self.anchor.drop(particles);
-        self.half_diagonal = list.half_diagonal;
     }
 
     /// Finds the near ones among these entries of the list.
@@ -311,7 +337,7 @@ impl Near {
             make_room(undecided, open);
             let (mut shields_first, mut shields_second) = (0, 0);
             for at in (0..partners.len()).step_by(ROWS) {
-                let facts = glance.look(simd, at, self.margin, shield);
+                let facts = glance.look(simd, at, self.margin, shield.then_some(self.turned));
                 let all = u64::MAX >> (WORD - (partners.len() - at).min(ROWS));
                 let pairs = glance.pairs(simd, at);
                 near += keep(simd, pairs, facts.near & all, &mut self.pairs[near..]);
@@ -437,9 +463,16 @@ impl Glance {
         u64x8::from_slice(simd, &pairs)
     }
 
-    /// What is certain of eight pairs while their offsets change by less than the margin (m).
+    /// What is certain of eight pairs while their offsets change by less than the margin (m); in a scene with
+    /// a shield, while they are turned by about an angle of this sine and cosine.
     #[inline(always)]
-    fn look<S: Simd>(&self, simd: S, at: usize, margin: f64, shield: bool) -> Facts {
+    fn look<S: Simd>(
+        &self,
+        simd: S,
+        at: usize,
+        margin: f64,
+        shield: Option<(f64, f64)>,
+    ) -> Facts {
         let eight = |column: &Column| f64x8::from_slice(simd, &column[at..at + ROWS]);
         let ([x, y, z], [ri, rj]) = (&self.offset.0, &self.radius);
         let (dx, dy, dz) = (eight(x), eight(y), eight(z));
@@ -452,7 +485,8 @@ impl Glance {
             shields_first: 0,
             shields_second: 0,
         };
-        if shield {
+        if let Some((sine, cosine)) = shield {
+            let (dx, dy) = (dx * cosine - dy * sine, dx * sine + dy * cosine);
             let (dx, dy) = (dx.abs(), dy.abs());
             let within = |r: f64x8<S>, depth: f64x8<S>, margin: f64| {
                 let reach = r * 2.0 + margin;

@@ -16,9 +16,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let Some(list) = &self.list else {
             return self.rebuild();
         };
-        self.near.adapt(self.near_age.steps, list.skin());
-        self.near_age = Age::default();
-        if !list.holds(&self.parts.particles, self.age.time, self.near.margin()) {
+        let age = std::mem::take(&mut self.near_age);
+        self.near.adapt(age.steps, age.time, list.skin());
+        if !list.holds(&self.parts.particles, self.age.time, self.near.reach()) {
             self.mark(Part::Near);
             self.rebuild()?;
             self.mark(Part::List);
@@ -83,7 +83,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         };
         // It says nothing about the skin if the list ended at once, for spheres that changed places.
         if age.steps > 0 {
-            list.adapt(age.steps);
+            list.adapt(age.steps, age.time);
         }
         list.build(
             particles,
