@@ -79,7 +79,7 @@ impl PartialOrd for NearPair {
 }
 
 /// Steps from one refresh to the next that the margin adapts to, for the long lists of the shield.
-const COLUMN_LIFE: Range<u64> = 10..20;
+const COLUMN_LIFE: Range<u64> = 14..28;
 
 /// The same for lists of contacts, which are short.
 const CONTACT_LIFE: Range<u64> = 16..32;
