@@ -119,6 +119,7 @@ mod tests {
         slide(law, &mut spring, 0.1, 100);
         let (sine, cosine) = libm::sincos(0.7);
         let normal = Vector::new(cosine, 0.0, sine);
+        spring = spring.turned(normal);
         let force = law.traction(&touch(0.0, normal), &mut spring).force;
         assert!((force.norm() - 0.5).abs() < 1e-12);
         assert!(force.dot(normal).abs() < 1e-12);

@@ -167,7 +167,8 @@ pub trait TangentialLaw: Copy + Send + Sync + 'static {
     type History: History;
 
     /// Traction at a contact over the coming step; none where the normal force is zero. Free of branches,
-    /// for a block of contacts at once. A law without history leaves the spring alone.
+    /// for a block of contacts at once. The spring lies [across the normal](Spring::turned) when it comes; a law
+    /// without history leaves it alone.
     fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction;
 
     /// Energy (J) of what a contact remembers, at an overlap and effective radius (m).

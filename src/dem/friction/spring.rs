@@ -30,7 +30,7 @@ impl Spring {
     ) -> Traction {
         let drag = touch.sliding_velocity() * damping;
         let loading = touch.loading_velocity * (stiffness * touch.loading_time);
-        let elastic = self.turned(touch.normal) - loading;
+        let elastic = self.force - loading;
         let force = elastic - drag;
         let squared = force.norm_squared();
         // Selects, not branches: so the loop over a block of contacts is turned into vector instructions.
@@ -45,16 +45,17 @@ impl Spring {
         0.5 * self.force.norm_squared() / stiffness
     }
 
-    /// The force (N) in the plane across `normal`: the plane turns with the pair, and the force with
-    /// it, its length kept.
+    /// The same in the plane across `normal`: the plane turns with the pair, and the force with it, its length
+    /// kept.
     #[inline(always)]
-    fn turned(&self, normal: Vector) -> Vector {
+    pub fn turned(&self, normal: Vector) -> Self {
         let turned = self.force.perpendicular_to(normal);
         let (before, after) = (self.force.norm_squared(), turned.norm_squared());
         // One root for |before| / |after|; what is too small for it is no force.
         let product = before * after;
         let scale = before * inverse_square_root(product);
-        select(product > LEAST_PRODUCT, turned * scale, Vector::ZERO)
+        let force = select(product > LEAST_PRODUCT, turned * scale, Vector::ZERO);
+        Self { force }
     }
 }
 

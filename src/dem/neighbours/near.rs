@@ -33,7 +33,10 @@ impl NearPair {
     /// The pair of a sphere of lower index and another one.
     #[inline(always)]
     pub fn new(i: u32, j: u32) -> Self {
-        Self { first: i, second: j }
+        Self {
+            first: i,
+            second: j,
+        }
     }
 
     /// The sphere of lower index.
@@ -273,7 +276,9 @@ impl Near {
             self.half_diagonal = SQRT_2 * 2.0 * particles.largest_radius() + self.margin;
             // Who asks for a margin asks for all of it from the beginning.
             let life = if self.least > 0.0 { 0.0 } else { self.life };
-            self.turned = self.anchor.turn(life, TURN * self.margin / self.half_diagonal);
+            self.turned = self
+                .anchor
+                .turn(life, TURN * self.margin / self.half_diagonal);
         }
         let entries = list.pairs();
         if threads == 1 || self.shield {
@@ -466,13 +471,7 @@ impl Glance {
     /// What is certain of eight pairs while their offsets change by less than the margin (m); in a scene with
     /// a shield, while they are turned by about an angle of this sine and cosine.
     #[inline(always)]
-    fn look<S: Simd>(
-        &self,
-        simd: S,
-        at: usize,
-        margin: f64,
-        shield: Option<(f64, f64)>,
-    ) -> Facts {
+    fn look<S: Simd>(&self, simd: S, at: usize, margin: f64, shield: Option<(f64, f64)>) -> Facts {
         let eight = |column: &Column| f64x8::from_slice(simd, &column[at..at + ROWS]);
         let ([x, y, z], [ri, rj]) = (&self.offset.0, &self.radius);
         let (dx, dy, dz) = (eight(x), eight(y), eight(z));

@@ -173,7 +173,8 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             inverse_distance,
             contact_radius: self.contact_radius(couple, inverse_distance),
         };
-        self.between_with(couple, roots, spring)
+        let normal = couple.offset * inverse_distance;
+        self.between_with(couple, roots, Self::turned(spring, normal))
     }
 
     /// The contact radius of two spheres (m).
@@ -188,7 +189,16 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         contact_radius(overlap, effective_radius(couple))
     }
 
-    /// Two spheres whose roots are known.
+    /// A spring across a normal, if a law has springs.
+    #[inline(always)]
+    pub(super) fn turned(spring: Spring, normal: Vector) -> Spring {
+        match Self::REMEMBERS {
+            true => spring.turned(normal),
+            false => spring,
+        }
+    }
+
+    /// Two spheres whose roots are known, with a spring across their normal.
     #[inline(always)]
     pub(super) fn between_with(&self, couple: &Couple, roots: Roots, spring: Spring) -> Meeting {
         let [one, other] = couple.solid;
@@ -236,12 +246,9 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         let earlier = earlier.map(|earlier| {
             wall.contact(self.earlier_place(couple.offset, earlier.velocity), radius)
         });
-        self.at_contact(
-            couple,
-            wall.contact(couple.offset, radius),
-            earlier.as_ref(),
-            spring,
-        )
+        let contact = wall.contact(couple.offset, radius);
+        let spring = Self::turned(spring, contact.normal);
+        self.at_contact(couple, contact, earlier.as_ref(), spring)
     }
 
     /// Where a sphere was that had a velocity (m/s) before.
@@ -250,7 +257,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         place - velocity * self.loading.age
     }
 
-    /// A sphere and a wall that meet like this now, and like that before.
+    /// A sphere and a wall that meet like this now, and like that before, with a spring across the normal.
     #[inline(always)]
     pub(super) fn at_contact(
         &self,

@@ -57,7 +57,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             if histories[at].is_new() {
                 continue;
             }
-            let (i, j) = (places[pairs[at].i() as usize], places[pairs[at].j() as usize]);
+            let (i, j) = (
+                places[pairs[at].i() as usize],
+                places[pairs[at].j() as usize],
+            );
             histories[known] = match i < j {
                 true => histories[at],
                 false => histories[at].turned_round(),

@@ -119,7 +119,10 @@ impl<H: History> PairBlock<H> {
             self.velocity.fill_from::<S>(
                 at,
                 #[inline(always)]
-                |k| row(simd, velocity, pairs.pairs[k].i()) - row(simd, velocity, pairs.pairs[k].j()),
+                |k| {
+                    row(simd, velocity, pairs.pairs[k].i())
+                        - row(simd, velocity, pairs.pairs[k].j())
+                },
             );
             // Of spheres that are alike, which have the same lever, laws ask for the sum of both spins
             // alone: the first gets all of it.
@@ -269,10 +272,26 @@ impl<H: History> PairBlock<H> {
                 self.contact_radius[k] = laws.contact_radius(&couple, self.inverse_distance[k]);
             }
         }
+        self.turn_springs(
+            #[inline(always)]
+            |block, k| block.offset.vector(k) * block.inverse_distance[k],
+        );
         for k in 0..BLOCK {
             let couple = self.couple::<T, EARLIER>(k, self.solid[1].at(k));
             let meeting = laws.between_with(&couple, self.roots(k), self.spring(k));
             self.keep::<T>(k, &meeting);
+        }
+    }
+
+    /// Turns springs into the planes across the normals: in a loop of its own, as [`Roots`] are found.
+    #[inline(always)]
+    fn turn_springs(&mut self, normal: impl Fn(&Self, usize) -> Vector) {
+        if Self::REMEMBERS {
+            for k in 0..BLOCK {
+                let force = self.spring(k).turned(normal(self, k)).force;
+                let [x, y, z] = &mut self.spring.0;
+                (x[k], y[k], z[k]) = (force.x, force.y, force.z);
+            }
         }
     }
 
@@ -314,6 +333,10 @@ impl<H: History> PairBlock<H> {
         &mut self,
         laws: &Laws<N, T>,
     ) {
+        self.turn_springs(
+            #[inline(always)]
+            |block, k| block.meeting.at(k).normal,
+        );
         for k in 0..BLOCK {
             let mut couple = self.couple::<T, EARLIER>(k, Solid::WALL);
             couple.spin[1] = Vector::ZERO;

@@ -1,8 +1,8 @@
 //! Forces at contacts, block by block: which of them touch, and what acts on whom. One thread answers for all,
 //! or each for a share of the spheres.
 
-use super::meeting::{Laws, Solid};
 use super::lanes::whole;
+use super::meeting::{Laws, Solid};
 use super::pair_block::{EarlierRows, PairBlock};
 use super::sums::Sums;
 use super::touching::{LOOK, Touching};

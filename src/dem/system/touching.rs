@@ -113,7 +113,11 @@ impl Touching {
                 let mask = mask32x8::from_bitmask(simd, bits);
                 let entries = u32x8::from_slice(simd, &entries).compress(mask);
                 entries.store_slice(&mut self.entries[all]);
-                for (k, history) in histories[first..].iter_mut().take(contacts.len()).enumerate() {
+                for (k, history) in histories[first..]
+                    .iter_mut()
+                    .take(contacts.len())
+                    .enumerate()
+                {
                     if bits >> k & 1 == 0 {
                         *history = H::default();
                     }
