@@ -26,6 +26,9 @@ fn scene(path: &str) -> Scene {
 /// As many pairs as the engine takes at once.
 const BLOCK: usize = 32;
 
+/// Effective radius of the spheres (m).
+const EFFECTIVE_RADIUS: f64 = 0.002;
+
 /// Touching pairs of equal spheres that roll and slide along each other.
 fn touches() -> Vec<Touch> {
     let touch = |k: usize| {
@@ -38,12 +41,10 @@ fn touches() -> Vec<Touch> {
             inertia: [1e-8; 2],
             lesser_mass: 2.7e-3,
             effective_mass: 1.35e-3,
-            overlap: 1e-4 * share,
-            effective_radius: 0.002,
             normal_force: 0.0,
             loading_velocity: Vector::new(0.1 * share, 0.02, 0.0),
-            contact_radius: (0.002 * 1e-4 * share).sqrt(),
-            loading_radius: (0.002 * 1e-4 * share).sqrt(),
+            contact_radius: (EFFECTIVE_RADIUS * 1e-4 * share).sqrt(),
+            loading_radius: (EFFECTIVE_RADIUS * 1e-4 * share).sqrt(),
             loading_time: 1e-4,
         }
     };
@@ -60,11 +61,13 @@ fn laws<T: TangentialLaw>(bencher: Bencher<'_, '_>, tangential: T) {
         for (touch, spring) in black_box(&touches).iter().zip(&mut springs) {
             let rate = -touch.velocity.dot(touch.normal);
             let radius = touch.loading_radius;
-            let force = normal.force(touch.overlap, rate, radius, touch.effective_mass);
+            let overlap = radius * radius / EFFECTIVE_RADIUS;
+            let force = normal.force(overlap, rate, radius, touch.effective_mass);
             let touch = Touch {
                 normal_force: force,
                 ..*touch
             };
+            *spring = spring.turned(touch.normal);
             sum += touch.normal * force + tangential.traction(&touch, spring).force;
         }
         sum

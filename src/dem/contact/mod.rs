@@ -106,3 +106,17 @@ impl NormalLaw for NoContact {
         0.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::contact_radius;
+
+    /// Symptom: a force that is not a number on spheres that just touch. Cause: the root of an overlap that
+    /// rounding makes negative by a hair, where the squares of the distances say that they touch.
+    #[test]
+    fn partners_a_hair_apart_touch_in_a_point() {
+        assert_eq!(contact_radius(-1e-19, 0.004), 0.0);
+        assert_eq!(contact_radius(0.0, 0.004), 0.0);
+        assert!(contact_radius(1e-6, 0.004) > 0.0);
+    }
+}

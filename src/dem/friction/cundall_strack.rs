@@ -64,8 +64,6 @@ mod tests {
             inertia: [1e-6; 2],
             lesser_mass: 1e-3,
             effective_mass: 5e-4,
-            overlap: 1e-4,
-            effective_radius: 0.02,
             normal_force: 2.0,
             loading_velocity: along * speed,
             contact_radius: 1e-3,

@@ -36,10 +36,6 @@ pub struct Touch {
     pub lesser_mass: f64,
     /// m1 m2 / (m1 + m2) (kg), the mass of the one that moves where the other does not.
     pub effective_mass: f64,
-    /// Overlap (m).
-    pub overlap: f64,
-    /// Effective radius (m).
-    pub effective_radius: f64,
     /// The [contact radius](super::contact::contact_radius) (m), if a law asks for it.
     pub contact_radius: f64,
     /// Normal force (N), zero where partners attract each other or part faster than their elasticity

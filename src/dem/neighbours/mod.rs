@@ -13,12 +13,16 @@
 mod anchor;
 mod cells;
 mod few;
+mod glance;
 mod hash;
 mod near;
+mod pair;
 mod search;
 mod shield;
 
-pub use near::{Near, NearPair};
+pub use near::Near;
+pub use pair::NearPair;
+pub(in crate::dem) use pair::keep_pairs;
 
 use self::anchor::Anchor;
 use self::few::{FEW, FewSpheres};

@@ -9,77 +9,16 @@
 //! number, and those that matter are written without a branch.
 
 use super::anchor::{Allowance, Anchor};
+use super::glance::Glance;
 use super::shield::Shield;
-use super::{Particles, VerletList};
-use crate::dem::block::{BLOCK, Column, Columns, ROWS, ones, row};
+use super::{NearPair, Particles, VerletList, keep_pairs};
+use crate::dem::block::{BLOCK, ROWS, ones};
 use crate::dem::particles::retain;
 use crate::dem::threads::in_parallel;
 use crate::dem::vector::Vector;
-use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8, mask64x8, u64x8};
-use std::cmp::Ordering;
+use fearless_simd::{Level, Simd};
 use std::f64::consts::SQRT_2;
 use std::ops::Range;
-
-/// A pair that may touch: two indices in one number, in the order of which pairs stand in a list.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[repr(C, align(8))]
-pub struct NearPair {
-    // On most machines these are the halves of one number.
-    second: u32,
-    first: u32,
-}
-
-impl NearPair {
-    /// The pair of a sphere of lower index and another one.
-    #[inline(always)]
-    pub fn new(i: u32, j: u32) -> Self {
-        Self {
-            first: i,
-            second: j,
-        }
-    }
-
-    /// The sphere of lower index.
-    #[inline(always)]
-    pub fn i(self) -> u32 {
-        self.first
-    }
-
-    /// The other sphere.
-    #[inline(always)]
-    pub fn j(self) -> u32 {
-        self.second
-    }
-
-    /// As one number.
-    #[inline(always)]
-    pub(in crate::dem) fn word(self) -> u64 {
-        u64::from(self.first) << 32 | u64::from(self.second)
-    }
-
-    /// The pair of a number.
-    #[inline(always)]
-    pub(in crate::dem) fn of_word(word: u64) -> Self {
-        Self::new((word >> 32) as u32, word as u32)
-    }
-
-    /// Both.
-    pub fn sides(self) -> [u32; 2] {
-        [self.i(), self.j()]
-    }
-}
-
-impl Ord for NearPair {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.word().cmp(&other.word())
-    }
-}
-
-impl PartialOrd for NearPair {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
 
 /// Steps from one refresh to the next that the margin adapts to, for the long lists of the shield.
 const COLUMN_LIFE: Range<u64> = 14..28;
@@ -228,7 +167,7 @@ impl Near {
             *pair = NearPair::new(index[pair.i() as usize], index[pair.j() as usize]);
         }
         // Lanes without a pair repeat one of the past, whose spheres may be gone.
-        self.glance.index = [[0; BLOCK]; 2];
+        self.glance.pairs = [NearPair::default(); BLOCK];
         kept
     }
 
@@ -333,10 +272,13 @@ impl Near {
         counts.resize(if shield { particles.len() } else { 0 }, 0);
         let glance = &mut *self.glance;
         let mut owner = list.owner_of(entries.start);
+        let mut owners = [0; BLOCK];
         let blocks = list.neighbour()[entries.clone()].chunks(BLOCK);
         for (first, partners) in entries.step_by(BLOCK).zip(blocks) {
-            list.fill_owners(first, &mut owner, &mut glance.index[0][..partners.len()]);
-            glance.index[1][..partners.len()].copy_from_slice(partners);
+            list.fill_owners(first, &mut owner, &mut owners[..partners.len()]);
+            for (pair, (&i, &j)) in glance.pairs.iter_mut().zip(owners.iter().zip(partners)) {
+                *pair = NearPair::new(i, j);
+            }
             glance.gather(simd, particles);
             make_room(&mut self.pairs, near);
             make_room(undecided, open);
@@ -344,17 +286,18 @@ impl Near {
             for at in (0..partners.len()).step_by(ROWS) {
                 let facts = glance.look(simd, at, self.margin, shield.then_some(self.turned));
                 let all = u64::MAX >> (WORD - (partners.len() - at).min(ROWS));
-                let pairs = glance.pairs(simd, at);
-                near += keep(simd, pairs, facts.near & all, &mut self.pairs[near..]);
+                let eight = glance.eight(at);
+                near += keep_pairs(simd, eight, facts.near & all, &mut self.pairs[near..]);
                 if shield {
-                    open += keep(simd, pairs, facts.undecided & all, &mut undecided[open..]);
+                    let which = facts.undecided & all;
+                    open += keep_pairs(simd, eight, which, &mut undecided[open..]);
                     shields_first |= (facts.shields_first & all) << at;
                     shields_second |= (facts.shields_second & all) << at;
                 }
             }
             for (side, shields) in [shields_first, shields_second].into_iter().enumerate() {
                 for k in ones(shields) {
-                    counts[glance.index[side][k] as usize] += 1;
+                    counts[glance.pairs[k].sides()[side] as usize] += 1;
                 }
             }
         }
@@ -380,123 +323,5 @@ fn make_room<P: Copy + Default>(list: &mut Vec<P>, from: usize) {
     if list.len() < from + BLOCK + ROWS {
         // Not twice as much: what a large list does not need in the end is memory too.
         list.resize(from + from / 8 + 4 * BLOCK, P::default());
-    }
-}
-
-/// Writes those of eight pairs that are to be kept to the front, and anything after them. Says how many.
-#[inline(always)]
-fn keep<S: Simd>(simd: S, pairs: u64x8<S>, which: u64, list: &mut [NearPair]) -> usize {
-    let mut kept = [0; ROWS];
-    let mask = mask64x8::from_bitmask(simd, which);
-    pairs.compress(mask).store_slice(&mut kept);
-    let list = &mut list[..ROWS];
-    for k in 0..ROWS {
-        list[k] = NearPair::of_word(kept[k]);
-    }
-    which.count_ones() as usize
-}
-
-/// What is true of eight pairs, as bits.
-struct Facts {
-    /// Near enough to touch.
-    near: u64,
-    /// Their part in the shield may change.
-    undecided: u64,
-    /// The second sphere shields the first,
-    shields_first: u64,
-    /// or the first the second.
-    shields_second: u64,
-}
-
-/// A block of pairs to look at.
-struct Glance {
-    index: [[u32; BLOCK]; 2],
-    /// From the second centre to the first (m).
-    offset: Columns,
-    /// Radii (m); all the same if that is given.
-    radius: [Column; 2],
-    common_radius: Option<f64>,
-}
-
-impl Glance {
-    fn new() -> Self {
-        Self {
-            index: [[0; BLOCK]; 2],
-            offset: Columns::ZERO,
-            radius: [[0.0; BLOCK]; 2],
-            common_radius: None,
-        }
-    }
-
-    /// Notes whether all spheres have the same radius, which is then not fetched.
-    fn note_radii(&mut self, radius: &[f64]) {
-        let first = radius.first().copied();
-        self.common_radius = first.filter(|first| radius.iter().all(|it| it == first));
-        if let Some(radius) = self.common_radius {
-            self.radius = [[radius; BLOCK]; 2];
-        }
-    }
-
-    #[inline(always)]
-    fn gather<S: Simd>(&mut self, simd: S, particles: &Particles) {
-        let Particles {
-            position, radius, ..
-        } = particles;
-        let [one, other] = &self.index;
-        self.offset.fill::<S>(
-            #[inline(always)]
-            |k| row(simd, position, one[k]) - row(simd, position, other[k]),
-        );
-        if self.common_radius.is_none() {
-            for (radii, index) in self.radius.iter_mut().zip(&self.index) {
-                for (value, &i) in radii.iter_mut().zip(index) {
-                    *value = radius[i as usize];
-                }
-            }
-        }
-    }
-
-    /// Eight of the pairs.
-    #[inline(always)]
-    fn pairs<S: Simd>(&self, simd: S, at: usize) -> u64x8<S> {
-        let [one, other] = &self.index;
-        let (one, other) = (&one[at..at + ROWS], &other[at..at + ROWS]);
-        let mut pairs = [0; ROWS];
-        for k in 0..ROWS {
-            pairs[k] = NearPair::new(one[k], other[k]).word();
-        }
-        u64x8::from_slice(simd, &pairs)
-    }
-
-    /// What is certain of eight pairs while their offsets change by less than the margin (m); in a scene with
-    /// a shield, while they are turned by about an angle of this sine and cosine.
-    #[inline(always)]
-    fn look<S: Simd>(&self, simd: S, at: usize, margin: f64, shield: Option<(f64, f64)>) -> Facts {
-        let eight = |column: &Column| f64x8::from_slice(simd, &column[at..at + ROWS]);
-        let ([x, y, z], [ri, rj]) = (&self.offset.0, &self.radius);
-        let (dx, dy, dz) = (eight(x), eight(y), eight(z));
-        let (ri, rj) = (eight(ri), eight(rj));
-        let reach = ri + rj + margin;
-        let near = (dx * dx + dy * dy + dz * dz).simd_lt(reach * reach);
-        let mut facts = Facts {
-            near: near.to_bitmask(),
-            undecided: 0,
-            shields_first: 0,
-            shields_second: 0,
-        };
-        if let Some((sine, cosine)) = shield {
-            let (dx, dy) = (dx * cosine - dy * sine, dx * sine + dy * cosine);
-            let (dx, dy) = (dx.abs(), dy.abs());
-            let within = |r: f64x8<S>, depth: f64x8<S>, margin: f64| {
-                let reach = r * 2.0 + margin;
-                let deep = depth.simd_gt(f64x8::splat(simd, -margin));
-                (dx.simd_lt(reach) & dy.simd_lt(reach) & deep).to_bitmask()
-            };
-            let (first, second) = (within(ri, dz, -margin), within(rj, -dz, -margin));
-            facts.undecided = first ^ within(ri, dz, margin) | second ^ within(rj, -dz, margin);
-            facts.shields_first = first & !facts.undecided;
-            facts.shields_second = second & !facts.undecided;
-        }
-        facts
     }
 }

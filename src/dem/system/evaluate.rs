@@ -211,3 +211,20 @@ fn put_back<H: Copy>(histories: &mut Vec<H>, all: Vec<H>, entries: impl Iterator
         histories[entry as usize] = history;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{exchange, put_back};
+
+    /// Symptom: springs of an island of adaptive Verlet were those of other contacts. Cause: the histories
+    /// of some contacts were read by their places among these, not by their entries among all.
+    #[test]
+    fn some_contacts_find_their_histories_among_all() {
+        let (mut histories, entries) = (vec![10, 11, 12, 13, 14], [1, 4]);
+        let all = exchange(&mut histories, entries.into_iter());
+        assert_eq!(histories, [11, 14]);
+        histories[1] = 24;
+        put_back(&mut histories, all, entries.into_iter());
+        assert_eq!(histories, [10, 11, 12, 13, 24]);
+    }
+}

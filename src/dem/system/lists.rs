@@ -2,7 +2,7 @@
 
 use super::division::Division;
 use super::meeting::{Laws, Solid};
-use super::{Age, Parts, System};
+use super::{Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::neighbours::NearPair;

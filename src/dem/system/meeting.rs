@@ -137,7 +137,6 @@ struct Encounter {
     too_deep: bool,
     normal: Vector,
     overlap: f64,
-    effective_radius: f64,
     contact_radius: f64,
     /// Zero where no law asks for it.
     effective_mass: f64,
@@ -214,13 +213,11 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         // angular momentum.
         let lever = distance * couple.inverse_sum;
         let lever = [one.radius * lever, other.radius * lever];
-        let effective_radius = effective_radius(couple);
         let mut encounter = Encounter {
             touches,
             too_deep: touches & (deep | concentric),
             normal: couple.offset * roots.inverse_distance,
             overlap,
-            effective_radius,
             contact_radius: roots.contact_radius,
             effective_mass: Self::effective_mass(couple),
             lever,
@@ -234,7 +231,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             let normal = offset * inverse_distance;
             let sliding = sliding_velocity(normal, earlier.velocity, earlier.spin, lever);
             let overlap = sum - distance_squared * inverse_distance;
-            encounter.loading = Some((sliding, contact_radius(overlap, effective_radius)));
+            encounter.loading = Some((sliding, contact_radius(overlap, effective_radius(couple))));
         }
         self.answer(couple, encounter, spring)
     }
@@ -277,7 +274,6 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             too_deep: touches & (overlap > self.overlap_limit * radius),
             normal,
             overlap,
-            effective_radius: radius,
             contact_radius: match Self::WIDENS {
                 true => contact_radius(overlap, radius),
                 false => 0.0,
@@ -314,7 +310,6 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             too_deep,
             normal,
             overlap,
-            effective_radius,
             contact_radius,
             effective_mass,
             lever,
@@ -345,8 +340,6 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
                 inertia: [couple.solid[0].inertia, couple.solid[1].inertia],
                 lesser_mass,
                 effective_mass,
-                overlap,
-                effective_radius,
                 contact_radius,
                 // Friction feels none where partners attract each other.
                 normal_force: match N::ATTRACTS {

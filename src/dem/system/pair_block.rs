@@ -13,7 +13,6 @@ use crate::dem::block::{BLOCK, Column, Columns, ROWS, Row, row};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, Spring, TangentialLaw};
 use crate::dem::math::inverse_square_root;
-use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;

@@ -43,14 +43,14 @@ pub(super) type TooDeep = Option<(usize, f64)>;
 /// What a thread computes contacts in.
 pub(super) struct Buffers<H> {
     block: PairBlock<H>,
-    pairs: Touching,
+    touching: Touching,
 }
 
 impl<H: History> Buffers<H> {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
             block: PairBlock::new(),
-            pairs: Touching::new(),
+            touching: Touching::new(),
         })
     }
 }
@@ -134,12 +134,12 @@ impl<H: History> Share<'_, H> {
             false => &mut self.pairs,
         };
         debug_assert!(known.contacts.len() <= known.histories.len());
-        let Buffers { block, pairs } = &mut *self.buffers;
+        let Buffers { block, touching } = &mut *self.buffers;
         let histories = &mut *known.histories;
         for (first, near) in (0..).step_by(LOOK).zip(known.contacts.chunks(LOOK)) {
-            let found = pairs.pairs(simd, near, first, histories, particles, *alike);
+            let found = touching.find(simd, near, first, histories, particles, *alike);
             for at in (0..found).step_by(BLOCK) {
-                let lanes = &pairs.block(at, found);
+                let lanes = &touching.block(at, found);
                 block.take_pairs::<S, N, T>(simd, lanes, histories, particles, earlier);
                 block.interact(laws);
                 block.remember(

@@ -2,9 +2,9 @@
 
 use super::meeting::Solid;
 use crate::dem::block::{BLOCK, ROWS, row, turned};
-use crate::dem::neighbours::NearPair;
+use crate::dem::neighbours::{NearPair, keep_pairs};
 use crate::dem::particles::Particles;
-use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask32x8, mask64x8, u32x8, u64x8};
+use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask32x8, mask64x8, u32x8};
 
 /// Contacts that are looked at before those that touch are computed: few enough to stay at hand, so many that
 /// few lanes are left over.
@@ -20,7 +20,7 @@ pub(super) struct Touching {
     rest: [NearPair; ROWS],
     /// Where the histories are.
     entries: [u32; ROOM],
-    /// Centre of the first partner from that of the second, or from the origin at a wall (m).
+    /// Centre of the first partner from that of the second (m).
     offset: [[f64; ROOM]; 3],
 }
 
@@ -62,16 +62,18 @@ impl Touching {
         }
     }
 
-    /// Finds who touches among these, up to [`LOOK`] of them, the first of which has its history `from`
-    /// there on; histories of the others begin anew. Says how many they are.
+    /// Finds who touches among these, up to [`LOOK`] of them, the first of which has its history at `from`;
+    /// histories of the others begin anew. `alike` says what all spheres are like, if they are alike. Says how
+    /// many touch.
     #[inline(always)]
-    fn find<S: Simd, H: Default>(
+    pub(super) fn find<S: Simd, H: Default>(
         &mut self,
         simd: S,
         near: &[NearPair],
         from: usize,
         histories: &mut [H],
-        touch: impl Fn(&[NearPair; ROWS]) -> (mask64x8<S>, [f64x8<S>; 3]),
+        particles: &Particles,
+        alike: Option<Solid>,
     ) -> usize {
         const { assert!(LOOK.is_multiple_of(BLOCK)) };
         let mut found = 0;
@@ -85,45 +87,27 @@ impl Touching {
                     &self.rest
                 }
             };
-            let (mut mask, offset) = touch(eight);
-            let mut bits = mask.to_bitmask();
+            let (mut touch, offset) = touches(simd, eight, particles, alike);
+            let mut bits = touch.to_bitmask();
             if contacts.len() < ROWS {
                 bits &= (1 << contacts.len()) - 1;
-                mask = mask64x8::from_bitmask(simd, bits);
-            }
-            let mut words = [0; ROWS];
-            for k in 0..ROWS {
-                words[k] = eight[k].word();
+                touch = mask64x8::from_bitmask(simd, bits);
             }
             let all = found..found + ROWS;
-            let pairs = u64x8::from_slice(simd, &words).compress(mask);
-            pairs.store_slice(&mut words);
-            let kept = &mut self.pairs[all.clone()];
-            for k in 0..ROWS {
-                kept[k] = NearPair::of_word(words[k]);
-            }
+            let kept = keep_pairs(simd, eight, bits, &mut self.pairs[all.clone()]);
             for (column, lanes) in self.offset.iter_mut().zip(offset) {
-                lanes.compress(mask).store_slice(&mut column[all.clone()]);
+                lanes.compress(touch).store_slice(&mut column[all.clone()]);
             }
             if size_of::<H>() > 0 {
-                let mut entries = [0; ROWS];
-                for k in 0..ROWS {
-                    entries[k] = (first + k) as u32;
-                }
-                let mask = mask32x8::from_bitmask(simd, bits);
-                let entries = u32x8::from_slice(simd, &entries).compress(mask);
-                entries.store_slice(&mut self.entries[all]);
-                for (k, history) in histories[first..]
-                    .iter_mut()
-                    .take(contacts.len())
-                    .enumerate()
-                {
+                keep_entries(simd, first, bits, &mut self.entries[all]);
+                let histories = histories[first..].iter_mut().take(contacts.len());
+                for (k, history) in histories.enumerate() {
                     if bits >> k & 1 == 0 {
                         *history = H::default();
                     }
                 }
             }
-            found += bits.count_ones() as usize;
+            found += kept;
         }
         self.fill_up(found);
         found
@@ -141,45 +125,107 @@ impl Touching {
             }
         }
     }
+}
 
-    /// [Finds](Self::find) pairs that touch; `alike` says what all spheres are like, if they are alike.
-    #[inline(always)]
-    pub(super) fn pairs<S: Simd, H: Default>(
-        &mut self,
-        simd: S,
-        near: &[NearPair],
-        from: usize,
-        histories: &mut [H],
-        particles: &Particles,
-        alike: Option<Solid>,
-    ) -> usize {
-        let Particles {
-            position, radius, ..
-        } = particles;
-        let position = &position[..];
-        self.find(
-            simd,
-            near,
-            from,
-            histories,
-            #[inline(always)]
-            |eight| {
-                let [x, y, z] = turned::<S>(
-                    #[inline(always)]
-                    |k| row(simd, position, eight[k].i()) - row(simd, position, eight[k].j()),
-                );
-                let sum = match alike {
-                    Some(solid) => f64x8::splat(simd, solid.radius + solid.radius),
-                    None => {
-                        let mut sum = [0.0; ROWS];
-                        for k in 0..ROWS {
-                            sum[k] = radius[eight[k].i() as usize] + radius[eight[k].j() as usize];
-                        }
-                        f64x8::from_slice(simd, &sum)
-                    }
-                };
-                ((x * x + y * y + z * z).simd_lt(sum * sum), [x, y, z])
-            },
-        )
+/// Which of the pairs touch, and all their offsets (m).
+#[inline(always)]
+fn touches<S: Simd>(
+    simd: S,
+    pairs: &[NearPair; ROWS],
+    particles: &Particles,
+    alike: Option<Solid>,
+) -> (mask64x8<S>, [f64x8<S>; 3]) {
+    let (position, radius) = (&particles.position[..], &particles.radius[..]);
+    let [x, y, z] = turned::<S>(
+        #[inline(always)]
+        |k| row(simd, position, pairs[k].i()) - row(simd, position, pairs[k].j()),
+    );
+    let sum = match alike {
+        Some(solid) => f64x8::splat(simd, solid.radius + solid.radius),
+        None => {
+            let mut sum = [0.0; ROWS];
+            for k in 0..ROWS {
+                sum[k] = radius[pairs[k].i() as usize] + radius[pairs[k].j() as usize];
+            }
+            f64x8::from_slice(simd, &sum)
+        }
+    };
+    ((x * x + y * y + z * z).simd_lt(sum * sum), [x, y, z])
+}
+
+/// Writes down the entries of those pairs that are to be kept, of which the first has that one.
+#[inline(always)]
+fn keep_entries<S: Simd>(simd: S, first: usize, which: u64, list: &mut [u32]) {
+    let mut entries = [0; ROWS];
+    for k in 0..ROWS {
+        entries[k] = (first + k) as u32;
+    }
+    let which = mask32x8::from_bitmask(simd, which);
+    u32x8::from_slice(simd, &entries)
+        .compress(which)
+        .store_slice(list);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dem::vector::Vector;
+    use fearless_simd::Level;
+    use proptest::prelude::*;
+
+    /// Spheres of radii from 0.5 to 1 in a row, each that far from the one before.
+    fn spheres(gaps: &[f64]) -> Particles {
+        let mut x = 0.0;
+        let place = |gap: &f64| {
+            x += gap;
+            Vector::new(x, 0.5 * x, -x)
+        };
+        Particles {
+            position: gaps.iter().map(place).collect(),
+            radius: (0..gaps.len())
+                .map(|k| 0.5 + 0.1 * (k % 6) as f64)
+                .collect(),
+            ..Particles::default()
+        }
+    }
+
+    proptest! {
+        /// The same pairs as one by one, in their order, with their histories; the others forget.
+        #[test]
+        fn whoever_touches_is_found(gaps in prop::collection::vec(0.1..1.5, 1..120), from in 0..3_usize) {
+            let particles = spheres(&gaps);
+            let near: Vec<NearPair> = (1..gaps.len() as u32).map(|j| NearPair::new(j - 1, j)).collect();
+            let mut histories: Vec<u32> = (0..(from + near.len()) as u32).map(|k| k + 1).collect();
+            let mut touching = Touching::new();
+            let found = fearless_simd::dispatch!(Level::new(), simd => {
+                touching.find(simd, &near, from, &mut histories, &particles, None)
+            });
+            let touch = |pair: &NearPair| {
+                let [i, j] = pair.sides().map(|i| i as usize);
+                let offset = particles.position[i] - particles.position[j];
+                let sum = particles.radius[i] + particles.radius[j];
+                offset.norm_squared() < sum * sum
+            };
+            let expected: Vec<usize> = (0..near.len()).filter(|&k| touch(&near[k])).collect();
+            prop_assert_eq!(found, expected.len());
+            for (at, &k) in expected.iter().enumerate() {
+                prop_assert_eq!(touching.pairs[at], near[k]);
+                prop_assert_eq!(touching.entries[at] as usize, from + k);
+            }
+            for (k, pair) in near.iter().enumerate() {
+                let kept = histories[from + k] == (from + k + 1) as u32;
+                prop_assert_eq!(kept, touch(pair));
+            }
+            prop_assert!(histories[..from].iter().zip(1..).all(|(&it, k)| it == k));
+            // The lanes of the last block that have no pair repeat the last one.
+            for at in (0..found).step_by(BLOCK) {
+                let lanes = touching.block(at, found);
+                prop_assert_eq!(lanes.count, (found - at).min(BLOCK));
+                for k in lanes.count..BLOCK {
+                    prop_assert_eq!(lanes.pairs[k], lanes.pairs[lanes.count - 1]);
+                    prop_assert_eq!(lanes.offset[0][k], lanes.offset[0][lanes.count - 1]);
+                }
+            }
+        }
     }
 }

@@ -1,0 +1,111 @@
+//! What is true of a block of pairs, and will be for a few steps.
+
+use super::{NearPair, Particles};
+use crate::dem::block::{BLOCK, Column, Columns, ROWS, row};
+use fearless_simd::{Simd, SimdBase, SimdMask, f64x8};
+
+/// What is true of eight pairs, as bits.
+pub(super) struct Facts {
+    /// Near enough to touch.
+    pub(super) near: u64,
+    /// Their part in the shield may change.
+    pub(super) undecided: u64,
+    /// The second sphere shields the first,
+    pub(super) shields_first: u64,
+    /// or the first the second.
+    pub(super) shields_second: u64,
+}
+
+/// A block of pairs to look at.
+pub(super) struct Glance {
+    pub(super) pairs: [NearPair; BLOCK],
+    /// From the second centre to the first (m).
+    offset: Columns,
+    /// Radii (m); all the same if that is given.
+    radius: [Column; 2],
+    pub(super) common_radius: Option<f64>,
+}
+
+impl Glance {
+    pub(super) fn new() -> Self {
+        Self {
+            pairs: [NearPair::default(); BLOCK],
+            offset: Columns::ZERO,
+            radius: [[0.0; BLOCK]; 2],
+            common_radius: None,
+        }
+    }
+
+    /// Notes whether all spheres have the same radius, which is then not fetched.
+    pub(super) fn note_radii(&mut self, radius: &[f64]) {
+        let first = radius.first().copied();
+        self.common_radius = first.filter(|first| radius.iter().all(|it| it == first));
+        if let Some(radius) = self.common_radius {
+            self.radius = [[radius; BLOCK]; 2];
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn gather<S: Simd>(&mut self, simd: S, particles: &Particles) {
+        let Particles {
+            position, radius, ..
+        } = particles;
+        let pairs = &self.pairs;
+        self.offset.fill::<S>(
+            #[inline(always)]
+            |k| row(simd, position, pairs[k].i()) - row(simd, position, pairs[k].j()),
+        );
+        if self.common_radius.is_none() {
+            let [one, other] = &mut self.radius;
+            for (k, pair) in self.pairs.iter().enumerate() {
+                let [i, j] = pair.sides().map(|i| i as usize);
+                (one[k], other[k]) = (radius[i], radius[j]);
+            }
+        }
+    }
+
+    /// Eight of the pairs.
+    #[inline(always)]
+    pub(super) fn eight(&self, at: usize) -> &[NearPair; ROWS] {
+        let eight = self.pairs[at..].first_chunk();
+        eight.expect("a block is of whole groups")
+    }
+
+    /// What is certain of eight pairs while their offsets change by less than the margin (m); in a scene with
+    /// a shield, while they are turned by about an angle of this sine and cosine.
+    #[inline(always)]
+    pub(super) fn look<S: Simd>(
+        &self,
+        simd: S,
+        at: usize,
+        margin: f64,
+        shield: Option<(f64, f64)>,
+    ) -> Facts {
+        let eight = |column: &Column| f64x8::from_slice(simd, &column[at..at + ROWS]);
+        let ([x, y, z], [ri, rj]) = (&self.offset.0, &self.radius);
+        let (dx, dy, dz) = (eight(x), eight(y), eight(z));
+        let (ri, rj) = (eight(ri), eight(rj));
+        let reach = ri + rj + margin;
+        let near = (dx * dx + dy * dy + dz * dz).simd_lt(reach * reach);
+        let mut facts = Facts {
+            near: near.to_bitmask(),
+            undecided: 0,
+            shields_first: 0,
+            shields_second: 0,
+        };
+        if let Some((sine, cosine)) = shield {
+            let (dx, dy) = (dx * cosine - dy * sine, dx * sine + dy * cosine);
+            let (dx, dy) = (dx.abs(), dy.abs());
+            let within = |r: f64x8<S>, depth: f64x8<S>, margin: f64| {
+                let reach = r * 2.0 + margin;
+                let deep = depth.simd_gt(f64x8::splat(simd, -margin));
+                (dx.simd_lt(reach) & dy.simd_lt(reach) & deep).to_bitmask()
+            };
+            let (first, second) = (within(ri, dz, -margin), within(rj, -dz, -margin));
+            facts.undecided = first ^ within(ri, dz, margin) | second ^ within(rj, -dz, margin);
+            facts.shields_first = first & !facts.undecided;
+            facts.shields_second = second & !facts.undecided;
+        }
+        facts
+    }
+}
