@@ -1,4 +1,4 @@
-"""Beds of spheres at rest in an open tank, of any size, made by `phase` from `bed.toml`."""
+"""Beds of spheres at rest: in an open tank, of any size, made by `phase` from `bed.toml`, or in a box."""
 
 import csv
 import math
@@ -17,6 +17,8 @@ MASS = 4 / 3 * math.pi * RADIUS**3 * DENSITY
 class Bed:
     """Spheres at rest: their places, and the files from which programs start with them."""
 
+    radius, density, dt, laws, weight = RADIUS, DENSITY, DT, ["mindlin", "coulomb"], 9.8 * MASS
+
     def __init__(self, count, phase, folder):
         self.count, self.folder = count, folder
         self.scale = (count / 256) ** (1 / 3)
@@ -26,11 +28,15 @@ class Bed:
         settle = self.replaced(self.text, {"z_max = 0.04": f"z_max = {0.04 * self.scale!r}", "duration = 2.0": "duration = 1.0"})
         (folder / "settle.toml").write_text(settle)
         output([phase, "run", folder / "settle.toml", "--out", folder / "settle.h5"])
-        output([phase, "export", folder / "settle.h5", "--to", "csv", "--out", folder / "settled"])
-        self.spheres = self.last_spheres(folder / "settled")
-        with open(folder / "bed.csv", "w") as file:
+        self.take(phase, folder / "settle.h5", [1.2 * self.tank] * 2)
+
+    def take(self, phase, record, sides):
+        """Takes the last spheres of a record, and writes them down within these sides (m)."""
+        output([phase, "export", record, "--to", "csv", "--out", self.folder / "settled"])
+        self.spheres = self.last_spheres(self.folder / "settled")
+        with open(self.folder / "bed.csv", "w") as file:
             file.write("x,y,z\n" + "".join("%r,%r,%r\n" % place for place in self.spheres))
-        self.write_lammps()
+        self.write_lammps(sides)
 
     @staticmethod
     def replaced(text, changes):
@@ -44,21 +50,52 @@ class Bed:
         rows = list(csv.DictReader(open([path for path in tables if "observ" not in path.name][-1])))
         return [tuple(float(row[axis]) for axis in "xyz") for row in rows[-self.count :]]
 
-    def write_lammps(self):
-        side, top = 1.2 * self.tank, max(z for _, _, z in self.spheres) + 20 * RADIUS
-        head = f"bed\n\n{self.count} atoms\n1 atom types\n\n{-side} {side} xlo xhi\n{-side} {side} ylo yhi\n"
-        head += f"{-RADIUS} {top} zlo zhi\n\nAtoms\n\n"
+    def write_lammps(self, sides):
+        (x, y), top = sides, max(z for _, _, z in self.spheres) + 20 * self.radius
+        head = f"bed\n\n{self.count} atoms\n1 atom types\n\n{-x} {x} xlo xhi\n{-y} {y} ylo yhi\n"
+        head += f"{-self.radius} {top} zlo zhi\n\nAtoms\n\n"
         atom = "%d 1 %r %r %r %r %r\n"
-        lines = (atom % (i, 2 * RADIUS, DENSITY, *place) for i, place in enumerate(self.spheres, 1))
+        lines = (atom % (i, 2 * self.radius, self.density, *place) for i, place in enumerate(self.spheres, 1))
         (self.folder / "bed.data").write_text(head + "".join(lines))
+
+    def lammps(self, law):
+        """LAMMPS's input for it, and its variables."""
+        kn = 2 * YOUNG / (3 * (1 - POISSON**2))
+        shear = YOUNG / (2 * (1 + POISSON)) / (2 * (2 - POISSON))
+        damping = kn * DISSIPATION / MASS
+        variables = dict(R=self.tank, skin=0.25 * RADIUS, kn=kn, kt=8 * shear, mu=MU, law=law)
+        return "in.bed.lammps", variables | dict(gamma=2 * damping, gamma_wall=damping)
 
     def scene(self, law, steps):
         """The scene of the measurement, of one frame."""
-        start, end = self.text.index("[start]"), self.text.index("[gravity]")
-        text = self.text[:start] + '[start]\nkind = "file"\npath = "bed.csv"\n\n' + self.text[end:] + "\n[output]\nsnapshot_interval = 0.0\n"
         friction = f"[friction]\n{LAWS[law]}" if LAWS[law] else ""
         changes = {f"[friction]\n{LAWS['mindlin']}": friction, "duration = 2.0": f"duration = {steps * DT!r}"}
-        text = self.replaced(text, changes | {"frame_interval = 0.1": f"frame_interval = {steps * DT!r}"})
+        changes |= {"frame_interval = 0.1": f"frame_interval = {steps * DT!r}"}
+        return self.write_scene(law, steps, self.replaced(self.text, changes) + "\n[output]\nsnapshot_interval = 0.0\n")
+
+    def write_scene(self, law, steps, text):
+        """Writes a scene that starts from the spheres."""
+        start, end = text.index("[start]"), text.index("[gravity]")
         path = self.folder / f"{law}-{steps}.toml"
-        path.write_text(text)
+        path.write_text(text[:start] + '[start]\nkind = "file"\npath = "bed.csv"\n\n' + text[end:])
         return path
+
+
+class Box(Bed):
+    """The spheres of `box-55000.toml`, from a record of a run that has come to rest."""
+
+    radius, dt, laws, weight = 0.5, 1e-4, ["silbert"], 1.0
+
+    def __init__(self, record, phase, folder):
+        self.folder = folder
+        self.text = (FOLDER.parent / "sweeps/scenes/box-55000.toml").read_text()
+        self.count, self.density = 55000, 6 / math.pi
+        self.take(phase, record, [25.0, 4.0])
+
+    def lammps(self, law):
+        return "in.box.lammps", dict(skin=0.1)
+
+    def scene(self, law, steps):
+        changes = {"duration = 60.0": f"duration = {steps * self.dt!r}"}
+        changes |= {"frame_interval = 0.05": f"frame_interval = {steps * self.dt!r}"}
+        return self.write_scene(law, steps, self.replaced(self.text, changes))

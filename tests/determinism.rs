@@ -215,6 +215,16 @@ fn a_spin_that_grows_without_end_is_reported() {
     assert_broken(&scene, Guard::NotANumber, 1, 500..=10_000);
 }
 
+/// Symptom: a panic. Cause: the damping of spins asked for those of spheres that have none, as nothing turns
+/// them.
+#[test]
+fn spin_damping_without_friction_does_nothing() {
+    let mut scene = tank(None, Integrator::SymplecticEuler);
+    let expected = run(&scene, 100).bits();
+    scene.spin_damping = Some(phase::scene::SpinDamping { coefficient: 1e-6 });
+    assert!(run(&scene, 100).bits() == expected);
+}
+
 #[test]
 fn sound_scenes_break_no_guard() {
     for scene in tanks() {
