@@ -62,13 +62,13 @@ fn the_total_is_what_a_run_takes() {
 
 #[test]
 fn what_a_scene_does_not_have_costs_nothing() {
-    let whole = RunCost::measure(&realistic(0.1), LONG).unwrap();
+    let whole = RunCost::measure(&realistic(0.4), LONG).unwrap();
     for part in Part::ALL {
         let absent = matches!(part, Part::Ledger | Part::Process | Part::Sides);
         assert_eq!(part.is_in(&whole.record.scene), !absent, "{part:?}");
         assert_eq!(whole.seconds(part) == 0.0, absent, "{part:?}");
     }
-    let mut scene = realistic(0.1);
+    let mut scene = realistic(0.4);
     scene.updraught = None;
     scene.spin_damping = None;
     scene.tank.as_mut().unwrap().floor = None;

@@ -1,18 +1,17 @@
 //! Integration schemes: one function each, from kicks and drifts.
 
+use super::division::Division;
 use super::meeting::Loading;
+use super::moves::{self, Drift, Kick};
 use super::pair_block::EarlierRows;
 use super::{Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
-use crate::dem::neighbours::{Allowance, Reference};
 use crate::dem::particles::Particles;
 use crate::dem::profile::{self, Part};
-use crate::dem::threads::{in_parallel, split, split_shared};
 use crate::dem::vector::Vector;
 use crate::record::Instability;
 use crate::scene::Integrator;
-use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x4, mask64x4};
 
 /// Velocities and spins before forces foretell them.
 #[derive(Default)]
@@ -40,101 +39,6 @@ impl Before {
     }
 }
 
-/// A kick of some spheres, or of all.
-struct Kick<'a> {
-    velocity: &'a mut [Vector],
-    force: &'a [Vector],
-    spin: &'a mut [Vector],
-    torque: &'a [Vector],
-    inverse_mass: &'a [f64],
-    inverse_inertia: &'a [f64],
-    /// [`Limits::slow`](crate::dem::guard::Limits::slow).
-    slow: f64,
-    too_fast: bool,
-}
-
-impl<'a> Kick<'a> {
-    /// Takes so many spheres from the front, or all that there are.
-    fn split(&mut self, count: usize) -> Kick<'a> {
-        Kick {
-            velocity: split(&mut self.velocity, count),
-            force: split_shared(&mut self.force, count),
-            spin: split(&mut self.spin, count),
-            torque: split_shared(&mut self.torque, count),
-            inverse_mass: split_shared(&mut self.inverse_mass, count),
-            inverse_inertia: split_shared(&mut self.inverse_inertia, count),
-            slow: self.slow,
-            too_fast: false,
-        }
-    }
-
-    fn by(&mut self, level: Level, dt: f64) {
-        fearless_simd::dispatch!(level, simd => self.all(simd, dt));
-    }
-
-    #[inline(always)]
-    fn all<S: Simd>(&mut self, simd: S, dt: f64) {
-        let most = f64x4::splat(simd, self.slow);
-        let mut slow = mask64x4::splat(simd, true);
-        for ((velocity, force), inverse) in (self.velocity.iter_mut())
-            .zip(self.force)
-            .zip(self.inverse_mass)
-        {
-            let row = velocity.simd(simd) + force.simd(simd) * (inverse * dt);
-            *velocity = Vector::of_row(row.into());
-            // What is not a number is not slow.
-            slow &= row.abs().simd_le(most);
-        }
-        for ((spin, torque), inverse) in (self.spin.iter_mut())
-            .zip(self.torque)
-            .zip(self.inverse_inertia)
-        {
-            let row = spin.simd(simd) + torque.simd(simd) * (inverse * dt);
-            *spin = Vector::of_row(row.into());
-        }
-        self.too_fast = !slow.all_true();
-    }
-}
-
-/// A drift of some spheres, or of all.
-struct Drift<'a> {
-    position: &'a mut [Vector],
-    velocity: &'a [Vector],
-    /// Where they were when near pairs were looked for, and how far they may be from there; where none are
-    /// looked for, nothing.
-    reference: &'a [Reference],
-    allowance: Option<Allowance>,
-    moved: bool,
-}
-
-impl<'a> Drift<'a> {
-    /// Takes so many spheres from the front, or all that there are.
-    fn split(&mut self, count: usize) -> Drift<'a> {
-        Drift {
-            position: split(&mut self.position, count),
-            velocity: split_shared(&mut self.velocity, count),
-            reference: split_shared(&mut self.reference, count),
-            allowance: self.allowance,
-            moved: false,
-        }
-    }
-
-    fn by(&mut self, level: Level, dt: f64) {
-        fearless_simd::dispatch!(level, simd => self.all(simd, dt));
-    }
-
-    #[inline(always)]
-    fn all<S: Simd>(&mut self, simd: S, dt: f64) {
-        for (position, velocity) in self.position.iter_mut().zip(self.velocity) {
-            let row = position.simd(simd) + velocity.simd(simd) * dt;
-            *position = Vector::of_row(row.into());
-        }
-        if let Some(allowance) = self.allowance {
-            self.moved = !allowance.hold(self.position, self.reference);
-        }
-    }
-}
-
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// v += a dt for a time `dt`, and the same for spins. True if a sphere may be too fast.
     pub(super) fn kick(&mut self, dt: f64) -> bool {
@@ -148,7 +52,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             inverse_inertia,
             ..
         } = &mut self.parts.particles;
-        let mut rest = Kick {
+        let kick = Kick {
             velocity,
             force,
             spin,
@@ -156,22 +60,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             inverse_mass,
             inverse_inertia,
             slow: self.parts.limits.slow,
-            too_fast: false,
         };
-        let too_fast = match &self.division {
-            None => {
-                rest.by(level, dt);
-                rest.too_fast
-            }
-            Some(division) => {
-                let length = rest.velocity.len().div_ceil(division.threads());
-                let mut shares: Vec<_> = (0..division.threads())
-                    .map(|_| rest.split(length))
-                    .collect();
-                in_parallel(&mut shares, &|share| share.by(level, dt));
-                shares.iter().any(|share| share.too_fast)
-            }
-        };
+        let threads = self.division.as_ref().map_or(1, Division::threads);
+        let too_fast = moves::by(kick, threads, level, dt);
         self.mark(Part::Kick);
         too_fast
     }
@@ -185,7 +76,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             position, velocity, ..
         } = &mut self.parts.particles;
         let is_listed = self.list.is_some();
-        let mut rest = Drift {
+        let drift = Drift {
             position,
             velocity,
             reference: if is_listed {
@@ -194,22 +85,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 &[]
             },
             allowance: is_listed.then(|| self.near.allowance(self.near_age.time)),
-            moved: false,
         };
-        let moved = match &self.division {
-            None => {
-                rest.by(level, dt);
-                rest.moved
-            }
-            Some(division) => {
-                let length = rest.position.len().div_ceil(division.threads());
-                let mut shares: Vec<_> = (0..division.threads())
-                    .map(|_| rest.split(length))
-                    .collect();
-                in_parallel(&mut shares, &|share| share.by(level, dt));
-                shares.iter().any(|share| share.moved)
-            }
-        };
+        let threads = self.division.as_ref().map_or(1, Division::threads);
+        let moved = moves::by(drift, threads, level, dt);
         // It may be so already: a sphere came or went.
         self.stale |= moved;
         self.mark(Part::Drift);

@@ -10,6 +10,7 @@ mod ledger;
 mod lists;
 mod measure;
 mod meeting;
+mod moves;
 mod order;
 mod pair_block;
 mod share;
