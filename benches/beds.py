@@ -18,6 +18,8 @@ class Bed:
     """Spheres at rest: their places, and the files from which programs start with them."""
 
     radius, density, dt, laws, weight = RADIUS, DENSITY, DT, ["mindlin", "coulomb"], 9.8 * MASS
+    # The most kinetic energy of a sphere at rest, over its weight times its radius.
+    stir = 1e-3
 
     def __init__(self, count, phase, folder):
         self.count, self.folder = count, folder
@@ -85,6 +87,8 @@ class Box(Bed):
     """The spheres of `box-55000.toml`, from a record of a run that has come to rest."""
 
     radius, dt, laws, weight = 0.5, 1e-4, ["silbert"], 1.0
+    # Half of what carries the spheres is friction, whose springs begin without load.
+    stir = 0.1
 
     def __init__(self, record, phase, folder):
         self.folder = folder
