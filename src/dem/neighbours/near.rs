@@ -24,7 +24,11 @@ use std::ops::Range;
 const COLUMN_LIFE: Range<u64> = 14..28;
 
 /// The same for lists of contacts, which are short.
-const CONTACT_LIFE: Range<u64> = 16..32;
+const CONTACT_LIFE: Range<u64> = 8..16;
+
+/// The most that the margin takes of the skin, of long lists and of lists of contacts: what it takes is missing in
+/// the life of the Verlet list.
+const MOST_OF_SKIN: [f64; 2] = [0.5, 0.25];
 
 /// Steps after which pairs that hold still are looked for anew, with a smaller margin.
 const LONG_LIFE: u64 = 64;
@@ -192,7 +196,9 @@ impl Near {
             self.margin *= if steps < LONG_LIFE { 0.8 } else { 0.3 };
         }
         self.smallest = self.least.max(0.02 * skin);
-        self.margin = (self.margin).clamp(self.smallest, self.smallest.max(0.5 * skin));
+        let [most_of_long, most] = MOST_OF_SKIN;
+        let most = if self.shield { most_of_long } else { most };
+        self.margin = (self.margin).clamp(self.smallest, self.smallest.max(most * skin));
     }
 
     /// Whether the list held for so many steps that looking for near pairs with a smaller margin pays: every
