@@ -70,26 +70,20 @@ impl Columns {
         );
         if <S::f64s as SimdBase<S>>::LEN < ROWS {
             let four = |column: &[f64]| f64x4::from_slice(simd, column);
-            let zero = f64x4::splat(simd, 0.0);
-            let [a, b, c, d] = transpose([
-                four(&first[..4]),
-                four(&second[..4]),
-                four(&third[..4]),
-                zero,
-            ]);
-            let [e, f, g, h] = transpose([
-                four(&first[4..]),
-                four(&second[4..]),
-                four(&third[4..]),
-                zero,
-            ]);
+            let half = |x: &[f64], y: &[f64], z: &[f64]| {
+                let y = four(y);
+                transpose([four(x), y, four(z), y])
+            };
+            let [a, b, c, d] = half(&first[..4], &second[..4], &third[..4]);
+            let [e, f, g, h] = half(&first[4..], &second[4..], &third[4..]);
             [a, b, c, d, e, f, g, h]
         } else {
             let eight = |column: &[f64]| f64x8::from_slice(simd, column);
             let (x, y, z) = (eight(first), eight(second), eight(third));
-            let zero = f64x8::splat(simd, 0.0);
-            let (low, more_low) = (x.zip_low(z), y.zip_low(zero));
-            let (high, more_high) = (x.zip_high(z), y.zip_high(zero));
+            // With a number of no meaning: a row whose last one is known would be written in pieces, which takes
+            // longer, and longer still to read them as one.
+            let (low, more_low) = (x.zip_low(z), y.zip_low(y));
+            let (high, more_high) = (x.zip_high(z), y.zip_high(y));
             let (a, b) = low.zip_low(more_low).split();
             let (c, d) = low.zip_high(more_low).split();
             let (e, f) = high.zip_low(more_high).split();

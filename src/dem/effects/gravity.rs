@@ -24,7 +24,7 @@ impl OneBody for Gravity {
     const PART: Part = Part::Gravity;
 
     #[inline(always)]
-    fn add(&mut self, bodies: &mut Bodies, _: &[u32]) {
+    fn add(&self, bodies: &mut Bodies) {
         let [x, z] = self.acceleration;
         let ([force_x, _, force_z], mass) = (&mut bodies.force.0, &bodies.mass);
         for k in 0..BLOCK {

@@ -14,9 +14,12 @@ use fearless_simd::Level;
 
 /// An effect adds to the forces and torques of the spheres.
 pub(super) trait Effect: Send {
-    /// Adds its forces and torques to those of a block of spheres. `shielding` holds, where the scene has an
-    /// updraught, the number of spheres that shield each one, of all of them, from below.
-    fn apply(&mut self, level: Level, bodies: &mut Bodies, shielding: &[u32]);
+    /// Makes ready for a step. `shielding` holds, where the scene has an updraught, the number of spheres that
+    /// shield each one, of all of them, from below.
+    fn prepare(&mut self, shielding: &[u32]);
+
+    /// Adds its forces and torques to those of a block of spheres.
+    fn apply(&self, level: Level, bodies: &mut Bodies);
 
     /// Whether it asks for spins, or adds to torques.
     fn turns(&self) -> bool;
@@ -39,8 +42,11 @@ trait OneBody: Send {
     /// As [`Effect::turns`].
     const TURNS: bool = false;
 
+    /// As [`Effect::prepare`].
+    fn prepare(&mut self, _shielding: &[u32]) {}
+
     /// As [`Effect::apply`]; implementations must be inlined always.
-    fn add(&mut self, bodies: &mut Bodies, shielding: &[u32]);
+    fn add(&self, bodies: &mut Bodies);
 
     /// As [`Effect::reorder`], of an effect that keeps something per sphere.
     fn reorder(&mut self, _order: &[u32]) {}
@@ -52,10 +58,14 @@ trait OneBody: Send {
 }
 
 impl<E: OneBody> Effect for E {
-    fn apply(&mut self, level: Level, bodies: &mut Bodies, shielding: &[u32]) {
+    fn prepare(&mut self, shielding: &[u32]) {
+        OneBody::prepare(self, shielding);
+    }
+
+    fn apply(&self, level: Level, bodies: &mut Bodies) {
         fearless_simd::dispatch!(level, simd => {
             let _ = simd;
-            self.add(bodies, shielding);
+            self.add(bodies);
         });
     }
 

@@ -24,7 +24,7 @@ impl OneBody for SpinDamping {
     const TURNS: bool = true;
 
     #[inline(always)]
-    fn add(&mut self, bodies: &mut Bodies, _: &[u32]) {
+    fn add(&self, bodies: &mut Bodies) {
         for (torque, spin) in bodies.torque.0.iter_mut().zip(&bodies.spin.0) {
             for k in 0..BLOCK {
                 torque[k] -= spin[k] * self.coefficient;

@@ -48,7 +48,7 @@ impl<K: DragKernel> OneBody for Swirl<K> {
     }
 
     #[inline(always)]
-    fn add(&mut self, bodies: &mut Bodies, _: &[u32]) {
+    fn add(&self, bodies: &mut Bodies) {
         let [c1, c2] = self.coefficients.of_block(bodies);
         let [x, y, _] = &bodies.position.0;
         let [fx, fy, fz] = &mut bodies.force.0;

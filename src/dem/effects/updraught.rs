@@ -18,6 +18,8 @@ struct Updraught<K> {
     coefficients: Coefficients,
     /// alpha^n for every n met so far.
     powers: Vec<f64>,
+    /// alpha^n of every sphere, in whole blocks.
+    shield: Vec<f64>,
     kernel: PhantomData<K>,
 }
 
@@ -35,6 +37,7 @@ pub(super) fn of_scene(
             parameters,
             coefficients,
             powers: vec![1.0],
+            shield: Vec::new(),
             kernel: PhantomData,
         })
     }
@@ -57,14 +60,21 @@ impl<K: DragKernel> OneBody for Updraught<K> {
         self.coefficients.reorder(order);
     }
 
-    #[inline(always)]
-    fn add(&mut self, bodies: &mut Bodies, shielding: &[u32]) {
-        let shielding = &shielding[bodies.all()];
+    fn prepare(&mut self, shielding: &[u32]) {
         let most = shielding.iter().copied().max().unwrap_or(0) as usize;
         while self.powers.len() <= most {
             self.powers
                 .push(self.powers[self.powers.len() - 1] * self.parameters.alpha);
         }
+        self.shield.clear();
+        let powers = shielding.iter().map(|&spheres| self.powers[spheres as usize]);
+        self.shield.extend(powers);
+        let blocks = shielding.len().div_ceil(BLOCK);
+        self.shield.resize(blocks * BLOCK, 1.0);
+    }
+
+    #[inline(always)]
+    fn add(&self, bodies: &mut Bodies) {
         let scene::Updraught {
             speed,
             strength,
@@ -72,10 +82,7 @@ impl<K: DragKernel> OneBody for Updraught<K> {
             origin,
             ..
         } = self.parameters;
-        let mut shield = [0.0; BLOCK];
-        for (shield, &spheres) in shield.iter_mut().zip(shielding) {
-            *shield = self.powers[spheres as usize];
-        }
+        let shield = &self.shield[bodies.first..bodies.first + BLOCK];
         let [c1, c2] = self.coefficients.of_block(bodies);
         let (height, velocity) = (&bodies.position.0[2], &bodies.velocity.0[2]);
         let force = &mut bodies.force.0[2];

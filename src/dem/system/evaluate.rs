@@ -73,13 +73,17 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if effects.is_empty() {
             return;
         }
+        for effect in effects.iter_mut() {
+            effect.prepare(self.near.shielding());
+            profile::mark(&mut self.profile, effect.part());
+        }
         // Without rotation there are neither spins nor torques.
         let turn = particles.rotate() && effects.iter().any(|effect| effect.turns());
         for first in (0..particles.len()).step_by(BLOCK) {
             bodies.take(self.level, particles, first, turn);
             profile::mark(&mut self.profile, Part::Rest);
-            for effect in effects.iter_mut() {
-                effect.apply(self.level, bodies, self.near.shielding());
+            for effect in effects.iter() {
+                effect.apply(self.level, bodies);
                 profile::mark(&mut self.profile, effect.part());
             }
             bodies.give(self.level, particles, turn);

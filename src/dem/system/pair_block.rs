@@ -454,21 +454,33 @@ impl<H: History> PairBlock<H> {
         sums: &mut Sums<'_>,
     ) {
         self.clear_from(pairs.count);
-        let mut sums = sums.here::<T>();
-        // Both get the same torque where they are alike.
-        let second = if self.alike { 0 } else { 1 };
+        // Both get the same torque where they are alike, which is then turned into rows once.
+        match self.alike {
+            true => self.add_up::<S, T, true>(simd, pairs, sums.here::<T>()),
+            false => self.add_up::<S, T, false>(simd, pairs, sums.here::<T>()),
+        }
+    }
+
+    #[inline(always)]
+    fn add_up<S: Simd, T: TangentialLaw<History = H>, const ALIKE: bool>(
+        &self,
+        simd: S,
+        pairs: &Lanes<'_>,
+        mut sums: Sums<'_>,
+    ) {
         for at in (0..BLOCK).step_by(ROWS) {
             let force = self.force.rows(simd, at);
-            let torque = match T::ROTATES {
-                true => [
-                    self.torque[0].rows(simd, at),
-                    self.torque[second].rows(simd, at),
-                ],
-                false => [force; 2],
-            };
+            let (mut one, mut other) = (force, force);
+            if T::ROTATES {
+                one = self.torque[0].rows(simd, at);
+                other = match ALIKE {
+                    true => one,
+                    false => self.torque[1].rows(simd, at),
+                };
+            }
             for k in 0..ROWS {
-                sums.add::<S, T>(simd, pairs.pairs[at + k].i(), force[k], torque[0][k]);
-                sums.add::<S, T>(simd, pairs.pairs[at + k].j(), -force[k], torque[1][k]);
+                sums.add::<S, T>(simd, pairs.pairs[at + k].i(), force[k], one[k]);
+                sums.add::<S, T>(simd, pairs.pairs[at + k].j(), -force[k], other[k]);
             }
         }
     }
