@@ -67,7 +67,9 @@ impl<K: DragKernel> OneBody for Updraught<K> {
                 .push(self.powers[self.powers.len() - 1] * self.parameters.alpha);
         }
         self.shield.clear();
-        let powers = shielding.iter().map(|&spheres| self.powers[spheres as usize]);
+        let powers = shielding
+            .iter()
+            .map(|&spheres| self.powers[spheres as usize]);
         self.shield.extend(powers);
         let blocks = shielding.len().div_ceil(BLOCK);
         self.shield.resize(blocks * BLOCK, 1.0);
