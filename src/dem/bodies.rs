@@ -2,10 +2,38 @@
 //! once.
 
 use super::block::{BLOCK, Column, Columns, ROWS, row};
-use super::particles::Particles;
+use super::threads::{split, split_shared};
 use super::vector::Vector;
-use fearless_simd::{Level, Simd};
-use std::ops::Range;
+use fearless_simd::Simd;
+
+/// Spheres in rows: all of them, or a thread's share.
+pub(super) struct Spheres<'a> {
+    /// Index of the first one.
+    pub(super) first: usize,
+    pub(super) position: &'a [Vector],
+    pub(super) velocity: &'a [Vector],
+    pub(super) spin: &'a [Vector],
+    pub(super) mass: &'a [f64],
+    pub(super) force: &'a mut [Vector],
+    pub(super) torque: &'a mut [Vector],
+}
+
+impl Spheres<'_> {
+    /// Takes so many from the front, or all that there are.
+    pub(super) fn split(&mut self, count: usize) -> Self {
+        let first = self.first;
+        self.first += count.min(self.position.len());
+        Self {
+            first,
+            position: split_shared(&mut self.position, count),
+            velocity: split_shared(&mut self.velocity, count),
+            spin: split_shared(&mut self.spin, count),
+            mass: split_shared(&mut self.mass, count),
+            force: split(&mut self.force, count),
+            torque: split(&mut self.torque, count),
+        }
+    }
+}
 
 /// A block of spheres. Lanes without a sphere repeat the last one.
 pub(super) struct Bodies {
@@ -41,45 +69,47 @@ impl Bodies {
         }
     }
 
-    /// Their indices.
-    pub(super) fn all(&self) -> Range<usize> {
-        self.first..self.first + self.count
-    }
-
-    /// Takes a block of spheres, their spins too if these `turn`.
-    pub(super) fn take(&mut self, level: Level, particles: &Particles, first: usize, turn: bool) {
-        self.first = first;
-        self.count = (particles.len() - first).min(BLOCK);
-        fearless_simd::dispatch!(level, simd => self.fill(simd, particles, turn));
-    }
-
+    /// Takes a block of spheres from a place on, their spins too if these `turn`.
     #[inline(always)]
-    fn fill<S: Simd>(&mut self, simd: S, particles: &Particles, turn: bool) {
-        let all = self.all();
-        self.mass[..self.count].copy_from_slice(&particles.mass[all.clone()]);
+    pub(super) fn take<S: Simd>(
+        &mut self,
+        simd: S,
+        spheres: &Spheres<'_>,
+        from: usize,
+        turn: bool,
+    ) {
+        self.first = spheres.first + from;
+        self.count = (spheres.mass.len() - from).min(BLOCK);
+        let all = from..from + self.count;
+        self.mass[..self.count].copy_from_slice(&spheres.mass[all.clone()]);
         let columns = [
-            (&mut self.position, &particles.position),
-            (&mut self.velocity, &particles.velocity),
-            (&mut self.force, &particles.force),
+            (true, &mut self.position, spheres.position),
+            (true, &mut self.velocity, spheres.velocity),
+            (true, &mut self.force, &*spheres.force),
+            (turn, &mut self.spin, spheres.spin),
+            (turn, &mut self.torque, &*spheres.torque),
         ];
-        for (columns, vectors) in columns {
-            fill(simd, columns, &vectors[all.clone()]);
-        }
-        if turn {
-            fill(simd, &mut self.spin, &particles.spin[all.clone()]);
-            fill(simd, &mut self.torque, &particles.torque[all]);
+        for (is_asked, columns, vectors) in columns {
+            if is_asked {
+                fill(simd, columns, &vectors[all.clone()]);
+            }
         }
     }
 
-    /// Gives the spheres what acts on them, torques too if they `turn`.
-    pub(super) fn give(&self, level: Level, particles: &mut Particles, turn: bool) {
-        let all = self.all();
-        fearless_simd::dispatch!(level, simd => {
-            spread(simd, &self.force, &mut particles.force[all.clone()]);
-            if turn {
-                spread(simd, &self.torque, &mut particles.torque[all]);
-            }
-        });
+    /// Gives the spheres from that place on what acts on them, torques too if they `turn`.
+    #[inline(always)]
+    pub(super) fn give<S: Simd>(
+        &self,
+        simd: S,
+        spheres: &mut Spheres<'_>,
+        from: usize,
+        turn: bool,
+    ) {
+        let all = from..from + self.count;
+        spread(simd, &self.force, &mut spheres.force[all.clone()]);
+        if turn {
+            spread(simd, &self.torque, &mut spheres.torque[all]);
+        }
     }
 }
 

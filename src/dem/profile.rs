@@ -225,8 +225,9 @@ impl Profile {
         });
     }
 
+    /// Ends a part of a step.
     #[inline(never)]
-    fn mark(&mut self, part: Part) {
+    pub(super) fn mark(&mut self, part: Part) {
         if let Some(latest) = self.latest {
             let now = cpu_time::of_this_thread();
             self.readings += 1;

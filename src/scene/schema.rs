@@ -213,7 +213,7 @@ const START: Kind = Kind::Tagged(
     ],
 );
 
-const START_SPHERE: Kind = Kind::Table(&[
+pub(super) const START_SPHERE: Kind = Kind::Table(&[
     needed("position", Kind::Vector),
     optional("velocity", Kind::Vector),
     optional("spin", Kind::Vector),

@@ -9,7 +9,7 @@ use crate::scene::{Drag, DragForm};
 
 /// Force of the air on a sphere from the velocity of the air relative to it, for the
 /// coefficients c1 (kg/s) and c2 (kg/m) of the sphere.
-pub(super) trait DragKernel: Copy + Send + 'static {
+pub(super) trait DragKernel: Copy + Send + Sync + 'static {
     /// Force (N) for the relative velocity of the air (m/s).
     fn vector(c1: f64, c2: f64, air: Vector) -> Vector;
 

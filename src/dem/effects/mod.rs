@@ -13,7 +13,7 @@ use crate::scene::Scene;
 use fearless_simd::Level;
 
 /// An effect adds to the forces and torques of the spheres.
-pub(super) trait Effect: Send {
+pub(super) trait Effect: Send + Sync {
     /// Makes ready for a step. `shielding` holds, where the scene has an updraught, the number of spheres that
     /// shield each one, of all of them, from below.
     fn prepare(&mut self, shielding: &[u32]);
@@ -35,7 +35,7 @@ pub(super) trait Effect: Send {
 }
 
 /// The loop of an effect, to be compiled once per instruction set.
-trait OneBody: Send {
+trait OneBody: Send + Sync {
     /// What it is called in a profile.
     const PART: Part;
 

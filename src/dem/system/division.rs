@@ -147,9 +147,7 @@ impl<H: History> Division<H> {
     }
 }
 
-impl<H> Division<H> {
-    /// Threads that there are.
-    pub(super) fn threads(&self) -> usize {
-        self.parts.len()
-    }
+/// Threads that there are, one where the work is not divided.
+pub(super) fn threads<H>(division: &Option<Division<H>>) -> usize {
+    division.as_ref().map_or(1, |it| it.parts.len())
 }

@@ -1,10 +1,12 @@
 //! One evaluation: the forces and torques of everything, at the present positions and velocities.
 
 use super::contacts::Among;
+use super::division::threads;
+use super::moves::{self, Act};
 use super::share::{Known, Scenery, Share};
 use super::sums::Sums;
 use super::{Parts, System};
-use crate::dem::block::BLOCK;
+use crate::dem::bodies::{Bodies, Spheres};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
 use crate::dem::particles::Particles;
@@ -62,14 +64,15 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
-    /// Adds the forces and torques of some effects, block by block.
+    /// Adds the forces and torques of some effects.
     fn act(&mut self, effects: Range<usize>) {
         let Parts {
             particles,
             effects: all,
+            dt,
             ..
         } = &mut self.parts;
-        let (effects, bodies) = (&mut all[effects], &mut *self.bodies);
+        let effects = &mut all[effects];
         if effects.is_empty() {
             return;
         }
@@ -79,15 +82,25 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         // Without rotation there are neither spins nor torques.
         let turn = particles.rotate() && effects.iter().any(|effect| effect.turns());
-        for first in (0..particles.len()).step_by(BLOCK) {
-            bodies.take(self.level, particles, first, turn);
-            profile::mark(&mut self.profile, Part::Rest);
-            for effect in effects.iter() {
-                effect.apply(self.level, bodies);
-                profile::mark(&mut self.profile, effect.part());
-            }
-            bodies.give(self.level, particles, turn);
-        }
+        let threads = threads(&self.division);
+        self.bodies.resize_with(threads, Bodies::new);
+        let act = Act {
+            spheres: Spheres {
+                first: 0,
+                position: &particles.position,
+                velocity: &particles.velocity,
+                spin: &particles.spin,
+                mass: &particles.mass,
+                force: &mut particles.force,
+                torque: &mut particles.torque,
+            },
+            effects,
+            turn,
+            level: self.level,
+            bodies: &mut self.bodies,
+            profile: self.profile.as_deref_mut(),
+        };
+        moves::by(act, threads, self.level, *dt);
         self.mark(Part::Rest);
     }
 

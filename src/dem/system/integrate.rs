@@ -1,6 +1,6 @@
 //! Integration schemes: one function each, from kicks and drifts.
 
-use super::division::Division;
+use super::division::threads;
 use super::meeting::Loading;
 use super::moves::{self, Drift, Kick};
 use super::pair_block::EarlierRows;
@@ -61,7 +61,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             inverse_inertia,
             slow: self.parts.limits.slow,
         };
-        let threads = self.division.as_ref().map_or(1, Division::threads);
+        let threads = threads(&self.division);
         let too_fast = moves::by(kick, threads, level, dt);
         self.mark(Part::Kick);
         too_fast
@@ -86,7 +86,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             },
             allowance: is_listed.then(|| self.near.allowance(self.near_age.time)),
         };
-        let threads = self.division.as_ref().map_or(1, Division::threads);
+        let threads = threads(&self.division);
         let moved = moves::by(drift, threads, level, dt);
         // It may be so already: a sphere came or went.
         self.stale |= moved;

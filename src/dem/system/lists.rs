@@ -1,6 +1,6 @@
 //! When lists of neighbours are made anew, and what becomes of the histories of their contacts.
 
-use super::division::Division;
+use super::division::threads;
 use super::meeting::{Laws, Solid};
 use super::{Parts, System};
 use crate::dem::contact::NormalLaw;
@@ -26,7 +26,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.stale = false;
         if let Some(list) = &self.list {
             let (near, particles) = (&mut self.near, &self.parts.particles);
-            let threads = self.division.as_ref().map_or(1, Division::threads);
+            let threads = threads(&self.division);
             if Self::REMEMBERS {
                 let before = near.exchange_pairs(std::mem::take(&mut self.spare_pairs));
                 near.refresh(self.level, list, particles, threads);
@@ -85,10 +85,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if age.steps > 0 {
             list.adapt(age.steps, age.time);
         }
-        list.build(
-            particles,
-            self.division.as_ref().map_or(1, Division::threads),
-        );
+        list.build(particles, threads(&self.division));
         Ok(())
     }
 }

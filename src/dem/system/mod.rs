@@ -130,7 +130,8 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     /// What all spheres are like, if they are alike.
     alike: Option<Solid>,
     buffers: Box<Buffers<T::History>>,
-    bodies: Box<Bodies>,
+    /// Of every thread.
+    bodies: Vec<Bodies>,
     /// The walls, and what may touch them.
     walls: Vec<WallContacts<T::History>>,
     /// Histories of near pairs. A law without history has one of no size, and these take no memory.
@@ -182,7 +183,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             profile: None,
             alike: Self::alike(&parts.particles),
             buffers: Buffers::new(),
-            bodies: Box::new(Bodies::new()),
+            bodies: Vec::new(),
             walls: parts.walls.iter().copied().map(WallContacts::new).collect(),
             pair_history: Vec::new(),
             division: None,

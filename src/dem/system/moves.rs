@@ -1,6 +1,10 @@
-//! Kicks and drifts: loops over the rows of all spheres, or of each thread's.
+//! Effects, kicks and drifts: loops over all spheres, or over each thread's.
 
+use crate::dem::block::BLOCK;
+use crate::dem::bodies::{Bodies, Spheres};
+use crate::dem::effects::Effect;
 use crate::dem::neighbours::{Allowance, Reference};
+use crate::dem::profile::{Part, Profile};
 use crate::dem::threads::{in_parallel, split, split_shared};
 use crate::dem::vector::Vector;
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x4, mask64x4};
@@ -13,13 +17,13 @@ pub(super) trait Move: Send + Sized {
     /// Takes so many spheres from the front, or all that there are.
     fn split(&mut self, count: usize) -> Self;
 
-    /// Moves them by a time (s). Whether one of them is to be looked at.
+    /// Does it to them, for a time (s). Whether one of them is to be looked at.
     fn all<S: Simd>(&mut self, simd: S, dt: f64) -> bool;
 }
 
-/// Moves spheres by a time (s), as many by each thread. Whether one of them is to be looked at.
+/// Does it for a time (s), to as many spheres by each thread. Whether one of them is to be looked at.
 pub(super) fn by(mut all: impl Move, threads: usize, level: Level, dt: f64) -> bool {
-    let length = all.spheres().div_ceil(threads);
+    let length = all.spheres().div_ceil(threads).next_multiple_of(BLOCK);
     match threads {
         1 => of_thread(&mut all, level, dt),
         _ => {
@@ -35,6 +39,52 @@ pub(super) fn by(mut all: impl Move, threads: usize, level: Level, dt: f64) -> b
 
 fn of_thread(share: &mut impl Move, level: Level, dt: f64) -> bool {
     fearless_simd::dispatch!(level, simd => share.all(simd, dt))
+}
+
+/// What effects add to the forces and torques of some spheres, or of all, block by block.
+pub(super) struct Act<'a> {
+    pub(super) spheres: Spheres<'a>,
+    pub(super) effects: &'a [Box<dyn Effect>],
+    /// Whether they ask for spins, or add to torques.
+    pub(super) turn: bool,
+    pub(super) level: Level,
+    /// Of every thread.
+    pub(super) bodies: &'a mut [Bodies],
+    /// Of one thread for all, if there is one.
+    pub(super) profile: Option<&'a mut Profile>,
+}
+
+impl Move for Act<'_> {
+    fn spheres(&self) -> usize {
+        self.spheres.mass.len()
+    }
+
+    fn split(&mut self, count: usize) -> Self {
+        Self {
+            spheres: self.spheres.split(count),
+            bodies: split(&mut self.bodies, 1),
+            profile: None,
+            ..*self
+        }
+    }
+
+    #[inline(always)]
+    fn all<S: Simd>(&mut self, simd: S, _: f64) -> bool {
+        let mut mark = |part| self.profile.iter_mut().for_each(|it| it.mark(part));
+        let Some(bodies) = self.bodies.first_mut() else {
+            return false;
+        };
+        for from in (0..self.spheres.mass.len()).step_by(BLOCK) {
+            bodies.take(simd, &self.spheres, from, self.turn);
+            mark(Part::Rest);
+            for effect in self.effects {
+                effect.apply(self.level, bodies);
+                mark(effect.part());
+            }
+            bodies.give(simd, &mut self.spheres, from, self.turn);
+        }
+        false
+    }
 }
 
 /// A kick of some spheres, or of all.
