@@ -271,6 +271,29 @@ fn files_named_by_a_scene_become_part_of_it() {
     assert_eq!(scene.radius_range(), (0.003, 0.006));
 }
 
+/// Symptom: a million spheres from a file took three gigabytes before the first step. Cause: all of them were
+/// turned into one tree of values to be checked; they are checked one by one, each at its place.
+#[test]
+fn values_of_every_listed_sphere_are_checked() {
+    let mut scene = load_scene("tests/good/from-files.toml");
+    assert!(scene.problems().is_empty());
+    let Start::List { spheres } = &mut scene.start else {
+        panic!("{:?}", scene.start);
+    };
+    spheres[1].radius = Some(-1.0);
+    spheres[2].velocity[1] = f64::INFINITY;
+    let problems: Vec<String> = scene.problems().iter().map(|it| it.to_string()).collect();
+    assert_eq!(problems.len(), 2, "{problems:?}");
+    assert!(
+        problems[0].contains("`start.spheres[1].radius`"),
+        "{problems:?}"
+    );
+    assert!(
+        problems[1].contains("`start.spheres[2].velocity[1]`"),
+        "{problems:?}"
+    );
+}
+
 #[test]
 fn every_numeric_key_is_part_of_the_identity() {
     let scene = load_scene("tests/good/everything.toml");

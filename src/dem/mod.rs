@@ -11,6 +11,7 @@ pub mod contact;
 mod effects;
 pub mod friction;
 mod guard;
+mod laws;
 pub mod math;
 pub mod neighbours;
 pub mod order;

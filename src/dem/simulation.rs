@@ -1,24 +1,21 @@
 //! From a scene to a running simulation.
 
-use super::contact::{Hertz, Linear, NoContact, NormalLaw, Silbert};
-use super::friction::{
-    Coulomb, CundallStrack, Frictionless, Mindlin, SilbertFriction, SpinFriction, TangentialLaw,
-};
+use super::effects;
 use super::guard::Limits;
+use super::laws::engine;
 use super::neighbours::VerletList;
 use super::order;
 use super::particles::{Particles, Sphere};
 use super::process::{Counts, Feed, Process};
 use super::profile::Profile;
 use super::start::{self, StartError};
-use super::system::{Engine, Parts, System};
+use super::system::{Engine, Parts};
 use super::vector::Vector;
 use super::walls::TankWall;
-use super::{effects, timestep};
 use crate::cpu_time;
 use crate::observe::{Flow, FrameView, Ledger};
 use crate::record::{Instability, Milestone};
-use crate::scene::{Contact, Friction, Neighbours, Scene, Start};
+use crate::scene::{Neighbours, Scene, Start};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 /// Why a scene cannot be run.
@@ -359,98 +356,4 @@ fn waiting(spheres: &Particles, scene: &Scene) -> Vec<Sphere> {
         force: Vector::new(gravity[0], 0.0, gravity[1]) * spheres.mass[i],
     };
     (0..spheres.len()).map(sphere).collect()
-}
-
-/// The engine compiled for the scene's contact and friction. Each pair of laws costs time to compile,
-/// so only those are here that go together.
-fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
-    fn boxed<N: NormalLaw, T: TangentialLaw>(
-        normal: N,
-        tangential: T,
-        parts: Parts,
-    ) -> Box<dyn Engine> {
-        Box::new(System::new(normal, tangential, parts))
-    }
-    let dt = scene.time.dt;
-    match scene.contact {
-        None => match scene.friction {
-            None => Ok(boxed(NoContact, Frictionless, parts)),
-            Some(_) => Err(BuildError::FrictionWithoutContact),
-        },
-        Some(Contact::Hertz {
-            young_modulus,
-            poisson_ratio,
-            dissipation_factor,
-            ..
-        }) => {
-            let dissipation_time = timestep::dissipation_time(scene);
-            let normal = Hertz::new(
-                young_modulus,
-                poisson_ratio,
-                dissipation_time,
-                dissipation_factor,
-            );
-            Ok(match scene.friction {
-                None => boxed(normal, Frictionless, parts),
-                Some(Friction::CundallStrack { .. } | Friction::Silbert { .. }) => {
-                    return Err(BuildError::LawsDoNotGoTogether);
-                }
-                Some(Friction::Spin { coefficient }) => {
-                    boxed(normal, SpinFriction::new(coefficient, dt), parts)
-                }
-                Some(Friction::Coulomb {
-                    coefficient,
-                    regularisation,
-                }) => boxed(normal, Coulomb::new(coefficient, regularisation), parts),
-                Some(Friction::Mindlin { coefficient }) => {
-                    let law = Mindlin::new(coefficient, young_modulus, poisson_ratio);
-                    boxed(normal, law, parts)
-                }
-            })
-        }
-        Some(Contact::Linear {
-            stiffness,
-            damping,
-            drag,
-        }) => {
-            let normal = Linear::new(stiffness, damping, drag);
-            match scene.friction {
-                None => Ok(boxed(normal, Frictionless, parts)),
-                Some(Friction::Coulomb {
-                    coefficient,
-                    regularisation,
-                }) => Ok(boxed(
-                    normal,
-                    Coulomb::new(coefficient, regularisation),
-                    parts,
-                )),
-                Some(Friction::CundallStrack {
-                    coefficient,
-                    stiffness,
-                    damping,
-                }) => {
-                    let law = CundallStrack::new(coefficient, stiffness, damping);
-                    Ok(boxed(normal, law, parts))
-                }
-                Some(
-                    Friction::Spin { .. } | Friction::Mindlin { .. } | Friction::Silbert { .. },
-                ) => Err(BuildError::LawsDoNotGoTogether),
-            }
-        }
-        Some(Contact::Silbert { stiffness, damping }) => {
-            let normal = Silbert::new(stiffness, damping);
-            match scene.friction {
-                None => Ok(boxed(normal, Frictionless, parts)),
-                Some(Friction::Silbert {
-                    coefficient,
-                    stiffness,
-                    damping,
-                }) => {
-                    let law = SilbertFriction::new(coefficient, stiffness, damping);
-                    Ok(boxed(normal, law, parts))
-                }
-                Some(_) => Err(BuildError::LawsDoNotGoTogether),
-            }
-        }
-    }
 }

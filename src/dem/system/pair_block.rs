@@ -4,18 +4,18 @@
 //! into vector instructions; a pair that does not touch gets a force of zero. Then the forces are added up
 //! one by one in the order of the list. Adding zero to a sum that began at +0 changes no bit of it.
 
+mod walls;
+
 use super::lanes::{Solids, WallMeetings};
 use super::meeting::{Couple, Earlier, Laws, Meeting, Roots, Solid};
 use super::sums::Sums;
 use super::touching::Lanes;
-use super::wall_contacts::NearSphere;
 use crate::dem::block::{BLOCK, Column, Columns, ROWS, Row, row};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, Spring, TangentialLaw};
 use crate::dem::math::inverse_square_root;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
-use crate::dem::walls::Wall;
 use fearless_simd::{Simd, SimdBase, SimdFrom, f64x4, f64x8};
 use std::marker::PhantomData;
 
@@ -199,50 +199,6 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Fetches spheres near a wall, with what they remember.
-    #[inline(always)]
-    pub(super) fn take_spheres<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
-        &mut self,
-        simd: S,
-        spheres: &[NearSphere; BLOCK],
-        histories: &[H],
-        particles: &Particles,
-        earlier: &[EarlierRows],
-    ) {
-        self.offset.fill::<S>(
-            #[inline(always)]
-            |k| row(simd, &particles.position, spheres[k].i),
-        );
-        self.velocity.fill::<S>(
-            #[inline(always)]
-            |k| row(simd, &particles.velocity, spheres[k].i),
-        );
-        if T::ROTATES {
-            self.spin[0].fill::<S>(
-                #[inline(always)]
-                |k| row(simd, &particles.spin, spheres[k].i),
-            );
-        }
-        if !self.alike {
-            self.solid[0].take::<N, T>(particles, |k| spheres[k].i);
-        }
-        self.take_springs(
-            simd,
-            #[inline(always)]
-            |k| histories.get(k).copied().unwrap_or_default(),
-        );
-        if Self::REMEMBERS && !earlier.is_empty() {
-            self.earlier_velocity.fill::<S>(
-                #[inline(always)]
-                |k| f64x4::simd_from(simd, earlier[spheres[k].i as usize][0]),
-            );
-            self.earlier_spin[0].fill::<S>(
-                #[inline(always)]
-                |k| f64x4::simd_from(simd, earlier[spheres[k].i as usize][1]),
-            );
-        }
-    }
-
     /// Computes the laws for every pair.
     #[inline(always)]
     pub(super) fn interact<N: NormalLaw, T: TangentialLaw<History = H>>(
@@ -291,62 +247,6 @@ impl<H: History> PairBlock<H> {
                 let [x, y, z] = &mut self.spring.0;
                 (x[k], y[k], z[k]) = (force.x, force.y, force.z);
             }
-        }
-    }
-
-    /// Finds how every sphere meets a wall.
-    #[inline(always)]
-    pub(super) fn meet<W: Wall, N: NormalLaw, T: TangentialLaw<History = H>>(
-        &mut self,
-        wall: W,
-        laws: &Laws<N, T>,
-    ) {
-        for k in 0..BLOCK {
-            let contact = wall.contact(self.offset.vector(k), self.solid[0].radius[k]);
-            self.meeting.set(k, &contact);
-        }
-        if Self::REMEMBERS && laws.loading.age > 0.0 {
-            for k in 0..BLOCK {
-                let (place, velocity) = (self.offset.vector(k), self.earlier_velocity.vector(k));
-                let place = laws.earlier_place(place, velocity);
-                let contact = wall.contact(place, self.solid[0].radius[k]);
-                self.earlier_meeting.set(k, &contact);
-            }
-        }
-    }
-
-    /// Computes the laws for every sphere, as it [meets](Self::meet) a wall.
-    #[inline(always)]
-    pub(super) fn interact_with_wall<N: NormalLaw, T: TangentialLaw<History = H>>(
-        &mut self,
-        laws: &Laws<N, T>,
-    ) {
-        match Self::REMEMBERS && laws.loading.age > 0.0 {
-            true => self.interact_with_wall_as::<N, T, true>(laws),
-            false => self.interact_with_wall_as::<N, T, false>(laws),
-        }
-    }
-
-    #[inline(always)]
-    fn interact_with_wall_as<N: NormalLaw, T: TangentialLaw<History = H>, const EARLIER: bool>(
-        &mut self,
-        laws: &Laws<N, T>,
-    ) {
-        self.turn_springs(
-            #[inline(always)]
-            |block, k| block.meeting.at(k).normal,
-        );
-        for k in 0..BLOCK {
-            let mut couple = self.couple::<T, EARLIER>(k, Solid::WALL);
-            couple.spin[1] = Vector::ZERO;
-            if let Some(earlier) = &mut couple.earlier {
-                earlier.spin[1] = Vector::ZERO;
-            }
-            let earlier = self.earlier_meeting.at(k);
-            let earlier = EARLIER.then_some(&earlier);
-            let contact = self.meeting.at(k);
-            let meeting = laws.at_contact(&couple, contact, earlier, self.spring(k));
-            self.keep::<T>(k, &meeting);
         }
     }
 
@@ -420,29 +320,6 @@ impl<H: History> PairBlock<H> {
         (0..contacts)
             .find(|&k| self.too_deep[k] != NOT_DEEP)
             .map(|k| (k, self.too_deep[k]))
-    }
-
-    /// Adds forces and torques of a wall to those of so many spheres whose sums these are.
-    #[inline(always)]
-    pub(super) fn add_to_spheres<S: Simd, T: TangentialLaw<History = H>>(
-        &mut self,
-        simd: S,
-        spheres: &[NearSphere; BLOCK],
-        contacts: usize,
-        sums: &mut Sums<'_>,
-    ) {
-        self.clear_from(contacts);
-        let mut sums = sums.here::<T>();
-        for at in (0..BLOCK).step_by(ROWS) {
-            let force = self.force.rows(simd, at);
-            let torque = match T::ROTATES {
-                true => self.torque[0].rows(simd, at),
-                false => force,
-            };
-            for k in 0..ROWS {
-                sums.add::<S, T>(simd, spheres[at + k].i, force[k], torque[k]);
-            }
-        }
     }
 
     /// Adds forces and torques to those partners of so many pairs whose sums these are, one after the other.
