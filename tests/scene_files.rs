@@ -271,8 +271,6 @@ fn files_named_by_a_scene_become_part_of_it() {
     assert_eq!(scene.radius_range(), (0.003, 0.006));
 }
 
-/// Symptom: a million spheres from a file took three gigabytes before the first step. Cause: all of them were
-/// turned into one tree of values to be checked; they are checked one by one, each at its place.
 #[test]
 fn values_of_every_listed_sphere_are_checked() {
     let mut scene = load_scene("tests/good/from-files.toml");

@@ -213,7 +213,7 @@ const START: Kind = Kind::Tagged(
     ],
 );
 
-pub(super) const START_SPHERE: Kind = Kind::Table(&[
+const START_SPHERE: Kind = Kind::Table(&[
     needed("position", Kind::Vector),
     optional("velocity", Kind::Vector),
     optional("spin", Kind::Vector),

@@ -1,15 +1,13 @@
 //! All pairs of a few spheres, looked at many at once: quicker than cells below some thousand spheres, and the
 //! partners of a sphere come out in order.
 
-use super::Reach;
+use super::{Reach, WORD};
 use crate::dem::particles::Particles;
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
 /// As many spheres are few.
 pub(super) const FEW: usize = 1024;
 
-/// Spheres that are looked at as the bits of one number.
-const WORD: usize = 64;
 /// Of them at once.
 const LANES: usize = 8;
 

@@ -46,6 +46,9 @@ pub enum Reach {
     Column,
 }
 
+/// Bits of a number, of as many spheres or pairs.
+const WORD: usize = u64::BITS as usize;
+
 /// Steps from one build to the next that the skin adapts to.
 const LIFE: std::ops::Range<u64> = 30..80;
 

@@ -11,7 +11,7 @@
 use super::anchor::{Allowance, Anchor};
 use super::glance::Glance;
 use super::shield::Shield;
-use super::{NearPair, Particles, VerletList, keep_pairs};
+use super::{NearPair, Particles, VerletList, WORD, keep_pairs};
 use crate::dem::block::{BLOCK, ROWS, ones};
 use crate::dem::particles::retain;
 use crate::dem::threads::in_parallel;
@@ -35,9 +35,6 @@ const LONG_LIFE: u64 = 64;
 
 /// The part of the margin that a turn of all spheres may take.
 const TURN: f64 = 0.4;
-
-/// Bits of a number.
-const WORD: usize = u64::BITS as usize;
 
 /// The inner list.
 pub struct Near {

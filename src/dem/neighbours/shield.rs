@@ -1,11 +1,8 @@
 //! Who shields whom from below: what is known for some steps, and the pairs that must be looked at in each.
 
-use super::{NearPair, Particles};
+use super::{NearPair, Particles, WORD};
 use crate::dem::block::{ROWS, ones, row, turned};
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
-
-/// Bits of a number.
-const WORD: usize = u64::BITS as usize;
 
 /// The count of spheres that shield each one, kept up with the pairs whose part in it may change. From one step
 /// to the next few do: what is found is compared with what was, and only what differs is counted.

@@ -7,7 +7,7 @@ use crate::dem::neighbours::{Allowance, Reference};
 use crate::dem::profile::{Part, Profile};
 use crate::dem::threads::{in_parallel, split, split_shared};
 use crate::dem::vector::Vector;
-use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x4, mask64x4};
+use fearless_simd::{Level, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
 
 /// Something done to each of some spheres, or of all.
 pub(super) trait Move: Send + Sized {
@@ -71,9 +71,8 @@ impl Move for Act<'_> {
     #[inline(always)]
     fn all<S: Simd>(&mut self, simd: S, _: f64) -> bool {
         let mut mark = |part| self.profile.iter_mut().for_each(|it| it.mark(part));
-        let Some(bodies) = self.bodies.first_mut() else {
-            return false;
-        };
+        let bodies = self.bodies.first_mut();
+        let bodies = bodies.expect("every thread has one");
         for from in (0..self.spheres.mass.len()).step_by(BLOCK) {
             bodies.take(simd, &self.spheres, from, self.turn);
             mark(Part::Rest);
@@ -118,7 +117,9 @@ impl Move for Kick<'_> {
 
     #[inline(always)]
     fn all<S: Simd>(&mut self, simd: S, dt: f64) -> bool {
-        let most = f64x4::splat(simd, self.slow);
+        // The last number of a row means nothing.
+        let most = [self.slow, self.slow, self.slow, f64::INFINITY];
+        let most = f64x4::simd_from(simd, most);
         let mut slow = mask64x4::splat(simd, true);
         for ((velocity, force), inverse) in (self.velocity.iter_mut())
             .zip(self.force)

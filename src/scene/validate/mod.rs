@@ -7,7 +7,7 @@ mod start;
 mod tank;
 mod time;
 
-use super::schema::{SCENE, START_SPHERE};
+use super::schema::SCENE;
 use super::{Contact, Friction, Geometry, Radii, Scene, Spheres, Start, Updraught};
 use crate::document::{Problem, number};
 
@@ -30,7 +30,7 @@ impl Scene {
     /// the scene from being run.
     pub(crate) fn problems_but_of_limit(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
-        self.check_values(&mut problems);
+        SCENE.check(&self.tree(), "", &mut problems);
         if problems.is_empty() {
             self.check_all_but_step(&mut problems);
             self.check_whole_steps(&mut problems);
@@ -41,30 +41,11 @@ impl Scene {
     /// What is wrong with this scene whatever its time step.
     pub(super) fn problems_but_of_step(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
-        self.check_values(&mut problems);
+        SCENE.check(&self.tree(), "", &mut problems);
         if problems.is_empty() {
             self.check_all_but_step(&mut problems);
         }
         problems
-    }
-
-    /// Kinds and ranges of all values.
-    fn check_values(&self, problems: &mut Vec<Problem>) {
-        let Start::List { spheres } = &self.start else {
-            return SCENE.check(&self.tree(), "", problems);
-        };
-        // A tree of values of all spheres at once would be most of the memory of a run.
-        let without_spheres = Self {
-            start: Start::List {
-                spheres: Vec::new(),
-            },
-            ..self.clone()
-        };
-        SCENE.check(&without_spheres.tree(), "", problems);
-        for (index, sphere) in spheres.iter().enumerate() {
-            let value = serde_json::to_value(sphere).expect("a sphere holds no map");
-            START_SPHERE.check(&value, &format!("start.spheres[{index}]"), problems);
-        }
     }
 
     /// Takes numbers in their ranges for granted.
