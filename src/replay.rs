@@ -101,6 +101,7 @@ pub fn replay(dump: &Array3<f64>, scene: &Scene) -> Result<RunRecord, ReplayErro
                 inertia: &[],
                 elastic_energy: f64::NAN,
                 ledger: None,
+                number: None,
                 flow: None,
             },
         );

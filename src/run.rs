@@ -2,7 +2,7 @@
 
 use crate::cpu_time;
 use crate::dem::{BuildError, Counts, Profile, Simulation, SimulationState, StateError};
-use crate::observe::{Observer, Snapshot};
+use crate::observe::{Frame, Observer, Snapshot};
 use crate::record::{Outcome, Program, RunRecord};
 use crate::scene::Scene;
 use rayon::ThreadPoolBuildError;
@@ -99,7 +99,8 @@ pub struct Run {
     frame: u64,
     frames: u64,
     steps_per_frame: u64,
-    frames_per_snapshot: u64,
+    /// Absent where none but that of the end is asked for.
+    frames_per_snapshot: Option<u64>,
     /// Processor time that the run took before `started` (s).
     cpu_seconds_before: f64,
     /// Processor time of this thread when the run began or was restored (s).
@@ -119,7 +120,7 @@ struct Results {
 pub struct RunState<'a> {
     frame: u64,
     cpu_seconds: f64,
-    simulation: SimulationState,
+    simulation: SimulationState<'a>,
     results: Cow<'a, Results>,
 }
 
@@ -132,8 +133,10 @@ impl RunState<'_> {
     /// The same, on its own.
     pub fn into_owned(self) -> RunState<'static> {
         RunState {
+            frame: self.frame,
+            cpu_seconds: self.cpu_seconds,
+            simulation: self.simulation.into_owned(),
             results: Cow::Owned(self.results.into_owned()),
-            ..self
         }
     }
 }
@@ -147,10 +150,8 @@ impl Run {
         let started = cpu_time::of_this_thread();
         let (steps_per_frame, frames) = frames(scene);
         let simulation = Simulation::new(scene)?;
-        let frames_per_snapshot = match scene.output.snapshot_interval / scene.time.frame_interval {
-            ratio if ratio > 0.0 => (ratio.round() as u64).max(1),
-            _ => u64::MAX,
-        };
+        let ratio = scene.output.snapshot_interval / scene.time.frame_interval;
+        let frames_per_snapshot = (ratio > 0.0).then(|| (ratio.round() as u64).max(1));
         let mut run = Self {
             scene: scene.clone(),
             results: Results {
@@ -246,7 +247,7 @@ impl Run {
     ///
     /// # Errors
     /// If the state cannot be one of this scene; the run is then as it was.
-    pub fn restore(&mut self, state: RunState<'static>) -> Result<(), StateError> {
+    pub fn restore(&mut self, state: RunState<'_>) -> Result<(), StateError> {
         self.simulation.restore(state.simulation)?;
         self.frame = state.frame;
         self.results = state.results.into_owned();
@@ -256,7 +257,12 @@ impl Run {
     }
 
     /// The record of the run, of all frames so far.
-    pub fn finish(self) -> RunRecord {
+    pub fn finish(mut self) -> RunRecord {
+        if self.ended() {
+            // A large scene takes most memory now; so its contacts go before there is one snapshot more.
+            self.simulation.forget_contacts();
+            self.take_snapshot();
+        }
         let cpu_seconds = self.cpu_seconds();
         let Results {
             observer,
@@ -286,20 +292,59 @@ impl Run {
         self.cpu_seconds_before + (cpu_time::of_this_thread() - self.started) + of_others
     }
 
+    fn take_snapshot(&mut self) {
+        let time = self.simulation.time();
+        let snapshot = |frame: &dyn Frame| Snapshot::take(time, frame);
+        let snapshot = self.simulation.with_frame(snapshot);
+        self.results.snapshots.push(snapshot);
+    }
+
     /// Looks at the present frame, and keeps of it what the scene's output asks for.
     pub(crate) fn look(&mut self) {
         let (broken, ended) = (self.broken(), self.ended());
         let time = self.simulation.time();
-        let view = self.simulation.frame();
         let results = &mut self.results;
-        if !broken {
-            results.observer.observe(time, &view);
-        }
-        if ended || self.frame.is_multiple_of(self.frames_per_snapshot) {
-            results.snapshots.push(Snapshot::take(time, &view));
-        }
-        if self.scene.output.trajectory {
-            results.trajectory.push(Snapshot::take(time, &view));
-        }
+        self.simulation.with_frame(|frame| {
+            if !broken {
+                results.observer.observe(time, frame);
+            }
+            // That of the end is taken last of all.
+            let due = |frames| self.frame.is_multiple_of(frames);
+            if !ended && self.frames_per_snapshot.is_some_and(due) {
+                results.snapshots.push(Snapshot::take(time, frame));
+            }
+            if self.scene.output.trajectory {
+                results.trajectory.push(Snapshot::take(time, frame));
+            }
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Symptom: a run that was asked for the last snapshot alone stored the first one too. Cause: frame 0 is a
+    /// multiple of any number.
+    #[test]
+    fn snapshots_are_those_that_are_asked_for() {
+        let times = |interval: f64| {
+            let scene: Scene = toml::from_str(&format!(
+                r#"
+                spheres = {{ count = 1, radius = 0.004, density = 1000.0 }}
+                start = {{ kind = "list", spheres = [{{ position = [0.0, 0.0, 1.0] }}] }}
+                gravity = {{ acceleration = 9.8 }}
+                time = {{ dt = 1e-3, duration = 0.01, frame_interval = 2e-3 }}
+                output = {{ snapshot_interval = {interval:?} }}
+                "#
+            ))
+            .unwrap();
+            let record = run(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
+            let time = |snapshot: &Snapshot| (snapshot.time * 1e3).round();
+            record.snapshots.iter().map(time).collect::<Vec<_>>()
+        };
+        assert_eq!(times(0.0), [10.0]);
+        assert_eq!(times(4e-3), [0.0, 4.0, 8.0, 10.0]);
+        assert_eq!(times(2e-3), [0.0, 2.0, 4.0, 6.0, 8.0, 10.0]);
     }
 }

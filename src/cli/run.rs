@@ -138,14 +138,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console,
     )?;
     let Some(Ran {
-        record,
+        mut record,
         seconds,
         resumed_from,
     }) = ran
     else {
         return Ok(Exit::Interrupted);
     };
-    write(&record, &path, &checkpoints)?;
+    write(&mut record, &path, &checkpoints, original.is_some())?;
     console.result(summary(&record, seconds))?;
     console.file(&path)?;
     if let Some(table) = &table {
@@ -180,10 +180,19 @@ fn lock(record: &Path) -> Result<Lock, Failure> {
 }
 
 /// Writes the record, into its folder made anew if somebody removed it. Where that fails, what is left
-/// of the run is its latest checkpoint.
-fn write(record: &RunRecord, path: &Path, checkpoints: &Checkpoints) -> Result<(), Failure> {
+/// of the run is its latest checkpoint. The record loses its states if it need not keep them.
+fn write(
+    record: &mut RunRecord,
+    path: &Path,
+    checkpoints: &Checkpoints,
+    keep_states: bool,
+) -> Result<(), Failure> {
     folders::make_for(path)?;
-    store::write_record(record, path).map_err(|error| {
+    let written = match keep_states {
+        true => store::write_record(record, path),
+        false => store::write_record_without_copy(record, path),
+    };
+    written.map_err(|error| {
         let left = match store::read_checkpoint(checkpoints.path(), &record.scene) {
             Ok(Some(state)) => format!(
                 "the checkpoint of frame {} of {} stays: the same command with --resume goes on from \

@@ -83,7 +83,6 @@ impl RunCost {
         }
         let whole = run.ended();
         let record = run.finish();
-        meter.lap(reading);
         let folder = tempfile::tempdir()?;
         store::write_record(&record, &folder.path().join("cost.h5"))?;
         parts[Part::Record as usize] = meter.lap(reading);

@@ -2,35 +2,84 @@
 //! once.
 
 use super::block::{BLOCK, Column, Columns, ROWS, row};
+use super::neighbours::Reference;
+use super::particles::Particles;
 use super::threads::{split, split_shared};
 use super::vector::Vector;
 use fearless_simd::Simd;
 
-/// Spheres in rows: all of them, or a thread's share.
+/// Spheres in rows: all of them, or a thread's share, or those that are at hand.
 pub(super) struct Spheres<'a> {
     /// Index of the first one.
     pub(super) first: usize,
-    pub(super) position: &'a [Vector],
-    pub(super) velocity: &'a [Vector],
-    pub(super) spin: &'a [Vector],
-    pub(super) mass: &'a [f64],
+    pub(super) position: &'a mut [Vector],
+    pub(super) velocity: &'a mut [Vector],
     pub(super) force: &'a mut [Vector],
+    pub(super) spin: &'a mut [Vector],
     pub(super) torque: &'a mut [Vector],
+    pub(super) mass: &'a [f64],
+    pub(super) inverse_mass: &'a [f64],
+    pub(super) inverse_inertia: &'a [f64],
+    /// Where they were when near pairs were looked for; nothing where none are looked for.
+    pub(super) reference: &'a [Reference],
 }
 
-impl Spheres<'_> {
+impl<'a> Spheres<'a> {
+    /// All spheres, with their references.
+    pub(super) fn new(particles: &'a mut Particles, reference: &'a [Reference]) -> Self {
+        Self {
+            first: 0,
+            position: &mut particles.position,
+            velocity: &mut particles.velocity,
+            force: &mut particles.force,
+            spin: &mut particles.spin,
+            torque: &mut particles.torque,
+            mass: &particles.mass,
+            inverse_mass: &particles.inverse_mass,
+            inverse_inertia: &particles.inverse_inertia,
+            reference,
+        }
+    }
+
+    /// How many they are.
+    pub(super) fn len(&self) -> usize {
+        self.position.len()
+    }
+
     /// Takes so many from the front, or all that there are.
     pub(super) fn split(&mut self, count: usize) -> Self {
         let first = self.first;
-        self.first += count.min(self.position.len());
+        self.first += count.min(self.len());
         Self {
             first,
-            position: split_shared(&mut self.position, count),
-            velocity: split_shared(&mut self.velocity, count),
-            spin: split_shared(&mut self.spin, count),
-            mass: split_shared(&mut self.mass, count),
+            position: split(&mut self.position, count),
+            velocity: split(&mut self.velocity, count),
             force: split(&mut self.force, count),
+            spin: split(&mut self.spin, count),
             torque: split(&mut self.torque, count),
+            mass: split_shared(&mut self.mass, count),
+            inverse_mass: split_shared(&mut self.inverse_mass, count),
+            inverse_inertia: split_shared(&mut self.inverse_inertia, count),
+            reference: split_shared(&mut self.reference, count),
+        }
+    }
+}
+
+/// What effects ask for besides masses and forces.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Asked {
+    /// Centres and velocities.
+    pub(super) motion: bool,
+    /// Spins, and torques to add to.
+    pub(super) turn: bool,
+}
+
+impl Asked {
+    /// What one or the other asks for.
+    pub(super) fn or(self, other: Self) -> Self {
+        Self {
+            motion: self.motion || other.motion,
+            turn: self.turn || other.turn,
         }
     }
 }
@@ -41,12 +90,12 @@ pub(super) struct Bodies {
     pub(super) first: usize,
     /// How many they are.
     count: usize,
-    /// Centres (m).
-    pub(super) position: Columns,
-    /// Velocities (m/s).
-    pub(super) velocity: Columns,
     /// Forces so far (N).
     pub(super) force: Columns,
+    /// Centres (m), if they are asked for.
+    pub(super) position: Columns,
+    /// Velocities (m/s), if they are asked for.
+    pub(super) velocity: Columns,
     /// Spins (rad/s), if they are asked for.
     pub(super) spin: Columns,
     /// Torques so far (N m), if they are asked for.
@@ -60,33 +109,34 @@ impl Bodies {
         Self {
             first: 0,
             count: 0,
+            force: Columns::ZERO,
             position: Columns::ZERO,
             velocity: Columns::ZERO,
-            force: Columns::ZERO,
             spin: Columns::ZERO,
             torque: Columns::ZERO,
             mass: [0.0; BLOCK],
         }
     }
 
-    /// Takes a block of spheres from a place on, their spins too if these `turn`.
+    /// Takes a block of spheres from a place on: masses, forces, and what else is asked for.
     #[inline(always)]
     pub(super) fn take<S: Simd>(
         &mut self,
         simd: S,
         spheres: &Spheres<'_>,
         from: usize,
-        turn: bool,
+        asked: Asked,
     ) {
         self.first = spheres.first + from;
-        self.count = (spheres.mass.len() - from).min(BLOCK);
+        self.count = (spheres.len() - from).min(BLOCK);
         let all = from..from + self.count;
         self.mass[..self.count].copy_from_slice(&spheres.mass[all.clone()]);
+        let Asked { motion, turn } = asked;
         let columns = [
-            (true, &mut self.position, spheres.position),
-            (true, &mut self.velocity, spheres.velocity),
             (true, &mut self.force, &*spheres.force),
-            (turn, &mut self.spin, spheres.spin),
+            (motion, &mut self.position, &*spheres.position),
+            (motion, &mut self.velocity, &*spheres.velocity),
+            (turn, &mut self.spin, &*spheres.spin),
             (turn, &mut self.torque, &*spheres.torque),
         ];
         for (is_asked, columns, vectors) in columns {
@@ -96,18 +146,18 @@ impl Bodies {
         }
     }
 
-    /// Gives the spheres from that place on what acts on them, torques too if they `turn`.
+    /// Gives the spheres from that place on what acts on them.
     #[inline(always)]
     pub(super) fn give<S: Simd>(
         &self,
         simd: S,
         spheres: &mut Spheres<'_>,
         from: usize,
-        turn: bool,
+        asked: Asked,
     ) {
         let all = from..from + self.count;
         spread(simd, &self.force, &mut spheres.force[all.clone()]);
-        if turn {
+        if asked.turn {
             spread(simd, &self.torque, &mut spheres.torque[all]);
         }
     }

@@ -9,6 +9,7 @@ mod block;
 mod bodies;
 pub mod contact;
 mod effects;
+mod frame;
 pub mod friction;
 mod guard;
 mod laws;

@@ -1,6 +1,7 @@
 //! From a scene to a running simulation.
 
 use super::effects;
+use super::frame::of_moving;
 use super::guard::Limits;
 use super::laws::engine;
 use super::neighbours::VerletList;
@@ -13,7 +14,6 @@ use super::system::{Engine, Parts};
 use super::vector::Vector;
 use super::walls::TankWall;
 use crate::cpu_time;
-use crate::observe::{Flow, FrameView, Ledger};
 use crate::record::{Instability, Milestone};
 use crate::scene::{Neighbours, Scene, Start};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
@@ -46,12 +46,13 @@ pub struct Simulation {
     pub(super) process: Option<Process>,
     /// Radius (m) and mass (kg) of every sphere of the scene, those included that are not in yet; empty
     /// where all are alike and sorted.
-    radius: Vec<f64>,
-    mass: Vec<f64>,
+    pub(super) radius: Vec<f64>,
+    pub(super) mass: Vec<f64>,
     /// Moments of inertia (kg m2) in the order of the scene, where that is not the order in memory.
-    inertia: Vec<f64>,
+    pub(super) inertia: Vec<f64>,
     dt: f64,
-    components: [[Vec<f64>; 3]; 3],
+    /// What a frame borrows.
+    pub(super) components: [[Vec<f64>; 3]; 3],
     /// The threads that the engine runs on, if there are several.
     pool: Option<ThreadPool>,
 }
@@ -220,6 +221,11 @@ impl Simulation {
             .sum()
     }
 
+    /// Forgets all that is known of contacts, for its memory: nothing comes but a last look at the spheres.
+    pub(crate) fn forget_contacts(&mut self) {
+        self.engine.forget_contacts();
+    }
+
     /// Begins to measure what the parts of a step take. Never changes the motion.
     pub(crate) fn keep_profile(&mut self, profile: Profile) {
         self.engine.keep_profile(profile);
@@ -260,82 +266,6 @@ impl Simulation {
     /// Elastic energy of all contacts (J). Asking for it never changes the motion.
     pub fn elastic_energy(&mut self) -> f64 {
         self.engine.contacts().elastic_energy
-    }
-
-    /// Everything an observer may see now.
-    pub fn frame(&mut self) -> FrameView<'_> {
-        let contacts = self.engine.contacts();
-        let (work, counts) = (self.engine.work(), self.counts());
-        let particles = self.engine.particles();
-        let moving = particles.fixed..;
-        let sorted = self.process.is_none() && !particles.number.is_empty();
-        let vectors = [&particles.position, &particles.velocity, &particles.spin];
-        for (components, vectors) in self.components.iter_mut().zip(vectors) {
-            components[0].clear();
-            components[1].clear();
-            components[2].clear();
-            // Without rotation there are no spins, neither of fixed spheres nor of others.
-            let vectors = vectors.get(moving.clone()).unwrap_or_default();
-            if sorted {
-                let numbers = &particles.number[moving.clone()];
-                in_scene_order(components, vectors, numbers);
-                continue;
-            }
-            components[0].extend(vectors.iter().map(|vector| vector.x));
-            components[1].extend(vectors.iter().map(|vector| vector.y));
-            components[2].extend(vectors.iter().map(|vector| vector.z));
-        }
-        let [radius, mass, inertia] = match sorted && !self.radius.is_empty() {
-            true => [&self.radius[..], &self.mass, &self.inertia],
-            false => [&particles.radius, &particles.mass, &particles.inertia]
-                .map(|values| of_moving(values, particles)),
-        };
-        let [position, velocity, spin] = self
-            .components
-            .each_ref()
-            .map(|c| c.each_ref().map(|c| &c[..]));
-        FrameView {
-            position,
-            velocity,
-            spin: particles.rotate().then_some(spin),
-            radius,
-            mass,
-            inertia,
-            elastic_energy: contacts.elastic_energy,
-            ledger: work.map(|work| Ledger {
-                springs: contacts.spring_energy,
-                damping: -work.damping,
-                friction: -work.tangential - contacts.spring_energy,
-                air: work.air,
-                brought: work.brought,
-            }),
-            flow: counts.map(|counts| Flow {
-                number: &particles.number[moving],
-                spheres: counts.all,
-                released: counts.released,
-                discharged: counts.discharged,
-                spilled: counts.spilled,
-                contacts: contacts.of_moving_spheres,
-            }),
-        }
-    }
-}
-
-/// Values of the spheres that move, where there are any.
-fn of_moving<'a>(values: &'a [f64], particles: &Particles) -> &'a [f64] {
-    values.get(particles.fixed..).unwrap_or_default()
-}
-
-/// Components of vectors of spheres with these numbers, in the order of the numbers.
-fn in_scene_order(components: &mut [Vec<f64>; 3], vectors: &[Vector], numbers: &[u32]) {
-    for component in components.iter_mut() {
-        component.resize(vectors.len(), 0.0);
-    }
-    for (vector, &number) in vectors.iter().zip(numbers) {
-        let number = number as usize;
-        components[0][number] = vector.x;
-        components[1][number] = vector.y;
-        components[2][number] = vector.z;
     }
 }
 

@@ -9,10 +9,20 @@ use serde::{Deserialize, Serialize};
 /// from the rest. Random streams are not in it, as they serve the start alone; nor are lists of
 /// neighbours, on which no bit depends.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct SimulationState {
-    engine: EngineState,
+pub struct SimulationState<'a> {
+    engine: EngineState<'a>,
     /// Absent where no sphere comes or goes.
     process: Option<ProcessState>,
+}
+
+impl SimulationState<'_> {
+    /// The same, on its own.
+    pub fn into_owned(self) -> SimulationState<'static> {
+        SimulationState {
+            engine: self.engine.into_owned(),
+            process: self.process,
+        }
+    }
 }
 
 /// A state is not one of the scene, or was saved by another program.
@@ -22,7 +32,7 @@ pub struct StateError(pub(super) &'static str);
 
 impl Simulation {
     /// The state between the latest step and the next. Asking for it never changes the motion.
-    pub fn state(&self) -> SimulationState {
+    pub fn state(&self) -> SimulationState<'_> {
         SimulationState {
             engine: self.engine.state(),
             process: self.process.as_ref().map(Process::state),
@@ -34,7 +44,7 @@ impl Simulation {
     ///
     /// # Errors
     /// If the state cannot be one of this scene; the simulation is then as it was.
-    pub fn restore(&mut self, state: SimulationState) -> Result<(), StateError> {
+    pub fn restore(&mut self, state: SimulationState<'_>) -> Result<(), StateError> {
         match (&self.process, &state.process) {
             (Some(process), Some(state)) => process.accepts(state)?,
             (None, None) => {}

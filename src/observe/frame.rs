@@ -1,10 +1,25 @@
 //! The state of a simulation at one frame, as an observer sees it.
 
 use super::Snapshot;
+use super::reduce::LANES;
 use ndarray::Array2;
 
+/// The spheres of a frame, block by block in the order of the scene. A [`FrameView`] shows itself, as one block
+/// of all; spheres that stand in memory in another order never need to be in that of the scene all at once.
+pub trait Frame {
+    /// Number of spheres.
+    fn count(&self) -> usize;
+
+    /// Shows all blocks. Each but the last one is of a multiple of [`FRAME_BLOCK`] spheres.
+    fn show(&self, look: &mut dyn FnMut(&FrameView<'_>));
+}
+
+/// Sums are divided among so many partial ones, wherever a block ends.
+pub const FRAME_BLOCK: usize = LANES;
+
 /// The state of a simulation at one frame, borrowed from the engine. Every slice holds one entry
-/// per sphere that moves; a sphere keeps its index throughout a run, unless spheres come and go.
+/// per sphere that moves; a sphere keeps its index throughout a run, unless spheres come and go. Or a block of
+/// the spheres of a [`Frame`]: what is not of single spheres is then still that of the whole frame.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameView<'a> {
     /// Coordinates x, y and z of the centres (m).
@@ -23,8 +38,11 @@ pub struct FrameView<'a> {
     pub elastic_energy: f64,
     /// Where the energy went; absent if the scene's output does not ask for it.
     pub ledger: Option<Ledger>,
+    /// Number of each sphere among all of the scene, counted from 0, in rising order; absent where none comes or
+    /// goes.
+    pub number: Option<&'a [u32]>,
     /// How spheres come and go; absent where none does.
-    pub flow: Option<Flow<'a>>,
+    pub flow: Option<Flow>,
 }
 
 /// Where the energy went since the start (J).
@@ -44,9 +62,7 @@ pub struct Ledger {
 
 /// How spheres come and go.
 #[derive(Clone, Copy, Debug)]
-pub struct Flow<'a> {
-    /// Number of each sphere of the frame among all of the scene, counted from 0, in rising order.
-    pub number: &'a [u32],
+pub struct Flow {
     /// Spheres of the scene, those included that are not in yet or have left.
     pub spheres: usize,
     /// Spheres that came in so far.
@@ -66,34 +82,77 @@ impl FrameView<'_> {
     }
 }
 
+impl Frame for FrameView<'_> {
+    fn count(&self) -> usize {
+        self.count()
+    }
+
+    fn show(&self, look: &mut dyn FnMut(&FrameView<'_>)) {
+        look(self);
+    }
+}
+
 impl Snapshot {
     /// A copy of all spheres of a frame at `time` (s). Where spheres come and go, one that is not
     /// in has no numbers (NaN).
-    pub fn take(time: f64, frame: &FrameView<'_>) -> Self {
-        let rows = |components| rows(components, frame.flow.as_ref());
+    pub fn take(time: f64, frame: &dyn Frame) -> Self {
+        let mut rows = Rows::default();
+        let mut first = 0;
+        frame.show(&mut |block| {
+            if first == 0 {
+                rows = Rows::new(frame.count(), block);
+            }
+            rows.add(first, block);
+            first += block.count();
+        });
+        let [position, velocity, spin] = rows.0;
         Self {
             time,
-            position: rows(frame.position),
-            velocity: rows(frame.velocity),
-            spin: frame.spin.map_or_else(|| Array2::zeros((0, 3)), rows),
+            position,
+            velocity,
+            spin,
         }
     }
 }
 
-/// One row per sphere from one slice per component.
-fn rows(components: [&[f64]; 3], flow: Option<&Flow<'_>>) -> Array2<f64> {
-    let Some(flow) = flow else {
-        return Array2::from_shape_fn((components[0].len(), 3), |(sphere, axis)| {
-            components[axis][sphere]
-        });
-    };
-    let mut rows = Array2::from_elem((flow.spheres, 3), f64::NAN);
-    for (at, &sphere) in flow.number.iter().enumerate() {
-        for axis in 0..3 {
-            rows[[sphere as usize, axis]] = components[axis][at];
+/// Positions, velocities and spins, one row per sphere.
+#[derive(Default)]
+struct Rows([Array2<f64>; 3]);
+
+impl Rows {
+    /// Of spheres that are not in.
+    fn new(count: usize, view: &FrameView<'_>) -> Self {
+        let rows = |rows| match view.flow {
+            Some(flow) => Array2::from_elem((flow.spheres, 3), f64::NAN),
+            None => Array2::zeros((rows, 3)),
+        };
+        let spin = match view.spin {
+            Some(_) => rows(count),
+            None => Array2::zeros((0, 3)),
+        };
+        Self([rows(count), rows(count), spin])
+    }
+
+    /// Adds a block of spheres, the first of which has that place among all of the frame.
+    fn add(&mut self, first: usize, block: &FrameView<'_>) {
+        let all = [Some(block.position), Some(block.velocity), block.spin];
+        for (rows, components) in self.0.iter_mut().zip(all) {
+            let Some(components) = components else {
+                continue;
+            };
+            for at in 0..block.count() {
+                let sphere = block.number.map_or(first + at, |it| it[at] as usize);
+                for (axis, component) in components.iter().enumerate() {
+                    let (entry, value) = (&mut rows[[sphere, axis]], component[at]);
+                    // What is zero already is left alone: memory that was never written takes none, and many
+                    // spheres start at rest.
+                    if entry.to_bits() != value.to_bits() {
+                        *entry = value;
+                    }
+                }
+            }
         }
     }
-    rows
 }
 
 #[cfg(test)]
@@ -112,6 +171,7 @@ mod tests {
             inertia: &[],
             elastic_energy: 0.0,
             ledger: None,
+            number: None,
             flow: None,
         };
         let snapshot = Snapshot::take(0.25, &view);

@@ -5,6 +5,6 @@ mod observations;
 mod observer;
 mod reduce;
 
-pub use frame::{Flow, FrameView, Ledger};
+pub use frame::{FRAME_BLOCK, Flow, Frame, FrameView, Ledger};
 pub use observations::{Observations, Series, Snapshot};
 pub use observer::Observer;

@@ -1,7 +1,7 @@
 //! Measures a simulation at every frame.
 
-use super::reduce::{largest, least, sum};
-use super::{FrameView, Observations};
+use super::reduce::{Sum, largest, least};
+use super::{Flow, Frame, FrameView, Ledger, Observations};
 use crate::scene::{Gravity, Scene};
 use ndarray::{Array2, Array3};
 use serde::{Deserialize, Serialize};
@@ -28,7 +28,7 @@ pub struct Observer {
     profile: Vec<f32>,
     /// Entries of `Observations::rising`, one frame after the other.
     rising: Vec<u16>,
-    /// Distance of each centre from the axis at this frame (m).
+    /// Distance of each centre of a block from the axis (m).
     #[serde(skip)]
     distance: Vec<f64>,
     previous: Option<Previous>,
@@ -84,15 +84,15 @@ impl Observer {
 
     /// Measures one frame at `time` (s). Frames are one frame interval of the scene apart, and
     /// the first is the start.
-    pub fn observe(&mut self, time: f64, frame: &FrameView<'_>) {
+    pub fn observe(&mut self, time: f64, frame: &dyn Frame) {
         self.observations.time.push(time);
-        self.measure_energies(frame);
-        self.measure_velocities(frame);
-        self.measure_distances(frame);
-        self.measure_profile(frame);
-        let height_mean = self.measure_heights(frame);
-        self.measure_rising(frame, height_mean);
-        self.measure_flow(frame);
+        let totals = self.first_look(frame);
+        self.note_energies(&totals);
+        self.note_distances(&totals);
+        self.note_heights(&totals);
+        self.note_flow(&totals);
+        let means = self.note_velocities(&totals);
+        self.second_look(frame, &means);
     }
 
     /// The observables of all frames so far.
@@ -108,32 +108,43 @@ impl Observer {
         }
     }
 
-    fn measure_energies(&mut self, frame: &FrameView<'_>) {
-        let [vx, vy, vz] = frame.velocity;
-        let kinetic = sum([frame.mass, vx, vy, vz], |[mass, x, y, z]| {
-            0.5 * mass * (x * x + y * y + z * z)
+    /// Looks for all that does not depend on a mean.
+    fn first_look(&mut self, frame: &dyn Frame) -> Totals {
+        let start = self.profile.len();
+        self.profile.resize(start + self.bins, f32::NAN);
+        let mut totals = Totals::default();
+        frame.show(&mut |block| {
+            find_distances(block, &mut self.distance);
+            totals.add(block, &self.distance, self.gravity);
+            let tops = &mut self.profile[start..];
+            if tops.is_empty() {
+                return;
+            }
+            for (&distance, &z) in self.distance.iter().zip(block.position[2]) {
+                let top = &mut tops[bin(distance, self.bin_width, self.bins)];
+                // Of a number and the NaN of an empty bin, `max` takes the number.
+                *top = top.max(z as f32);
+            }
         });
-        let rotational = frame.spin.map_or(0.0, |[wx, wy, wz]| {
-            sum([frame.inertia, wx, wy, wz], |[inertia, x, y, z]| {
-                0.5 * inertia * (x * x + y * y + z * z)
-            })
-        });
-        let [x, _, z] = frame.position;
-        let [gx, gz] = self.gravity;
-        let gravitational = sum([frame.mass, x, z], |[mass, x, z]| {
-            -(mass * gx * x) - mass * gz * z
-        });
+        totals
+    }
+
+    fn note_energies(&mut self, totals: &Totals) {
+        let kinetic = totals.kinetic.total();
+        let rotational = totals.rotational.total();
+        let gravitational = totals.gravitational.total();
         let observations = &mut self.observations;
         observations.kinetic.push(kinetic as f32);
         observations.rotational.push(rotational as f32);
         observations.gravitational.push(gravitational as f32);
-        observations.elastic.push(frame.elastic_energy as f32);
-        let energy = kinetic + rotational + gravitational + frame.elastic_energy;
-        self.measure_ledger(frame, energy);
+        observations.elastic.push(totals.elastic_energy as f32);
+        let energy = kinetic + rotational + gravitational + totals.elastic_energy;
+        if let Some(ledger) = &totals.ledger {
+            self.note_ledger(ledger, energy);
+        }
     }
 
-    fn measure_ledger(&mut self, frame: &FrameView<'_>, energy: f64) {
-        let Some(ledger) = &frame.ledger else { return };
+    fn note_ledger(&mut self, ledger: &Ledger, energy: f64) {
         let balance = energy + ledger.springs + ledger.damping + ledger.friction
             - ledger.air
             - ledger.brought;
@@ -151,8 +162,8 @@ impl Observer {
         observations.residual.push((balance - start) as f32);
     }
 
-    fn measure_flow(&mut self, frame: &FrameView<'_>) {
-        let Some(flow) = &frame.flow else { return };
+    fn note_flow(&mut self, totals: &Totals) {
+        let Some(flow) = &totals.flow else { return };
         let observations = &mut self.observations;
         observations.released.push(flow.released as f32);
         observations.discharged.push(flow.discharged as f32);
@@ -163,117 +174,256 @@ impl Observer {
         let time = observations.time[now] - observations.time[before];
         let rate = if time > 0.0 { left / time as f32 } else { 0.0 };
         observations.discharge_rate.push(rate);
-        let coordination = flow.contacts as f64 / frame.count() as f64;
+        let coordination = flow.contacts as f64 / totals.count as f64;
         observations.coordination.push(coordination as f32);
-        let mass = sum([frame.mass], |[mass]| mass);
-        observations.mass_inside.push(mass as f32);
+        observations.mass_inside.push(totals.mass.total() as f32);
     }
 
-    fn measure_velocities(&mut self, frame: &FrameView<'_>) {
-        let count = frame.count() as f64;
-        let [x, y, _] = frame.position;
-        let [vx, vy, vz] = frame.velocity;
-        let speed = sum(frame.velocity, |[x, y, z]| (x * x + y * y + z * z).sqrt()) / count;
-        let rise = sum([vz], |[vz]| vz) / count;
-        let momentum = sum([frame.mass, x, y, vx, vy], |[mass, x, y, vx, vy]| {
-            mass * (x * vy - y * vx)
-        });
-        let inertia = sum([frame.mass, x, y], |[mass, x, y]| mass * (x * x + y * y));
-        // Spheres that all lie on the axis do not rotate about it.
-        let rotation = if inertia > 0.0 {
-            momentum / inertia
-        } else {
-            0.0
-        };
-        let fluctuation = sum([x, y, vx, vy, vz], |[x, y, vx, vy, vz]| {
-            let x_part = vx + rotation * y;
-            let y_part = vy - rotation * x;
-            let z_part = vz - rise;
-            x_part * x_part + y_part * y_part + z_part * z_part
-        }) / count;
+    fn note_distances(&mut self, totals: &Totals) {
+        let mean = totals.distance.total() / totals.count as f64;
         let observations = &mut self.observations;
-        observations.speed_mean.push(speed as f32);
-        observations.rotation.push(rotation as f32);
-        observations.fluctuation.push(fluctuation.sqrt() as f32);
-    }
-
-    fn measure_distances(&mut self, frame: &FrameView<'_>) {
-        let [x, y, _] = frame.position;
-        self.distance.clear();
-        self.distance
-            .extend(x.iter().zip(y).map(|(x, y)| (x * x + y * y).sqrt()));
-        let mean = sum([&self.distance], |[distance]| distance) / frame.count() as f64;
-        let observations = &mut self.observations;
-        observations.hole_radius.push(least(&self.distance) as f32);
+        observations.hole_radius.push(totals.nearest as f32);
         observations
             .air_speed_mean
             .push((self.air_rotation * mean) as f32);
     }
 
-    /// Returns the mean height (m).
-    fn measure_heights(&mut self, frame: &FrameView<'_>) -> f64 {
-        let z = frame.position[2];
-        let mean = sum([z], |[z]| z) / frame.count() as f64;
+    fn note_heights(&mut self, totals: &Totals) {
+        let mean = totals.height.total() / totals.count as f64;
         self.observations.height_mean.push(mean as f32);
-        self.observations.height_max.push(largest(z) as f32);
-        mean
+        self.observations.height_max.push(totals.highest as f32);
     }
 
-    fn measure_profile(&mut self, frame: &FrameView<'_>) {
-        if self.bins == 0 {
-            return;
-        }
-        let start = self.profile.len();
-        self.profile.resize(start + self.bins, f32::NAN);
-        let tops = &mut self.profile[start..];
-        for (&distance, &z) in self.distance.iter().zip(frame.position[2]) {
-            let top = &mut tops[bin(distance, self.bin_width, self.bins)];
-            // Of a number and the NaN of an empty bin, `max` takes the number.
-            *top = top.max(z as f32);
-        }
-    }
-
-    fn measure_rising(&mut self, frame: &FrameView<'_>, height_mean: f64) {
-        let columns = self.rises.len();
-        let cells = self.distances.len() * columns;
-        if cells == 0 {
-            return;
-        }
-        let start = self.rising.len();
-        self.rising.resize(start + cells, 0);
-        let z = frame.position[2];
-        let Some(previous) = &mut self.previous else {
-            self.previous = Some(Previous {
-                height: z.to_vec(),
-                distance: self.distance.clone(),
-                height_mean,
-            });
-            return;
+    fn note_velocities(&mut self, totals: &Totals) -> Means {
+        let count = totals.count as f64;
+        let inertia = totals.inertia.total();
+        // Spheres that all lie on the axis do not rotate about it.
+        let rotation = if inertia > 0.0 {
+            totals.momentum.total() / inertia
+        } else {
+            0.0
         };
+        let speed = totals.speed.total() / count;
+        let observations = &mut self.observations;
+        observations.speed_mean.push(speed as f32);
+        observations.rotation.push(rotation as f32);
+        Means {
+            count,
+            rotation,
+            rise: totals.rise.total() / count,
+            height: totals.height.total() / count,
+        }
+    }
 
-        let counts = &mut self.rising[start..];
-        let mean = height_mean - previous.height_mean;
+    /// Looks for what depends on means.
+    fn second_look(&mut self, frame: &dyn Frame, means: &Means) {
+        let (rotation, rise) = (means.rotation, means.rise);
+        let mut fluctuation = Sum::default();
+        let mut rising = Rising::new(self, frame.count(), means.height);
+        frame.show(&mut |block| {
+            let ([x, y, _], [vx, vy, vz]) = (block.position, block.velocity);
+            fluctuation.add([x, y, vx, vy, vz], |[x, y, vx, vy, vz]| {
+                let x_part = vx + rotation * y;
+                let y_part = vy - rotation * x;
+                let z_part = vz - rise;
+                x_part * x_part + y_part * y_part + z_part * z_part
+            });
+            if let Some(rising) = &mut rising {
+                rising.count(block);
+            }
+        });
+        let fluctuation = fluctuation.total() / means.count;
+        self.observations
+            .fluctuation
+            .push(fluctuation.sqrt() as f32);
+    }
+}
+
+/// What is summed up over all spheres of a frame.
+#[derive(Debug)]
+struct Totals {
+    count: usize,
+    mass: Sum,
+    kinetic: Sum,
+    rotational: Sum,
+    gravitational: Sum,
+    speed: Sum,
+    /// Of vertical velocities (m/s).
+    rise: Sum,
+    /// About the axis (kg m2/s), and the moment of inertia of the centres (kg m2).
+    momentum: Sum,
+    inertia: Sum,
+    distance: Sum,
+    height: Sum,
+    /// The least distance from the axis, and the largest height (m); not a number of no spheres.
+    nearest: f64,
+    highest: f64,
+    elastic_energy: f64,
+    ledger: Option<Ledger>,
+    flow: Option<Flow>,
+}
+
+impl Default for Totals {
+    fn default() -> Self {
+        Self {
+            count: 0,
+            mass: Sum::default(),
+            kinetic: Sum::default(),
+            rotational: Sum::default(),
+            gravitational: Sum::default(),
+            speed: Sum::default(),
+            rise: Sum::default(),
+            momentum: Sum::default(),
+            inertia: Sum::default(),
+            distance: Sum::default(),
+            height: Sum::default(),
+            nearest: f64::NAN,
+            highest: f64::NAN,
+            elastic_energy: 0.0,
+            ledger: None,
+            flow: None,
+        }
+    }
+}
+
+impl Totals {
+    /// Adds a block of spheres, which are that far from the axis (m), under gravity of these components along x
+    /// and z (m/s2).
+    fn add(&mut self, block: &FrameView<'_>, distance: &[f64], [gx, gz]: [f64; 2]) {
+        let ([x, y, z], [vx, vy, vz]) = (block.position, block.velocity);
+        self.count += block.count();
+        self.kinetic
+            .add([block.mass, vx, vy, vz], |[mass, x, y, z]| {
+                0.5 * mass * (x * x + y * y + z * z)
+            });
+        if let Some([wx, wy, wz]) = block.spin {
+            self.rotational
+                .add([block.inertia, wx, wy, wz], |[inertia, x, y, z]| {
+                    0.5 * inertia * (x * x + y * y + z * z)
+                });
+        }
+        self.gravitational.add([block.mass, x, z], |[mass, x, z]| {
+            -(mass * gx * x) - mass * gz * z
+        });
+        let speed = |[x, y, z]: [f64; 3]| (x * x + y * y + z * z).sqrt();
+        self.speed.add(block.velocity, speed);
+        self.rise.add([vz], |[vz]| vz);
+        self.momentum
+            .add([block.mass, x, y, vx, vy], |[mass, x, y, vx, vy]| {
+                mass * (x * vy - y * vx)
+            });
+        self.inertia
+            .add([block.mass, x, y], |[mass, x, y]| mass * (x * x + y * y));
+        self.distance.add([distance], |[distance]| distance);
+        self.height.add([z], |[z]| z);
+        // Of a number and the NaN of no spheres, `min` and `max` take the number.
+        self.nearest = self.nearest.min(least(distance));
+        self.highest = self.highest.max(largest(z));
+        if block.flow.is_some() {
+            self.mass.add([block.mass], |[mass]| mass);
+        }
+        self.elastic_energy = block.elastic_energy;
+        self.ledger = block.ledger;
+        self.flow = block.flow;
+    }
+}
+
+/// Means of a frame that other observables refer to.
+struct Means {
+    /// Number of spheres.
+    count: f64,
+    /// Rotation rate of the spheres about the axis (rad/s).
+    rotation: f64,
+    /// Vertical velocity (m/s).
+    rise: f64,
+    /// Height (m).
+    height: f64,
+}
+
+/// Counts the spheres that rise, block by block.
+struct Rising<'a> {
+    rises: &'a [f64],
+    distances: &'a [f64],
+    /// One row per distance, one column per rise.
+    counts: &'a mut [u16],
+    distance: &'a mut Vec<f64>,
+    previous: &'a mut Previous,
+    is_first_frame: bool,
+    /// How far all spheres rose, in the mean (m).
+    mean: f64,
+    /// Spheres so far.
+    seen: usize,
+}
+
+impl<'a> Rising<'a> {
+    /// Of a frame of so many spheres and that mean height (m), if they are to be counted.
+    fn new(observer: &'a mut Observer, count: usize, height_mean: f64) -> Option<Self> {
+        let cells = observer.rises.len() * observer.distances.len();
+        if cells == 0 {
+            return None;
+        }
+        let start = observer.rising.len();
+        observer.rising.resize(start + cells, 0);
+        let is_first_frame = observer.previous.is_none();
+        let previous = observer.previous.get_or_insert_with(|| Previous {
+            height: Vec::with_capacity(count),
+            distance: Vec::with_capacity(count),
+            height_mean,
+        });
+        let before = std::mem::replace(&mut previous.height_mean, height_mean);
+        Some(Self {
+            rises: &observer.rises,
+            distances: &observer.distances,
+            counts: &mut observer.rising[start..],
+            distance: &mut observer.distance,
+            previous,
+            is_first_frame,
+            mean: height_mean - before,
+            seen: 0,
+        })
+    }
+
+    fn count(&mut self, block: &FrameView<'_>) {
+        find_distances(block, self.distance);
+        let z = block.position[2];
+        let Previous {
+            height, distance, ..
+        } = &mut *self.previous;
+        if self.is_first_frame {
+            height.extend_from_slice(z);
+            distance.extend_from_slice(self.distance);
+            return;
+        }
+        let here = self.seen..self.seen + z.len();
+        self.seen = here.end;
+        let (height, distance) = (&mut height[here.clone()], &mut distance[here]);
         let least = self.rises.iter().copied().fold(f64::INFINITY, f64::min);
-        for (i, &radius) in frame.radius.iter().enumerate() {
-            let rise = (z[i] - previous.height[i] - mean) / radius;
+        for (i, &radius) in block.radius.iter().enumerate() {
+            let rise = (z[i] - height[i] - self.mean) / radius;
             // Most spheres do not rise.
             if rise < least {
                 continue;
             }
-            for (row, &within) in counts.chunks_exact_mut(columns).zip(&self.distances) {
-                if previous.distance[i] <= within {
-                    for (count, &threshold) in row.iter_mut().zip(&self.rises) {
+            let rows = self.counts.chunks_exact_mut(self.rises.len());
+            for (row, &within) in rows.zip(self.distances) {
+                if distance[i] <= within {
+                    for (count, &threshold) in row.iter_mut().zip(self.rises) {
                         *count = count.saturating_add(u16::from(rise >= threshold));
                     }
                 }
             }
         }
-        previous.height.copy_from_slice(z);
-        previous.distance.copy_from_slice(&self.distance);
-        previous.height_mean = height_mean;
+        height.copy_from_slice(z);
+        distance.copy_from_slice(self.distance);
     }
 }
 
+/// Distances of the spheres of a block from the axis (m).
+fn find_distances(block: &FrameView<'_>, distance: &mut Vec<f64>) {
+    let [x, y, _] = block.position;
+    distance.clear();
+    distance.extend(x.iter().zip(y).map(|(x, y)| (x * x + y * y).sqrt()));
+}
 /// Index of the bin of this `distance` from the axis. Bin j reaches from j widths (without) to
 /// j + 1 widths (with); the innermost holds the axis, and the outermost also what is beyond it:
 /// a sphere pressed into a soft wall.

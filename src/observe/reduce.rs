@@ -3,29 +3,44 @@
 //! Sphere i goes to partial result i modulo `LANES`; the partial results are put together at the
 //! end. The order is part of the result: another one would round differently.
 
-const LANES: usize = 4;
+pub(super) const LANES: usize = 4;
 
-/// Sum over the spheres of the term that follows from a sphere's entries in the columns.
-#[expect(
-    clippy::needless_range_loop,
-    reason = "the index runs through all columns at once"
-)]
-pub(super) fn sum<const N: usize>(columns: [&[f64]; N], term: impl Fn([f64; N]) -> f64) -> f64 {
-    let count = columns[0].len();
-    let split = columns.map(|column| column[..count].as_chunks());
-    let (chunks, rest): ([&[[f64; LANES]]; N], [&[f64]; N]) =
-        (split.map(|it| it.0), split.map(|it| it.1));
-    let mut lanes = [0.0; LANES];
-    for chunk in 0..count / LANES {
-        for (lane, sum) in lanes.iter_mut().enumerate() {
-            *sum += term(std::array::from_fn(|column| chunks[column][chunk][lane]));
+/// A sum over spheres that come block by block.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sum([f64; LANES]);
+
+impl Sum {
+    /// Adds the terms that follow from the entries of each sphere in the columns of a block.
+    #[expect(
+        clippy::needless_range_loop,
+        reason = "the index runs through all columns at once"
+    )]
+    pub(super) fn add<const N: usize>(
+        &mut self,
+        columns: [&[f64]; N],
+        term: impl Fn([f64; N]) -> f64,
+    ) {
+        let count = columns[0].len();
+        let split = columns.map(|column| column[..count].as_chunks());
+        let (chunks, rest): ([&[[f64; LANES]]; N], [&[f64]; N]) =
+            (split.map(|it| it.0), split.map(|it| it.1));
+        let mut lanes = self.0;
+        for chunk in 0..count / LANES {
+            for (lane, sum) in lanes.iter_mut().enumerate() {
+                *sum += term(std::array::from_fn(|column| chunks[column][chunk][lane]));
+            }
         }
+        for (lane, sum) in lanes.iter_mut().enumerate().take(count % LANES) {
+            *sum += term(rest.map(|column| column[lane]));
+        }
+        self.0 = lanes;
     }
-    for (lane, sum) in lanes.iter_mut().enumerate().take(count % LANES) {
-        *sum += term(rest.map(|column| column[lane]));
+
+    /// What it comes to.
+    pub(super) fn total(self) -> f64 {
+        let [a, b, c, d] = self.0;
+        (a + b) + (c + d)
     }
-    let [a, b, c, d] = lanes;
-    (a + b) + (c + d)
 }
 
 /// The least value; not a number if there is none.
@@ -65,7 +80,13 @@ mod tests {
             let a: Vec<f64> = (0..count).map(f64::from).collect();
             let b: Vec<f64> = (0..count).map(|i| f64::from(2 * i + 1)).collect();
             let expected: f64 = (0..count).map(|i| f64::from(i * (2 * i + 1))).sum();
-            assert_eq!(sum([&a, &b], |[a, b]| a * b), expected);
+            for first in (0..=count as usize).step_by(LANES) {
+                let mut sum = Sum::default();
+                for block in [0..first, first..count as usize] {
+                    sum.add([&a[block.clone()], &b[block]], |[a, b]| a * b);
+                }
+                assert_eq!(sum.total(), expected);
+            }
         }
     }
 

@@ -12,13 +12,16 @@
 //! also one that is not a number. Only the very program that wrote a checkpoint reads it: another one
 //! might go on with other bits. Signature, version and checksum stay where they are in all versions.
 
-use super::{StoreError, write_atomic};
+use super::StoreError;
+use super::atomic::write_atomic_with;
+use super::hashed::Hashed;
 use crate::document::differing_keys;
 use crate::record::Program;
 use crate::run::RunState;
 use crate::scene::{Neighbours, Scene};
 use serde::{Deserialize, Serialize};
 use std::fs;
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 /// What every checkpoint begins with.
@@ -106,21 +109,28 @@ pub fn write_checkpoint(
     scene: &Scene,
     state: &RunState<'_>,
 ) -> Result<(), StoreError> {
-    write_atomic(path, &encode(scene, &Program::current(), state))
+    write_atomic_with(path, |file| encode(scene, &Program::current(), state, file))
 }
 
-fn encode(scene: &Scene, program: &Program, state: &RunState<'_>) -> Vec<u8> {
+/// Writes it piece by piece: a state may be most of what fits into memory.
+fn encode(
+    scene: &Scene,
+    program: &Program,
+    state: &RunState<'_>,
+    file: &mut impl Write,
+) -> io::Result<()> {
     let header = Header {
         program_version: program.version.clone(),
         program_commit: program.commit.clone(),
         scene: serde_json::to_string(scene).expect("a scene holds no map with odd keys"),
     };
-    let bytes = CHECKPOINT_SIGNATURE.to_vec();
-    let mut bytes = postcard::to_extend(&(VERSION, header, state), bytes)
-        .expect("all lists of a state know their length, and memory has no end");
-    let hash = blake3::hash(&bytes);
-    bytes.extend_from_slice(hash.as_bytes());
-    bytes
+    let mut hashed = Hashed::new(file);
+    let mut pieces = BufWriter::new(&mut hashed);
+    pieces.write_all(CHECKPOINT_SIGNATURE)?;
+    let written = postcard::to_io(&(VERSION, header, state), &mut pieces).map(drop);
+    let written = written.map_err(io::Error::other).and(pieces.flush());
+    drop(pieces);
+    hashed.seal(written, &[])
 }
 
 /// Reads the checkpoint of a run of that scene, if there is a file at all.
@@ -133,7 +143,7 @@ pub fn read_checkpoint(
 ) -> Result<Option<RunState<'static>>, CheckpointError> {
     match fs::read(path) {
         Ok(bytes) => decode(&bytes, path, scene).map(Some),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(StoreError::reading(path, error).into()),
     }
 }

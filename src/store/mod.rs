@@ -8,6 +8,7 @@ mod dump;
 mod export;
 mod failures;
 mod geometry;
+mod hashed;
 mod labels;
 mod lock;
 mod radii;
@@ -31,7 +32,7 @@ pub use lock::Lock;
 pub use radii::read_radii;
 pub use record::{
     HDF5_SIGNATURE, RecordHeader, content_digest, motion_digest, read_record, read_record_header,
-    write_record,
+    write_record, write_record_without_copy,
 };
 pub use rows::write_rows;
 pub use stability::{read_makers, read_stability, write_makers, write_stability};

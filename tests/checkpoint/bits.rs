@@ -170,7 +170,7 @@ fn a_pile_needs_its_histories() {
     (scene.updraught, scene.swirl) = (None, None);
     let mut simulation = Simulation::new(&scene).unwrap();
     simulation.advance(3000).unwrap();
-    let saved = simulation.state();
+    let saved = simulation.state().into_owned();
 
     // All that symplectic Euler goes on from but for the histories.
     let mut bare = scene.clone();
@@ -196,14 +196,12 @@ fn a_state_that_does_not_fit_is_refused() {
     let mut other_walls = mindlin.clone();
     other_walls.tank.as_mut().unwrap().floor = None;
     for saved in [
-        Simulation::new(&silo(None, Integrator::SymplecticEuler))
-            .unwrap()
-            .state(),
-        Simulation::new(&other_walls).unwrap().state(),
-        Simulation::new(&plain).unwrap().state(),
+        Simulation::new(&silo(None, Integrator::SymplecticEuler)).unwrap(),
+        Simulation::new(&other_walls).unwrap(),
+        Simulation::new(&plain).unwrap(),
     ] {
         let mut simulation = fresh();
-        assert!(simulation.restore(saved).is_err());
+        assert!(simulation.restore(saved.state()).is_err());
         simulation.advance(100).unwrap();
         let mut undisturbed = fresh();
         undisturbed.advance(100).unwrap();

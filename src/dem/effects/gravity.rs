@@ -2,7 +2,7 @@
 
 use super::OneBody;
 use crate::dem::block::BLOCK;
-use crate::dem::bodies::Bodies;
+use crate::dem::bodies::{Asked, Bodies};
 use crate::dem::particles::Particles;
 use crate::dem::profile::Part;
 use crate::scene;
@@ -22,6 +22,10 @@ impl Gravity {
 
 impl OneBody for Gravity {
     const PART: Part = Part::Gravity;
+    const ASKS: Asked = Asked {
+        motion: false,
+        turn: false,
+    };
 
     #[inline(always)]
     fn add(&self, bodies: &mut Bodies) {

@@ -6,7 +6,7 @@ mod spin_damping;
 mod swirl;
 mod updraught;
 
-use super::bodies::Bodies;
+use super::bodies::{Asked, Bodies};
 use super::particles::Particles;
 use super::profile::Part;
 use crate::scene::Scene;
@@ -21,8 +21,8 @@ pub(super) trait Effect: Send + Sync {
     /// Adds its forces and torques to those of a block of spheres.
     fn apply(&self, level: Level, bodies: &mut Bodies);
 
-    /// Whether it asks for spins, or adds to torques.
-    fn turns(&self) -> bool;
+    /// What it asks for.
+    fn asks(&self) -> Asked;
 
     /// What it is called in a profile.
     fn part(&self) -> Part;
@@ -39,8 +39,8 @@ trait OneBody: Send + Sync {
     /// What it is called in a profile.
     const PART: Part;
 
-    /// As [`Effect::turns`].
-    const TURNS: bool = false;
+    /// As [`Effect::asks`].
+    const ASKS: Asked;
 
     /// As [`Effect::prepare`].
     fn prepare(&mut self, _shielding: &[u32]) {}
@@ -69,8 +69,8 @@ impl<E: OneBody> Effect for E {
         });
     }
 
-    fn turns(&self) -> bool {
-        E::TURNS
+    fn asks(&self) -> Asked {
+        E::ASKS
     }
 
     fn part(&self) -> Part {

@@ -2,7 +2,7 @@
 
 use super::OneBody;
 use crate::dem::block::BLOCK;
-use crate::dem::bodies::Bodies;
+use crate::dem::bodies::{Asked, Bodies};
 use crate::dem::profile::Part;
 use crate::scene;
 
@@ -20,8 +20,10 @@ impl SpinDamping {
 
 impl OneBody for SpinDamping {
     const PART: Part = Part::SpinDamping;
-
-    const TURNS: bool = true;
+    const ASKS: Asked = Asked {
+        motion: false,
+        turn: true,
+    };
 
     #[inline(always)]
     fn add(&self, bodies: &mut Bodies) {

@@ -5,7 +5,7 @@ use super::drag::{
 };
 use super::{Effect, OneBody};
 use crate::dem::block::BLOCK;
-use crate::dem::bodies::Bodies;
+use crate::dem::bodies::{Asked, Bodies};
 use crate::dem::particles::Particles;
 use crate::dem::profile::Part;
 use crate::dem::vector::Vector;
@@ -42,6 +42,10 @@ pub(super) fn of_scene(
 
 impl<K: DragKernel> OneBody for Swirl<K> {
     const PART: Part = Part::Swirl;
+    const ASKS: Asked = Asked {
+        motion: true,
+        turn: false,
+    };
 
     fn reorder(&mut self, order: &[u32]) {
         self.coefficients.reorder(order);

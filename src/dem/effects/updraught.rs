@@ -3,7 +3,7 @@
 use super::drag::{Coefficients, DragKernel, Form, Linear, QuadraticComponents, form};
 use super::{Effect, OneBody};
 use crate::dem::block::BLOCK;
-use crate::dem::bodies::Bodies;
+use crate::dem::bodies::{Asked, Bodies};
 use crate::dem::math::exp;
 use crate::dem::particles::Particles;
 use crate::dem::profile::Part;
@@ -55,6 +55,10 @@ pub(super) fn of_scene(
 
 impl<K: DragKernel> OneBody for Updraught<K> {
     const PART: Part = Part::Updraught;
+    const ASKS: Asked = Asked {
+        motion: true,
+        turn: false,
+    };
 
     fn reorder(&mut self, order: &[u32]) {
         self.coefficients.reorder(order);

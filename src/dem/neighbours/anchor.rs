@@ -42,6 +42,7 @@ impl Anchor {
     /// Takes the spheres as they are now.
     pub(super) fn drop(&mut self, particles: &Particles) {
         self.position.clear();
+        self.position.reserve_exact(particles.len());
         self.rounding = 0.0;
         for &place in &particles.position {
             self.add_sphere(place);

@@ -1,12 +1,9 @@
 //! One evaluation: the forces and torques of everything, at the present positions and velocities.
 
+use super::System;
 use super::contacts::Among;
-use super::division::threads;
-use super::moves::{self, Act};
 use super::share::{Known, Scenery, Share};
 use super::sums::Sums;
-use super::{Parts, System};
-use crate::dem::bodies::{Bodies, Spheres};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
 use crate::dem::particles::Particles;
@@ -18,6 +15,13 @@ use std::ops::Range;
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Evaluates all forces and torques at the present positions and velocities.
     pub(super) fn evaluate(&mut self) -> Result<(), Instability> {
+        self.evaluate_contacts()?;
+        self.apply_effects();
+        Ok(())
+    }
+
+    /// Evaluates those of contacts alone.
+    pub(super) fn evaluate_contacts(&mut self) -> Result<(), Instability> {
         if self.stale || self.near.is_too_wide(self.near_age.steps) {
             self.refresh()?;
         }
@@ -29,7 +33,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             false => self.parts.particles.clear_forces(),
         }
         self.return_all(among);
-        self.apply_effects();
         self.check_overlaps()
     }
 
@@ -39,12 +42,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.apply_effects();
     }
 
-    pub(super) fn apply_effects(&mut self) {
-        if self.parts.shielded {
-            let (near, particles) = (&mut self.near, &self.parts.particles);
-            near.count_shielding(self.level, particles);
-            self.mark(Part::Shield);
-        }
+    fn apply_effects(&mut self) {
+        self.prepare_effects();
         let effects = self.parts.effects.len();
         if self.ledger.is_none() {
             self.act(0..effects);
@@ -64,44 +63,22 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
-    /// Adds the forces and torques of some effects.
-    fn act(&mut self, effects: Range<usize>) {
-        let Parts {
-            particles,
-            effects: all,
-            dt,
-            ..
-        } = &mut self.parts;
-        let effects = &mut all[effects];
-        if effects.is_empty() {
-            return;
+    /// Makes effects ready for the present positions.
+    pub(super) fn prepare_effects(&mut self) {
+        if self.parts.shielded {
+            let (near, particles) = (&mut self.near, &self.parts.particles);
+            near.count_shielding(self.level, particles);
+            self.mark(Part::Shield);
         }
-        for effect in effects.iter_mut() {
+        for effect in &mut self.parts.effects {
             effect.prepare(self.near.shielding());
             profile::mark(&mut self.profile, effect.part());
         }
-        // Without rotation there are neither spins nor torques.
-        let turn = particles.rotate() && effects.iter().any(|effect| effect.turns());
-        let threads = threads(&self.division);
-        self.bodies.resize_with(threads, Bodies::new);
-        let act = Act {
-            spheres: Spheres {
-                first: 0,
-                position: &particles.position,
-                velocity: &particles.velocity,
-                spin: &particles.spin,
-                mass: &particles.mass,
-                force: &mut particles.force,
-                torque: &mut particles.torque,
-            },
-            effects,
-            turn,
-            level: self.level,
-            bodies: &mut self.bodies,
-            profile: self.profile.as_deref_mut(),
-        };
-        moves::by(act, threads, self.level, *dt);
-        self.mark(Part::Rest);
+    }
+
+    /// Adds the forces and torques of some effects.
+    fn act(&mut self, effects: Range<usize>) {
+        self.move_all(effects, None, None);
     }
 
     /// Reports a contact that the latest forces found too deep.

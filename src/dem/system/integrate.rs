@@ -2,9 +2,10 @@
 
 use super::division::threads;
 use super::meeting::Loading;
-use super::moves::{self, Drift, Kick};
+use super::moves::{Drift, Kick, Moves};
 use super::pair_block::EarlierRows;
 use super::{Parts, System};
+use crate::dem::bodies::{Bodies, Spheres};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
 use crate::dem::particles::Particles;
@@ -12,6 +13,7 @@ use crate::dem::profile::{self, Part};
 use crate::dem::vector::Vector;
 use crate::record::Instability;
 use crate::scene::Integrator;
+use std::ops::Range;
 
 /// Velocities and spins before forces foretell them.
 #[derive(Default)]
@@ -40,57 +42,60 @@ impl Before {
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// v += a dt for a time `dt`, and the same for spins. True if a sphere may be too fast.
-    pub(super) fn kick(&mut self, dt: f64) -> bool {
-        let level = self.level;
-        let Particles {
-            velocity,
-            force,
-            spin,
-            torque,
-            inverse_mass,
-            inverse_inertia,
+    /// Applies some effects, kicks for a time (s) and drifts for a time (s), what of these is asked for. Notes
+    /// whether a sphere went farther than the near pairs allow. True if one may be too fast.
+    pub(super) fn move_all(
+        &mut self,
+        effects: Range<usize>,
+        kick: Option<f64>,
+        drift: Option<f64>,
+    ) -> bool {
+        let elapsed = drift.unwrap_or(0.0);
+        self.age.time += elapsed;
+        self.near_age.time += elapsed;
+        let is_listed = self.list.is_some() && drift.is_some();
+        let Parts {
+            particles,
+            effects: all,
+            limits,
             ..
-        } = &mut self.parts.particles;
-        let kick = Kick {
-            velocity,
-            force,
-            spin,
-            torque,
-            inverse_mass,
-            inverse_inertia,
-            slow: self.parts.limits.slow,
+        } = &mut self.parts;
+        let moves = Moves {
+            effects: &all[effects],
+            kick: kick.map(|dt| Kick {
+                dt,
+                slow: limits.slow,
+            }),
+            drift: drift.map(|dt| Drift {
+                dt,
+                allowance: is_listed.then(|| self.near.allowance(self.near_age.time)),
+            }),
         };
-        let threads = threads(&self.division);
-        let too_fast = moves::by(kick, threads, level, dt);
-        self.mark(Part::Kick);
-        too_fast
+        let reference = match is_listed {
+            true => self.near.anchor().position(),
+            false => &[],
+        };
+        self.bodies
+            .resize_with(threads(&self.division), Bodies::new);
+        let found = moves.of_all(
+            Spheres::new(particles, reference),
+            &mut self.bodies,
+            self.level,
+            &mut self.profile,
+        );
+        // It may be so already: a sphere came or went.
+        self.stale |= found.far;
+        found.fast
     }
 
-    /// x += v dt for a time `dt`. Notes whether a sphere went farther than the near pairs allow.
+    /// v += a dt for a time (s), and the same for spins. True if a sphere may be too fast.
+    pub(super) fn kick(&mut self, dt: f64) -> bool {
+        self.move_all(0..0, Some(dt), None)
+    }
+
+    /// x += v dt for a time (s).
     fn drift(&mut self, dt: f64) {
-        let level = self.level;
-        self.age.time += dt;
-        self.near_age.time += dt;
-        let Particles {
-            position, velocity, ..
-        } = &mut self.parts.particles;
-        let is_listed = self.list.is_some();
-        let drift = Drift {
-            position,
-            velocity,
-            reference: if is_listed {
-                self.near.anchor().position()
-            } else {
-                &[]
-            },
-            allowance: is_listed.then(|| self.near.allowance(self.near_age.time)),
-        };
-        let threads = threads(&self.division);
-        let moved = moves::by(drift, threads, level, dt);
-        // It may be so already: a sphere came or went.
-        self.stale |= moved;
-        self.mark(Part::Drift);
+        self.move_all(0..0, None, Some(dt));
     }
 
     pub(super) fn check_speeds(&self, too_fast: bool) -> Result<(), Instability> {
@@ -144,12 +149,20 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// One step of symplectic Euler: v += a(x, v) dt, then x += v dt.
     fn symplectic_euler(&mut self) -> Result<(), Instability> {
         self.begin_step();
-        self.evaluate()?;
-        let too_fast = self.kick(self.parts.dt);
-        self.note_kick(self.parts.dt);
-        self.check_speeds(too_fast)?;
-        self.drift(self.parts.dt);
-        Ok(())
+        let dt = self.parts.dt;
+        let too_fast = if self.ledger.is_some() {
+            // The books look at the spheres between one and the other.
+            self.evaluate()?;
+            let too_fast = self.kick(dt);
+            self.note_kick(dt);
+            self.drift(dt);
+            too_fast
+        } else {
+            self.evaluate_contacts()?;
+            self.prepare_effects();
+            self.move_all(0..self.parts.effects.len(), Some(dt), Some(dt))
+        };
+        self.check_speeds(too_fast)
     }
 
     /// One step of velocity Verlet, with forces from the new positions and the half-step

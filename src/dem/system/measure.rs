@@ -11,7 +11,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// the motion do not depend on when the list is built.
     pub(super) fn measure_contacts(&mut self) -> Contacts {
         let mut contacts = Contacts::default();
-        if !N::ACTS {
+        if !N::ACTS || self.list.is_none() {
             return contacts;
         }
         if self.stale && self.refresh().is_err() {

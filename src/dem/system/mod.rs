@@ -69,10 +69,12 @@ pub(in crate::dem) trait Engine: Send {
     fn insert(&mut self, sphere: &Sphere);
     /// Removes the spheres that are not to be kept.
     fn retain(&mut self, keep: &[bool]);
+    /// Forgets all that is known of contacts, for its memory: the motion is over.
+    fn forget_contacts(&mut self);
     /// Everything that the motion goes on from.
-    fn state(&self) -> EngineState;
+    fn state(&self) -> EngineState<'_>;
     /// Takes up a state of the same scene.
-    fn restore(&mut self, state: EngineState) -> Result<(), StateError>;
+    fn restore(&mut self, state: EngineState<'_>) -> Result<(), StateError>;
 }
 
 /// What contacts hold.
@@ -303,11 +305,20 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.note_exchange(before);
     }
 
-    fn state(&self) -> EngineState {
+    fn forget_contacts(&mut self) {
+        self.list = None;
+        self.near = Near::new(false, false, 0.0);
+        self.pair_history = Vec::new();
+        self.spare_pairs = Vec::new();
+        self.walls.clear();
+        self.division = None;
+    }
+
+    fn state(&self) -> EngineState<'_> {
         self.save()
     }
 
-    fn restore(&mut self, state: EngineState) -> Result<(), StateError> {
+    fn restore(&mut self, state: EngineState<'_>) -> Result<(), StateError> {
         self.take_up(state)
     }
 

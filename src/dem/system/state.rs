@@ -5,7 +5,7 @@
 
 use super::ledger::Books;
 use super::wall_contacts::WallContacts;
-use super::{Age, Near, Parts, System, VerletList};
+use super::{Age, Near, NearPair, Parts, System, VerletList};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::order;
@@ -13,35 +13,79 @@ use crate::dem::particles::Particles;
 use crate::dem::state::StateError;
 use crate::record::Instability;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
+use serde::ser::SerializeSeq;
+use serde::{Deserialize, Serialize, Serializer};
+use std::borrow::Cow;
 
 /// The state of a system, whatever its laws.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub(in crate::dem) struct EngineState {
+pub(in crate::dem) struct EngineState<'a> {
     step: u64,
     moves: u64,
     /// Velocity Verlet begins its step with the forces and torques of the latest evaluation.
-    particles: Particles,
+    particles: Cow<'a, Particles>,
     /// [`Histories`] of the tangential law, in bytes, as their type is that of the law.
     histories: Vec<u8>,
     /// The books of energy, if any are kept.
-    books: Option<Books>,
+    books: Option<Cow<'a, Books>>,
+}
+
+impl EngineState<'_> {
+    /// The same, on its own.
+    pub(in crate::dem) fn into_owned(self) -> EngineState<'static> {
+        EngineState {
+            particles: Cow::Owned(self.particles.into_owned()),
+            books: self.books.map(|books| Cow::Owned(books.into_owned())),
+            ..self
+        }
+    }
 }
 
 /// What contacts remember.
 #[derive(Serialize, Deserialize)]
-struct Histories<H> {
+struct Histories<P, H> {
     /// Whether the law remembers anything: where nothing is held, nothing else tells.
     remembers: bool,
-    /// Of the pairs whose history is not empty: both spheres, in the order of the list.
-    pairs: Vec<(u32, u32, H)>,
+    /// [`RememberedPairs`], or what they are read as.
+    pairs: P,
     /// Of each wall: the spheres whose history with it is not empty, in the order of their indices.
     walls: Vec<Vec<(u32, H)>>,
 }
 
+/// As they are read.
+type SavedHistories<H> = Histories<Vec<(u32, u32, H)>, H>;
+
+/// Pairs whose history is not empty, of all near ones: both spheres and the history, in the order of the list.
+/// Written one by one, as there may be many.
+struct RememberedPairs<'a, H> {
+    near: &'a [NearPair],
+    histories: &'a [H],
+}
+
+impl<H: History> RememberedPairs<'_, H> {
+    fn all(&self) -> impl Iterator<Item = (u32, u32, H)> {
+        let known = self.near.iter().zip(self.histories);
+        let known = known.filter(|(_, history)| size_of::<H>() > 0 && !history.is_new());
+        known.map(|(pair, &history)| (pair.i(), pair.j(), history))
+    }
+}
+
+impl<H: History> Serialize for RememberedPairs<'_, H> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut list = serializer.serialize_seq(Some(self.all().count()))?;
+        for pair in self.all() {
+            list.serialize_element(&pair)?;
+        }
+        list.end()
+    }
+}
+
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    pub(super) fn save(&self) -> EngineState {
-        let pairs = self.remembered();
+    pub(super) fn save(&self) -> EngineState<'_> {
+        let pairs = RememberedPairs {
+            near: self.near.pairs(),
+            histories: &self.pair_history,
+        };
         let of_wall = |wall: &WallContacts<T::History>| {
             let known = wall.near.iter().zip(&wall.histories);
             let known = known.filter(|(_, history)| Self::REMEMBERS && !history.is_new());
@@ -52,26 +96,17 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         EngineState {
             step: self.step,
             moves: self.moves,
-            particles: self.parts.particles.clone(),
+            particles: Cow::Borrowed(&self.parts.particles),
             histories: encode(&Histories {
                 remembers: Self::REMEMBERS,
                 pairs,
                 walls: self.walls.iter().map(of_wall).collect(),
             }),
-            books: self.ledger.as_ref().map(|ledger| ledger.books.clone()),
+            books: (self.ledger.as_ref()).map(|ledger| Cow::Borrowed(&ledger.books)),
         }
     }
 
-    /// The pairs whose history is not empty: both spheres, in the order of the list.
-    pub(super) fn remembered(&self) -> Vec<(u32, u32, T::History)> {
-        let known = self.near.pairs().iter().zip(&self.pair_history);
-        let known = known.filter(|(_, history)| Self::REMEMBERS && !history.is_new());
-        known
-            .map(|(pair, &history)| (pair.i(), pair.j(), history))
-            .collect()
-    }
-
-    pub(super) fn take_up(&mut self, state: EngineState) -> Result<(), StateError> {
+    pub(super) fn take_up(&mut self, state: EngineState<'_>) -> Result<(), StateError> {
         let EngineState {
             step,
             moves,
@@ -79,14 +114,16 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             histories,
             books,
         } = state;
-        let histories: Histories<T::History> =
+        let histories: SavedHistories<T::History> =
             decode(&histories).ok_or(StateError("its contacts follow another law"))?;
         if histories.remembers != Self::REMEMBERS {
             return Err(StateError("its contacts follow another law"));
         }
         self.accept(&particles, &histories)?;
         match (&mut self.ledger, books) {
-            (Some(ledger), Some(books)) if books.fit(&particles) => ledger.books = books,
+            (Some(ledger), Some(books)) if books.fit(&particles) => {
+                ledger.books = books.into_owned();
+            }
             (None, None) => {}
             _ => return Err(StateError("its books of energy are others")),
         }
@@ -108,7 +145,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 effect.reorder(&order);
             }
         }
-        *present = particles;
+        *present = particles.into_owned();
         for (wall, known) in self.walls.iter_mut().zip(histories.walls) {
             wall.take_up(known);
         }
@@ -120,7 +157,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     fn accept(
         &self,
         particles: &Particles,
-        histories: &Histories<T::History>,
+        histories: &SavedHistories<T::History>,
     ) -> Result<(), StateError> {
         let Parts { limits, dt, .. } = &self.parts;
         let count = particles.len();

@@ -55,6 +55,7 @@ impl Spheres {
             inertia: &self.inertia,
             elastic_energy: 0.125,
             ledger: None,
+            number: None,
             flow: None,
         }
     }
@@ -78,7 +79,6 @@ fn the_mass_that_is_in_is_that_of_the_spheres_of_the_frame() {
     let mut spheres = Spheres::at(&[[0.0; 3], [0.1, 0.0, 0.0], [0.2, 0.0, 0.0]]);
     spheres.mass = vec![0.001, 0.002, 0.004];
     let flow = Flow {
-        number: &[0, 2, 3],
         spheres: 5,
         released: 4,
         discharged: 1,
@@ -89,6 +89,7 @@ fn the_mass_that_is_in_is_that_of_the_spheres_of_the_frame() {
     scene.outlet = Some(crate::scene::Outlet { height: -1.0 });
     let mut observer = Observer::new(&scene, &[0.004; 5]);
     let view = FrameView {
+        number: Some(&[0, 2, 3]),
         flow: Some(flow),
         ..spheres.view()
     };

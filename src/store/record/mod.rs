@@ -23,9 +23,13 @@ mod write;
 
 pub use seal::HDF5_SIGNATURE;
 
-use super::{StoreError, write_atomic};
+use super::StoreError;
+use super::atomic::write_atomic_with;
+use super::hashed::Hashed;
 use crate::record::{Outcome, Program, RunRecord};
 use crate::scene::{Output, Scene};
+use hdf5_pure::FileBuilder;
+use std::io;
 use std::path::Path;
 
 /// What the attribute `format` of a record says.
@@ -53,10 +57,40 @@ pub struct RecordHeader {
 /// [`StoreError::DiskFull`], [`StoreError::Write`], or [`StoreError::Content`] if the parts of the
 /// record do not fit together.
 pub fn write_record(record: &RunRecord, path: &Path) -> Result<(), StoreError> {
-    let mut bytes = write::encode(record, Some((&record.program, record.cpu_seconds)))
-        .map_err(|reason| StoreError::content(path, reason))?;
-    seal::append(&mut bytes);
-    write_atomic(path, &bytes)
+    write(content(record, path)?, path)
+}
+
+/// The same for a record whose snapshots and trajectory are not needed any more: it loses them, so that they and
+/// the file are not both in memory.
+///
+/// # Errors
+/// Those of [`write_record`].
+pub fn write_record_without_copy(record: &mut RunRecord, path: &Path) -> Result<(), StoreError> {
+    let content = content(record, path)?;
+    record.snapshots = Vec::new();
+    record.trajectory = Vec::new();
+    write(content, path)
+}
+
+fn content(record: &RunRecord, path: &Path) -> Result<FileBuilder, StoreError> {
+    let provenance = Some((&record.program, record.cpu_seconds));
+    write::build(record, provenance).map_err(|reason| StoreError::content(path, reason))
+}
+
+fn write(content: FileBuilder, path: &Path) -> Result<(), StoreError> {
+    let mut reason = None;
+    let result = write_atomic_with(path, |file| {
+        let mut hashed = Hashed::new(file);
+        let written = content.finish_to(&mut hashed).map_err(|error| match error {
+            hdf5_pure::Error::Io(error) => error,
+            error => io::Error::other(reason.insert(error.to_string()).clone()),
+        });
+        hashed.seal(written, seal::MARK)
+    });
+    match reason {
+        Some(reason) => Err(StoreError::content(path, reason)),
+        None => result,
+    }
 }
 
 /// Reads a record.
@@ -83,8 +117,12 @@ pub fn read_record_header(path: &Path) -> Result<RecordHeader, StoreError> {
 /// # Errors
 /// What does not fit together in the record.
 pub fn content_digest(record: &RunRecord) -> Result<String, String> {
-    let bytes = write::encode(record, None)?;
-    Ok(blake3::hash(&bytes).to_hex().to_string())
+    let mut hasher = blake3::Hasher::new();
+    let content = write::build(record, None)?;
+    content
+        .finish_to(&mut hasher)
+        .map_err(|error| error.to_string())?;
+    Ok(hasher.finalize().to_hex().to_string())
 }
 
 /// The same for two runs of which more or less was stored: a hash of the outcome, of what was

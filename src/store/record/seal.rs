@@ -6,17 +6,11 @@
 use super::{FORMAT, StoreError};
 use std::path::Path;
 
-const MARK: &[u8; 8] = b"\nblake3:";
+/// What stands between the file and its hash.
+pub(super) const MARK: &[u8; 8] = b"\nblake3:";
 const LENGTH: usize = MARK.len() + blake3::OUT_LEN;
 /// What every HDF5 file begins with.
 pub const HDF5_SIGNATURE: &[u8; 8] = b"\x89HDF\r\n\x1a\n";
-
-/// Appends the checksum.
-pub(super) fn append(bytes: &mut Vec<u8>) {
-    let hash = blake3::hash(bytes);
-    bytes.extend_from_slice(MARK);
-    bytes.extend_from_slice(hash.as_bytes());
-}
 
 /// Verifies the checksum of the file `path`, whose content is `bytes`, and removes it.
 pub(super) fn verify(bytes: &mut Vec<u8>, path: &Path) -> Result<(), StoreError> {

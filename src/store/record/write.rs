@@ -11,14 +11,18 @@ use ndarray::Array2;
 const DEFLATE_LEVEL: u32 = 1;
 /// Datasets below this size (bytes) are stored as they are.
 const COMPRESS_FROM: usize = 4096;
-/// Size of a chunk of a large dataset (bytes): what a reader must unpack to see one frame.
+/// Largest chunk of a dataset (bytes): what a reader must unpack to see one frame, or a part of a large one.
 const CHUNK: usize = 1 << 20;
+/// Most entries of a chunk along an axis: HDF5 2.0 refuses the extents of larger ones as they are written here,
+/// in four bytes where it would take three.
+const WIDEST: usize = u16::MAX as usize;
 
-/// The HDF5 file of a record, with the program and its processor time if they are wanted.
-pub(super) fn encode(
+/// What the HDF5 file of a record holds, with the program and its processor time if they are wanted. It is still
+/// to be written, as it may be most of what fits into memory.
+pub(super) fn build(
     record: &RunRecord,
     provenance: Option<(&Program, f64)>,
-) -> Result<Vec<u8>, String> {
+) -> Result<FileBuilder, String> {
     check_observations(&record.observations)?;
     let mut file = FileBuilder::new();
     if let Some((program, cpu_seconds)) = provenance {
@@ -43,7 +47,7 @@ pub(super) fn encode(
             file.add_group(group.finish());
         }
     }
-    file.finish().map_err(|error| error.to_string())
+    Ok(file)
 }
 
 fn text(value: &str) -> AttrValue {
@@ -101,14 +105,23 @@ fn dataset<T: H5Element>(
         .set_attr("description", text(description));
     let size = size_of_val(values);
     if size >= COMPRESS_FROM {
-        let row = size / shape[0] as usize;
-        let mut chunk = shape;
-        chunk[0] = chunk[0].min((CHUNK / row).max(1) as u64);
         dataset
-            .with_chunks(&chunk)
+            .with_chunks(&chunk(&shape, size_of::<T>()))
             .with_shuffle()
             .with_deflate(DEFLATE_LEVEL);
     }
+}
+
+/// Extents of the chunks of a dataset with entries of that size (bytes): whole rows as far as they fit.
+fn chunk(shape: &[u64], size: usize) -> Vec<u64> {
+    let mut chunk = shape.to_vec();
+    let mut room = CHUNK / size;
+    for extent in chunk.iter_mut().rev() {
+        let entries = (*extent as usize).min(WIDEST).min(room).max(1);
+        room /= entries;
+        *extent = entries as u64;
+    }
+    chunk
 }
 
 fn spheres(group: &mut GroupBuilder, record: &RunRecord) {
@@ -202,4 +215,29 @@ fn snapshots(group: &mut GroupBuilder, snapshots: &[Snapshot]) -> Result<(), Str
         dataset(group, quantity, &[snapshots.len(), rows, 3], &values);
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_chunk_is_some_frames_or_a_part_of_one() {
+        assert_eq!(chunk(&[5001, 256, 3], 8), [170, 256, 3]);
+        assert_eq!(chunk(&[2, 40_000, 3], 8), [1, 40_000, 3]);
+        assert_eq!(chunk(&[2, 1_000_000, 3], 8), [1, 43_690, 3]);
+        assert_eq!(chunk(&[1_000_000], 8), [65_535]);
+    }
+
+    proptest! {
+        #[test]
+        fn chunks_are_neither_too_large_nor_too_wide(shape in prop::collection::vec(1_u64..3_000_000, 1..4)) {
+            let chunk = chunk(&shape, 8);
+            prop_assert!(chunk.iter().product::<u64>() * 8 <= CHUNK as u64);
+            for (extent, all) in chunk.iter().zip(&shape) {
+                prop_assert!((1..=WIDEST as u64).contains(extent) && extent <= all);
+            }
+        }
+    }
 }
