@@ -2,6 +2,7 @@
 
 import csv
 import math
+from collections import deque
 
 from common import FOLDER, output
 
@@ -26,8 +27,9 @@ class Bed:
         self.scale = (count / 256) ** (1 / 3)
         self.tank = 0.06 * self.scale
         base = (FOLDER / "bed.toml").read_text()
-        self.text = self.replaced(base, {"count = 256": f"count = {count}", "radius = 0.06": f"radius = {self.tank!r}"})
-        settle = self.replaced(self.text, {"z_max = 0.04": f"z_max = {0.04 * self.scale!r}", "duration = 2.0": "duration = 1.0"})
+        changes = {"count = 256": f"count = {count}", "radius = 0.06": f"radius = {self.tank!r}"}
+        self.text = self.replaced(base, changes | {"z_max = 0.04": f"z_max = {0.04 * self.scale!r}"})
+        settle = self.replaced(self.text, {"duration = 2.0": "duration = 1.0"})
         (folder / "settle.toml").write_text(settle)
         output([phase, "run", folder / "settle.toml", "--out", folder / "settle.h5"])
         self.take(phase, folder / "settle.h5", [1.2 * self.tank] * 2)
@@ -49,8 +51,8 @@ class Bed:
 
     def last_spheres(self, folder):
         tables = sorted(folder.glob("*.csv"))
-        rows = list(csv.DictReader(open([path for path in tables if "observ" not in path.name][-1])))
-        return [tuple(float(row[axis]) for axis in "xyz") for row in rows[-self.count :]]
+        rows = csv.DictReader(open([path for path in tables if "observ" not in path.name][-1]))
+        return [tuple(float(row[axis]) for axis in "xyz") for row in deque(rows, maxlen=self.count)]
 
     def write_lammps(self, sides):
         (x, y), top = sides, max(z for _, _, z in self.spheres) + 20 * self.radius
@@ -69,18 +71,24 @@ class Bed:
         return "in.bed.lammps", variables | dict(gamma=2 * damping, gamma_wall=damping)
 
     def scene(self, law, steps):
-        """The scene of the measurement, of one frame."""
-        friction = f"[friction]\n{LAWS[law]}" if LAWS[law] else ""
-        changes = {f"[friction]\n{LAWS['mindlin']}": friction, "duration = 2.0": f"duration = {steps * DT!r}"}
-        changes |= {"frame_interval = 0.1": f"frame_interval = {steps * DT!r}"}
-        return self.write_scene(law, steps, self.replaced(self.text, changes) + "\n[output]\nsnapshot_interval = 0.0\n")
-
-    def write_scene(self, law, steps, text):
-        """Writes a scene that starts from the spheres."""
+        """The scene of the measurement, of one frame, from the spheres at rest."""
+        text = self.of_one_frame(law, steps)
         start, end = text.index("[start]"), text.index("[gravity]")
         path = self.folder / f"{law}-{steps}.toml"
         path.write_text(text[:start] + '[start]\nkind = "file"\npath = "bed.csv"\n\n' + text[end:])
         return path
+
+    def falling(self, law, steps):
+        """The same of spheres that begin to fall: they are not in the scene, which would take memory."""
+        path = self.folder / f"{law}-{steps}-falling.toml"
+        path.write_text(self.of_one_frame(law, steps))
+        return path
+
+    def of_one_frame(self, law, steps):
+        friction = f"[friction]\n{LAWS[law]}" if LAWS[law] else ""
+        changes = {f"[friction]\n{LAWS['mindlin']}": friction, "duration = 2.0": f"duration = {steps * DT!r}"}
+        changes |= {"frame_interval = 0.1": f"frame_interval = {steps * DT!r}"}
+        return self.replaced(self.text, changes) + "\n[output]\nsnapshot_interval = 0.0\n"
 
 
 class Box(Bed):
@@ -99,7 +107,7 @@ class Box(Bed):
     def lammps(self, law):
         return "in.box.lammps", dict(skin=0.1)
 
-    def scene(self, law, steps):
+    def of_one_frame(self, law, steps):
         changes = {"duration = 60.0": f"duration = {steps * self.dt!r}"}
         changes |= {"frame_interval = 0.05": f"frame_interval = {steps * self.dt!r}"}
-        return self.write_scene(law, steps, self.replaced(self.text, changes))
+        return self.replaced(self.text, changes)

@@ -104,6 +104,11 @@ impl Particles {
 
     /// Adds the spheres of `others`, which all move, at the end.
     pub fn append(&mut self, mut others: Self) {
+        if self.is_empty() {
+            // Many spheres are not in memory twice then.
+            *self = others;
+            return;
+        }
         self.position.append(&mut others.position);
         self.velocity.append(&mut others.velocity);
         self.force.append(&mut others.force);

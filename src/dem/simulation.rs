@@ -80,15 +80,21 @@ impl Simulation {
     /// As [`new`](Self::new).
     pub fn with_skin(scene: &Scene, skin: f64) -> Result<Self, BuildError> {
         let spheres = start::place(scene)?;
-        let (radius, mass) = (spheres.radius.clone(), spheres.mass.clone());
-        let inertia = spheres.inertia.clone();
-        let alike = radius.windows(2).all(|two| two[0] == two[1]);
+        let alike = spheres.radius.windows(2).all(|two| two[0] == two[1]);
+        let largest = spheres.largest_radius();
+        let scalars = |of: &Particles| {
+            [&of.radius, &of.mass, &of.inertia].map(|values| of_moving(values, of).to_vec())
+        };
+        let mut waiting_scalars = None;
         let mut particles = start::fixed(scene);
         let feed = match scene.start {
-            Start::Feed { interval, .. } => Some(Feed::new(
-                waiting(&spheres, scene),
-                (interval / scene.time.dt).round() as u64,
-            )),
+            Start::Feed { interval, .. } => {
+                waiting_scalars = Some(scalars(&spheres));
+                Some(Feed::new(
+                    waiting(&spheres, scene),
+                    (interval / scene.time.dt).round() as u64,
+                ))
+            }
             _ => {
                 particles.append(spheres);
                 None
@@ -102,6 +108,11 @@ impl Simulation {
                 .chain(0..present as u32)
                 .collect();
         }
+        // Spheres that are alike stand in any order; to have them once saves memory.
+        let [radius, mass, inertia] = match sorted && alike {
+            true => Default::default(),
+            false => waiting_scalars.unwrap_or_else(|| scalars(&particles)),
+        };
         let tank = scene.tank.as_ref();
         let parts = Parts {
             walls: tank.map(TankWall::of_tank).unwrap_or_default(),
@@ -111,17 +122,11 @@ impl Simulation {
             dt: scene.time.dt,
             integrator: scene.time.integrator,
             neighbours: scene.neighbours,
-            skin: skin * radius.iter().copied().fold(0.0, f64::max),
+            skin: skin * largest,
             particles,
             sorted,
         };
         let mut engine = engine(scene, parts)?;
-        // Spheres that are alike stand in any order; to have them once saves memory.
-        let [radius, mass, inertia] = match (sorted, alike) {
-            (true, true) => Default::default(),
-            (true, false) => [radius, mass, inertia],
-            (false, _) => [radius, mass, Vec::new()],
-        };
         if scene.output.ledger {
             engine.keep_ledger();
         }
