@@ -22,17 +22,24 @@ class Bed:
     # The most kinetic energy of a sphere at rest, over its weight times its radius.
     stir = 1e-3
 
-    def __init__(self, count, phase, folder):
-        self.count, self.folder = count, folder
+    def __init__(self, size, phase, folder):
+        """A size is a number of spheres, or NUMBER=RECORD.h5 of as many that have come to rest."""
+        count, _, record = size.partition("=")
+        self.count = count = int(count)
+        self.folder = folder
         self.scale = (count / 256) ** (1 / 3)
         self.tank = 0.06 * self.scale
         base = (FOLDER / "bed.toml").read_text()
         changes = {"count = 256": f"count = {count}", "radius = 0.06": f"radius = {self.tank!r}"}
         self.text = self.replaced(base, changes | {"z_max = 0.04": f"z_max = {0.04 * self.scale!r}"})
+        sides = [1.2 * self.tank] * 2
+        if record:
+            self.take(phase, record, sides)
+            return
         settle = self.replaced(self.text, {"duration = 2.0": "duration = 1.0"})
         (folder / "settle.toml").write_text(settle)
         output([phase, "run", folder / "settle.toml", "--out", folder / "settle.h5"])
-        self.take(phase, folder / "settle.h5", [1.2 * self.tank] * 2)
+        self.take(phase, folder / "settle.h5", sides)
 
     def take(self, phase, record, sides):
         """Takes the last spheres of a record, and writes them down within these sides (m)."""
