@@ -72,6 +72,25 @@ fn bits_do_not_depend_on_being_watched() {
     }
 }
 
+/// Steps forget forces as soon as they may; whoever looks between two advances still finds the latest.
+#[test]
+fn latest_forces_do_not_depend_on_how_steps_are_asked_for() {
+    let forces = |simulation: &Simulation| {
+        let particles = simulation.particles();
+        let all = particles.force.iter().chain(&particles.torque);
+        all.map(|it| [it.x, it.y, it.z].map(f64::to_bits))
+            .collect::<Vec<_>>()
+    };
+    for scene in tanks() {
+        let mut at_once = Simulation::new(&scene).unwrap();
+        at_once.advance(60).unwrap();
+        let mut one_by_one = Simulation::new(&scene).unwrap();
+        (0..60).for_each(|_| one_by_one.advance(1).unwrap());
+        assert!(forces(&at_once).iter().flatten().any(|bits| *bits != 0));
+        assert_eq!(forces(&at_once), forces(&one_by_one));
+    }
+}
+
 #[test]
 fn bits_do_not_depend_on_the_instruction_set() {
     for scene in tanks() {

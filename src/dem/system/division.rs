@@ -89,12 +89,13 @@ impl<H: History> Division<H> {
         });
     }
 
-    /// Evaluates the forces of all contacts, from none on. Says of the first contact that is too deep.
+    /// Evaluates the forces of all contacts; `clear` says whether others are to be forgotten first. Says of the first contact that is too deep.
     pub(super) fn evaluate<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,
         scenery: &Scenery<'_, N, T>,
         [force, torque]: [&mut [Vector]; 2],
+        clear: bool,
         pairs: Known<'_, NearPair, H>,
         walls: &mut [AtWall<'_, H>],
     ) -> TooDeep {
@@ -123,7 +124,7 @@ impl<H: History> Division<H> {
                     force: split(&mut forces, count),
                     torque: split(&mut torques, count),
                 },
-                clear: true,
+                clear,
                 buffers: &mut region.buffers,
                 crossing: Known {
                     contacts: &region.crossing,

@@ -78,7 +78,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Adds the forces and torques of some effects.
     fn act(&mut self, effects: Range<usize>) {
-        self.move_all(effects, None, None);
+        self.move_all(effects, None, None, false);
     }
 
     /// Reports a contact that the latest forces found too deep.
@@ -134,6 +134,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     fn forces_of(&mut self, among: &Among, anew: bool) {
+        let clear = anew && !std::mem::take(&mut self.cleared);
         let Particles { force, torque, .. } = &mut self.parts.particles;
         let (mut force, mut torque) = (std::mem::take(force), std::mem::take(torque));
         let scenery = Scenery {
@@ -158,7 +159,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             Some(division) => {
                 let sums = [&mut force[..], &mut torque[..]];
                 let mut walls: Vec<_> = walls.collect();
-                let too_deep = division.evaluate(self.level, &scenery, sums, pairs, &mut walls);
+                let too_deep =
+                    division.evaluate(self.level, &scenery, sums, clear, pairs, &mut walls);
                 profile::mark(&mut self.profile, Part::Pairs);
                 too_deep
             }
@@ -173,7 +175,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                         force: &mut force,
                         torque: &mut torque,
                     },
-                    clear: anew,
+                    clear,
                     buffers: &mut self.buffers,
                     crossing: Known {
                         contacts: &[],

@@ -42,13 +42,15 @@ impl Before {
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Applies some effects, kicks for a time (s) and drifts for a time (s), what of these is asked for. Notes
-    /// whether a sphere went farther than the near pairs allow. True if one may be too fast.
+    /// Applies some effects, kicks for a time (s) and drifts for a time (s), what of these is asked for, and forgets
+    /// forces if they are to be cleared. Notes whether a sphere went farther than the near pairs allow. True if one
+    /// may be too fast.
     pub(super) fn move_all(
         &mut self,
         effects: Range<usize>,
         kick: Option<f64>,
         drift: Option<f64>,
+        clear: bool,
     ) -> bool {
         let elapsed = drift.unwrap_or(0.0);
         self.age.time += elapsed;
@@ -70,6 +72,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 dt,
                 allowance: is_listed.then(|| self.near.allowance(self.near_age.time)),
             }),
+            clear,
         };
         let reference = match is_listed {
             true => self.near.anchor().position(),
@@ -90,12 +93,12 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// v += a dt for a time (s), and the same for spins. True if a sphere may be too fast.
     pub(super) fn kick(&mut self, dt: f64) -> bool {
-        self.move_all(0..0, Some(dt), None)
+        self.move_all(0..0, Some(dt), None, false)
     }
 
     /// x += v dt for a time (s).
     fn drift(&mut self, dt: f64) {
-        self.move_all(0..0, None, Some(dt));
+        self.move_all(0..0, None, Some(dt), false);
     }
 
     pub(super) fn check_speeds(&self, too_fast: bool) -> Result<(), Instability> {
@@ -116,7 +119,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if self.parts.integrator != Integrator::AdaptiveVerlet {
             self.moves += steps * spheres;
         }
-        for _ in 0..steps {
+        for left in (0..steps).rev() {
+            self.goes_on = left > 0;
             self.keep_in_order()?;
             profile::begin(&mut self.profile, self.step, spheres as usize);
             match self.parts.integrator {
@@ -160,7 +164,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         } else {
             self.evaluate_contacts()?;
             self.prepare_effects();
-            self.move_all(0..self.parts.effects.len(), Some(dt), Some(dt))
+            // After the last step forces stay, for whoever asks.
+            self.cleared = self.goes_on && self.list.is_some();
+            self.move_all(
+                0..self.parts.effects.len(),
+                Some(dt),
+                Some(dt),
+                self.cleared,
+            )
         };
         self.check_speeds(too_fast)
     }

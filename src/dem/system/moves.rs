@@ -19,6 +19,8 @@ pub(super) struct Moves<'a> {
     pub(super) effects: &'a [Box<dyn Effect>],
     pub(super) kick: Option<Kick>,
     pub(super) drift: Option<Drift>,
+    /// Forgets forces and torques, which are at hand: others come next.
+    pub(super) clear: bool,
 }
 
 /// v += a dt, and the same for spins.
@@ -104,6 +106,11 @@ impl Moves<'_> {
             if let Some(drift) = self.drift {
                 found.far |= fearless_simd::dispatch!(level, simd => drift.all(simd, &mut some));
                 profile::mark(profile, Part::Drift);
+            }
+            if self.clear {
+                some.force.fill(Vector::ZERO);
+                some.torque.fill(Vector::ZERO);
+                profile::mark(profile, Part::Rest);
             }
         }
         found
