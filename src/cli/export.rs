@@ -197,7 +197,7 @@ fn export(
     let chosen: Vec<&Snapshot> = all.iter().step_by(every).collect();
     if chosen.is_empty() {
         return Err(Failure::failed(format_args!(
-            "{}: the record holds no states of the spheres",
+            "{}: the record holds no states of the spheres; run it again with --snapshot-interval",
             path.display()
         )));
     }

@@ -190,7 +190,7 @@ fn write(
     folders::make_for(path)?;
     let written = match keep_states {
         true => store::write_record(record, path),
-        false => store::write_record_without_copy(record, path),
+        false => store::write_record_and_drop_states(record, path),
     };
     written.map_err(|error| {
         let left = match store::read_checkpoint(checkpoints.path(), &record.scene) {

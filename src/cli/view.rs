@@ -156,7 +156,7 @@ fn run<'a>(
     let states = record.sound_states();
     if states.is_empty() {
         return Err(Failure::failed(format_args!(
-            "{}: the record holds no state to draw",
+            "{}: the record holds no state to draw; run it again with --snapshot-interval",
             path.display()
         )));
     }

@@ -18,11 +18,11 @@ pub struct Particles {
     pub position: Vec<Vector>,
     /// Velocities (m/s).
     pub velocity: Vec<Vector>,
-    /// Forces of the latest evaluation (N).
+    /// Forces of the latest evaluation (N); they mean nothing once a guard is broken.
     pub force: Vec<Vector>,
     /// Spins (rad/s); empty without rotation.
     pub spin: Vec<Vector>,
-    /// Torques of the latest evaluation (N m); empty without rotation.
+    /// Torques of the latest evaluation (N m), as the forces; empty without rotation.
     pub torque: Vec<Vector>,
     /// Radii (m).
     pub radius: Vec<f64>,

@@ -40,7 +40,7 @@ pub enum Part {
     Process,
     /// Observers of a frame, the elastic energy of contacts among what they see.
     Observers,
-    /// Writing the record.
+    /// Taking the last snapshot, and writing the record.
     Record,
     /// Placing the spheres, and all that is made before the first step.
     Start,
@@ -213,8 +213,8 @@ impl Profile {
     #[inline(never)]
     fn begin(&mut self, step: u64, spheres: usize) {
         self.sphere_steps += spheres as u64;
-        // The clock is read a dozen times, half a microsecond each, in a step of some 50 ns per sphere:
-        // that adds about one percent.
+        // The clock is read a dozen times for 128 spheres, half a microsecond each, in a step of some 50 ns per
+        // sphere: with one step of 16 at most that adds some percent to it.
         let period = (8192 / spheres.max(1) as u64).clamp(16, 256);
         // Multiples of the golden ratio are spread evenly over any rhythm of steps, such as that of the
         // neighbour list.

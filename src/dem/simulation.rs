@@ -109,10 +109,13 @@ impl Simulation {
                 .collect();
         }
         // Spheres that are alike stand in any order; to have them once saves memory.
-        let [radius, mass, inertia] = match sorted && alike {
+        let [radius, mass, mut inertia] = match sorted && alike {
             true => Default::default(),
             false => waiting_scalars.unwrap_or_else(|| scalars(&particles)),
         };
+        if !sorted {
+            inertia = Vec::new();
+        }
         let tank = scene.tank.as_ref();
         let parts = Parts {
             walls: tank.map(TankWall::of_tank).unwrap_or_default(),

@@ -14,7 +14,8 @@ pub trait Frame {
     fn show(&self, look: &mut dyn FnMut(&FrameView<'_>));
 }
 
-/// Sums are divided among so many partial ones, wherever a block ends.
+/// Sums go round so many partial ones: if blocks before the last held no multiple of it, bits would depend on where
+/// they end.
 pub const FRAME_BLOCK: usize = LANES;
 
 /// The state of a simulation at one frame, borrowed from the engine. Every slice holds one entry

@@ -316,9 +316,14 @@ impl Totals {
             .add([block.mass, x, y], |[mass, x, y]| mass * (x * x + y * y));
         self.distance.add([distance], |[distance]| distance);
         self.height.add([z], |[z]| z);
-        // Of a number and the NaN of no spheres, `min` and `max` take the number.
-        self.nearest = self.nearest.min(least(distance));
-        self.highest = self.highest.max(largest(z));
+        let (nearest, highest) = (least(distance), largest(z));
+        // Not a number before the first sphere.
+        if nearest < self.nearest || self.nearest.is_nan() {
+            self.nearest = nearest;
+        }
+        if highest > self.highest || self.highest.is_nan() {
+            self.highest = highest;
+        }
         if block.flow.is_some() {
             self.mass.add([block.mass], |[mass]| mass);
         }
@@ -424,6 +429,7 @@ fn find_distances(block: &FrameView<'_>, distance: &mut Vec<f64>) {
     distance.clear();
     distance.extend(x.iter().zip(y).map(|(x, y)| (x * x + y * y).sqrt()));
 }
+
 /// Index of the bin of this `distance` from the axis. Bin j reaches from j widths (without) to
 /// j + 1 widths (with); the innermost holds the axis, and the outermost also what is beyond it:
 /// a sphere pressed into a soft wall.

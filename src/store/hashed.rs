@@ -41,20 +41,86 @@ impl<'a, W: Write> Hashed<'a, W> {
 
 impl<W: Write> Write for Hashed<'_, W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match self.file.write(bytes) {
-            Ok(count) => {
-                self.hasher.update(&bytes[..count]);
-                Ok(count)
-            }
-            Err(error) => {
-                let kind = error.kind();
+        let result = self.file.write(bytes);
+        let count = self.noted(result)?;
+        self.hasher.update(&bytes[..count]);
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        let result = self.file.flush();
+        self.noted(result)
+    }
+}
+
+impl<W> Hashed<'_, W> {
+    /// The result, with its failure kept if it is one: after an interruption one tries again.
+    fn noted<T>(&mut self, result: io::Result<T>) -> io::Result<T> {
+        result.map_err(|error| {
+            let kind = error.kind();
+            if kind != io::ErrorKind::Interrupted {
                 self.failure = Some(error);
-                Err(kind.into())
+            }
+            kind.into()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use io::ErrorKind::{Interrupted, StorageFull};
+
+    /// A disk that is interrupted once, and full when what it was given must be stored.
+    #[derive(Default)]
+    struct Disk {
+        content: Vec<u8>,
+        was_interrupted: bool,
+        is_full: bool,
+    }
+
+    impl Write for Disk {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            if !std::mem::replace(&mut self.was_interrupted, true) {
+                return Err(Interrupted.into());
+            }
+            self.content.extend_from_slice(bytes);
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            match self.is_full {
+                true => Err(StorageFull.into()),
+                false => Ok(()),
             }
         }
     }
 
-    fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
+    fn write(disk: &mut Disk) -> io::Result<()> {
+        let mut hashed = Hashed::new(disk);
+        let written = hashed.write_all(b"content").and_then(|()| hashed.flush());
+        // Whoever writes says no more than that it failed.
+        let written = written.map_err(|_| io::Error::other("failed"));
+        hashed.seal(written, b"mark")
+    }
+
+    #[test]
+    fn the_hash_follows_the_content_whatever_interrupts() {
+        let mut disk = Disk::default();
+        write(&mut disk).unwrap();
+        let hash = blake3::hash(b"content");
+        assert_eq!(
+            disk.content,
+            [b"contentmark", &hash.as_bytes()[..]].concat()
+        );
+    }
+
+    #[test]
+    fn a_full_disk_is_named_wherever_it_shows() {
+        let mut disk = Disk {
+            is_full: true,
+            ..Disk::default()
+        };
+        assert_eq!(write(&mut disk).unwrap_err().kind(), StorageFull);
     }
 }

@@ -32,7 +32,7 @@ pub use lock::Lock;
 pub use radii::read_radii;
 pub use record::{
     HDF5_SIGNATURE, RecordHeader, content_digest, motion_digest, read_record, read_record_header,
-    write_record, write_record_without_copy,
+    write_record, write_record_and_drop_states,
 };
 pub use rows::write_rows;
 pub use stability::{read_makers, read_stability, write_makers, write_stability};

@@ -89,7 +89,8 @@ impl<H: History> Division<H> {
         });
     }
 
-    /// Evaluates the forces of all contacts; `clear` says whether others are to be forgotten first. Says of the first contact that is too deep.
+    /// Evaluates the forces of all contacts; `clear` says whether others are to be forgotten first. Says of the
+    /// first contact that is too deep.
     pub(super) fn evaluate<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,

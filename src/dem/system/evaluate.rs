@@ -78,7 +78,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Adds the forces and torques of some effects.
     fn act(&mut self, effects: Range<usize>) {
-        self.move_all(effects, None, None, false);
+        if !effects.is_empty() {
+            self.move_all(effects, None, None, false);
+        }
     }
 
     /// Reports a contact that the latest forces found too deep.

@@ -318,6 +318,9 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.spare_pairs = Vec::new();
         self.walls.clear();
         self.division = None;
+        self.earlier = Vec::new();
+        self.before = Before::default();
+        self.workspace = Workspace::default();
     }
 
     fn state(&self) -> EngineState<'_> {

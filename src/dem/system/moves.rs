@@ -13,7 +13,6 @@ use fearless_simd::{Level, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
 const AT_HAND: usize = 4 * BLOCK;
 
 /// What is done to each sphere, in this order.
-#[derive(Clone, Copy, Default)]
 pub(super) struct Moves<'a> {
     /// Add to its force and torque.
     pub(super) effects: &'a [Box<dyn Effect>],

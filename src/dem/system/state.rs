@@ -56,7 +56,7 @@ struct Histories<P, H> {
 type SavedHistories<H> = Histories<Vec<(u32, u32, H)>, H>;
 
 /// Pairs whose history is not empty, of all near ones: both spheres and the history, in the order of the list.
-/// Written one by one, as there may be many.
+/// Written one by one, as there may be many: only their bytes are in memory a second time.
 struct RememberedPairs<'a, H> {
     near: &'a [NearPair],
     histories: &'a [H],
@@ -130,6 +130,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
         self.step = step;
         self.moves = moves;
+        self.cleared = false;
         let Parts {
             limits,
             dt,

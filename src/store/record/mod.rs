@@ -60,12 +60,12 @@ pub fn write_record(record: &RunRecord, path: &Path) -> Result<(), StoreError> {
     write(content(record, path)?, path)
 }
 
-/// The same for a record whose snapshots and trajectory are not needed any more: it loses them, so that they and
-/// the file are not both in memory.
+/// The same for a record whose snapshots and trajectory are not needed any more: it loses them when the content of the
+/// file is put together, before that is compressed and written, even if this fails.
 ///
 /// # Errors
 /// Those of [`write_record`].
-pub fn write_record_without_copy(record: &mut RunRecord, path: &Path) -> Result<(), StoreError> {
+pub fn write_record_and_drop_states(record: &mut RunRecord, path: &Path) -> Result<(), StoreError> {
     let content = content(record, path)?;
     record.snapshots = Vec::new();
     record.trajectory = Vec::new();
