@@ -44,11 +44,10 @@ pub struct Simulation {
     pub(super) engine: Box<dyn Engine>,
     /// Absent where no sphere comes or goes.
     pub(super) process: Option<Process>,
-    /// Radius (m) and mass (kg) of every sphere of the scene, those included that are not in yet; empty
-    /// where all are alike and sorted.
+    /// Radius (m), mass (kg) and moment of inertia (kg m2) of every sphere of the scene, those included that are not
+    /// in yet; empty where all are alike and sorted.
     pub(super) radius: Vec<f64>,
     pub(super) mass: Vec<f64>,
-    /// Moments of inertia (kg m2) in the order of the scene, where that is not the order in memory.
     pub(super) inertia: Vec<f64>,
     dt: f64,
     /// What a frame borrows.
@@ -109,13 +108,10 @@ impl Simulation {
                 .collect();
         }
         // Spheres that are alike stand in any order; to have them once saves memory.
-        let [radius, mass, mut inertia] = match sorted && alike {
+        let [radius, mass, inertia] = match sorted && alike {
             true => Default::default(),
             false => waiting_scalars.unwrap_or_else(|| scalars(&particles)),
         };
-        if !sorted {
-            inertia = Vec::new();
-        }
         let tank = scene.tank.as_ref();
         let parts = Parts {
             walls: tank.map(TankWall::of_tank).unwrap_or_default(),

@@ -120,11 +120,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.moves += steps * spheres;
         }
         for left in (0..steps).rev() {
-            self.goes_on = left > 0;
             self.keep_in_order()?;
             profile::begin(&mut self.profile, self.step, spheres as usize);
             match self.parts.integrator {
-                Integrator::SymplecticEuler => self.symplectic_euler()?,
+                Integrator::SymplecticEuler => self.symplectic_euler(left > 0)?,
                 Integrator::VelocityVerlet => self.velocity_verlet()?,
                 Integrator::SynchronisedVerlet => self.synchronised_verlet()?,
                 Integrator::AdaptiveVerlet => self.adaptive_verlet()?,
@@ -150,8 +149,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         result
     }
 
-    /// One step of symplectic Euler: v += a(x, v) dt, then x += v dt.
-    fn symplectic_euler(&mut self) -> Result<(), Instability> {
+    /// One step of symplectic Euler: v += a(x, v) dt, then x += v dt. `goes_on` says whether another follows at once.
+    fn symplectic_euler(&mut self, goes_on: bool) -> Result<(), Instability> {
         self.begin_step();
         let dt = self.parts.dt;
         let too_fast = if self.ledger.is_some() {
@@ -165,7 +164,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.evaluate_contacts()?;
             self.prepare_effects();
             // After the last step forces stay, for whoever asks.
-            self.cleared = self.goes_on && self.list.is_some();
+            self.cleared = goes_on && self.list.is_some();
             self.move_all(
                 0..self.parts.effects.len(),
                 Some(dt),

@@ -140,8 +140,6 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     pair_history: Vec<T::History>,
     /// Who answers for which spheres, if it is not one thread for all.
     division: Option<Division<T::History>>,
-    /// Whether another step follows at once.
-    goes_on: bool,
     /// Whether forces and torques are zero already.
     cleared: bool,
     /// The near pairs of before, for their memory.
@@ -193,7 +191,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             walls: parts.walls.iter().copied().map(WallContacts::new).collect(),
             pair_history: Vec::new(),
             division: None,
-            goes_on: false,
             cleared: false,
             spare_pairs: Vec::new(),
             normal,
