@@ -17,6 +17,16 @@ pub(super) struct Limits {
     vertical: f64,
 }
 
+/// A sphere that is too fast for its limit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TooFast {
+    sphere: usize,
+    /// (m)
+    radius: f64,
+    /// (m/s)
+    speed: f64,
+}
+
 impl Limits {
     /// The scene's limits, or their defaults.
     pub(super) fn new(scene: &Scene, particles: &Particles) -> Self {
@@ -113,39 +123,51 @@ impl Limits {
         })
     }
 
-    /// Names the first sphere that is too fast for its limit.
-    pub(super) fn check_speeds(
+    /// The first that is too fast for its limit of spheres with these velocities and radii, the first of which has
+    /// that index.
+    pub(super) fn first_too_fast(
         &self,
-        particles: &Particles,
-        step: u64,
+        first: usize,
+        velocity: &[Vector],
+        radius: &[f64],
         dt: f64,
-    ) -> Result<(), Instability> {
-        let speed = |i: usize| particles.velocity[i].norm_squared();
-        let broken = |&i: &usize| {
-            let largest = self.largest_speed(particles.radius[i], dt);
-            !(speed(i) <= largest * largest)
-        };
-        let Some(sphere) = (0..particles.len()).find(broken) else {
-            return Ok(());
-        };
-        let speed = speed(sphere).sqrt();
+    ) -> Option<TooFast> {
+        let mut all = (first..).zip(velocity).zip(radius);
+        all.find_map(|((sphere, velocity), &radius)| {
+            let largest = self.largest_speed(radius, dt);
+            let is_fine = velocity.norm_squared() <= largest * largest;
+            (!is_fine).then(|| TooFast {
+                sphere,
+                radius,
+                speed: velocity.norm(),
+            })
+        })
+    }
+
+    /// The report of a sphere that is too fast for its limit.
+    pub(super) fn speed_broken(&self, step: u64, dt: f64, found: TooFast) -> Instability {
+        let TooFast {
+            sphere,
+            radius,
+            speed,
+        } = found;
         let (guard, detail) = if speed.is_nan() {
             (Guard::NotANumber, "velocity is not a number".to_owned())
         } else {
-            let radii = speed * dt / particles.radius[sphere];
+            let radii = speed * dt / radius;
             let detail = format!(
                 "{radii:.3} radii in one step ({speed:.4e} m/s); limit {}",
                 self.displacement
             );
             (Guard::Displacement, detail)
         };
-        Err(Instability {
+        Instability {
             guard,
             step,
             time: step as f64 * dt,
             sphere,
             detail,
-        })
+        }
     }
 
     /// The report of an overlap (m) beyond the limit.

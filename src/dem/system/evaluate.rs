@@ -79,7 +79,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Adds the forces and torques of some effects.
     fn act(&mut self, effects: Range<usize>) {
         if !effects.is_empty() {
-            self.move_all(effects, None, None, false);
+            self.move_all(effects, &[], None, false);
         }
     }
 

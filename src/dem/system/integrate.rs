@@ -2,7 +2,7 @@
 
 use super::division::threads;
 use super::meeting::Loading;
-use super::moves::{Drift, Kick, Moves};
+use super::moves::{Drift, FirstTooFast, Moves};
 use super::pair_block::EarlierRows;
 use super::{Parts, System};
 use crate::dem::bodies::{Bodies, Spheres};
@@ -42,16 +42,16 @@ impl Before {
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Applies some effects, kicks for a time (s) and drifts for a time (s), what of these is asked for, and forgets
-    /// forces if they are to be cleared. Notes whether a sphere went farther than the near pairs allow. True if one
-    /// may be too fast.
+    /// Applies some effects, kicks for these times (s) and drifts for a time (s), what of these is asked for, and
+    /// forgets forces if they are to be cleared. Notes whether a sphere went farther than the near pairs allow. Says
+    /// who was too fast.
     pub(super) fn move_all(
         &mut self,
         effects: Range<usize>,
-        kick: Option<f64>,
+        kicks: &[f64],
         drift: Option<f64>,
         clear: bool,
-    ) -> bool {
+    ) -> FirstTooFast {
         let elapsed = drift.unwrap_or(0.0);
         self.age.time += elapsed;
         self.near_age.time += elapsed;
@@ -60,19 +60,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             particles,
             effects: all,
             limits,
+            dt,
             ..
         } = &mut self.parts;
         let moves = Moves {
             effects: &all[effects],
-            kick: kick.map(|dt| Kick {
-                dt,
-                slow: limits.slow,
-            }),
+            kicks,
             drift: drift.map(|dt| Drift {
                 dt,
                 allowance: is_listed.then(|| self.near.allowance(self.near_age.time)),
             }),
             clear,
+            limits,
+            dt: *dt,
         };
         let reference = match is_listed {
             true => self.near.anchor().position(),
@@ -88,30 +88,27 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         );
         // It may be so already: a sphere came or went.
         self.stale |= found.far;
-        found.fast
+        found.too_fast
     }
 
-    /// v += a dt for a time (s), and the same for spins. True if a sphere may be too fast.
-    pub(super) fn kick(&mut self, dt: f64) -> bool {
-        self.move_all(0..0, Some(dt), None, false)
+    /// v += a dt for a time (s), and the same for spins. Says who was too fast.
+    pub(super) fn kick(&mut self, dt: f64) -> FirstTooFast {
+        self.move_all(0..0, &[dt], None, false)
     }
 
     /// x += v dt for a time (s).
     fn drift(&mut self, dt: f64) {
-        self.move_all(0..0, None, Some(dt), false);
+        self.move_all(0..0, &[], Some(dt), false);
     }
 
-    pub(super) fn check_speeds(&self, too_fast: bool) -> Result<(), Instability> {
-        if too_fast {
-            let Parts {
-                particles,
-                limits,
-                dt,
-                ..
-            } = &self.parts;
-            limits.check_speeds(particles, self.step, *dt)?;
+    /// Reports who was too fast in this step, or else in the next one, where that has begun.
+    pub(super) fn check_speeds(&self, too_fast: FirstTooFast) -> Result<(), Instability> {
+        let Parts { limits, dt, .. } = &self.parts;
+        let mut steps = (self.step..).zip(too_fast);
+        match steps.find_map(|(step, it)| Some((step, it?))) {
+            Some((step, it)) => Err(limits.speed_broken(step, *dt, it)),
+            None => Ok(()),
         }
-        Ok(())
     }
 
     pub(super) fn steps(&mut self, steps: u64) -> Result<(), Instability> {
@@ -124,7 +121,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             profile::begin(&mut self.profile, self.step, spheres as usize);
             match self.parts.integrator {
                 Integrator::SymplecticEuler => self.symplectic_euler(left > 0)?,
-                Integrator::VelocityVerlet => self.velocity_verlet()?,
+                Integrator::VelocityVerlet => self.velocity_verlet(left > 0)?,
                 Integrator::SynchronisedVerlet => self.synchronised_verlet()?,
                 Integrator::AdaptiveVerlet => self.adaptive_verlet()?,
             }
@@ -165,31 +162,45 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.prepare_effects();
             // After the last step forces stay, for whoever asks.
             self.cleared = goes_on && self.list.is_some();
-            self.move_all(
-                0..self.parts.effects.len(),
-                Some(dt),
-                Some(dt),
-                self.cleared,
-            )
+            let effects = 0..self.parts.effects.len();
+            self.move_all(effects, &[dt], Some(dt), self.cleared)
         };
         self.check_speeds(too_fast)
     }
 
     /// One step of velocity Verlet, with forces from the new positions and the half-step
-    /// velocities. The forces of the step before serve its first half.
-    fn velocity_verlet(&mut self) -> Result<(), Instability> {
+    /// velocities. The forces of the step before serve its first half. `goes_on` says whether another follows at once:
+    /// its first half then comes with the second one of this.
+    fn velocity_verlet(&mut self, goes_on: bool) -> Result<(), Instability> {
         self.begin_step();
         if self.step == 1 {
             self.evaluate_start()?;
         }
-        let half = 0.5 * self.parts.dt;
-        let too_fast = self.kick(half);
-        self.note_kick(half);
-        self.check_speeds(too_fast)?;
-        self.drift(self.parts.dt);
-        self.evaluate()?;
-        let too_fast = self.kick(half);
-        self.note_kick(half);
+        let (dt, half) = (self.parts.dt, 0.5 * self.parts.dt);
+        if !std::mem::take(&mut self.begun) {
+            let too_fast = self.kick(half);
+            self.note_kick(half);
+            self.check_speeds(too_fast)?;
+            self.drift(dt);
+        }
+        if self.ledger.is_some() {
+            self.evaluate()?;
+            let too_fast = self.kick(half);
+            self.note_kick(half);
+            return self.check_speeds(too_fast);
+        }
+        self.evaluate_contacts()?;
+        self.prepare_effects();
+        let effects = 0..self.parts.effects.len();
+        // The order of spheres follows from where they are after whole steps.
+        self.begun = goes_on && !self.looks_at_order();
+        let too_fast = match self.begun {
+            true => {
+                self.cleared = self.list.is_some();
+                self.move_all(effects, &[half, half], Some(dt), self.cleared)
+            }
+            false => self.move_all(effects, &[half], None, false),
+        };
         self.check_speeds(too_fast)
     }
 

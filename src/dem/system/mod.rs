@@ -142,6 +142,8 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     division: Option<Division<T::History>>,
     /// Whether forces and torques are zero already.
     cleared: bool,
+    /// Whether spheres have done the first half of the next step already.
+    begun: bool,
     /// The near pairs of before, for their memory.
     spare_pairs: Vec<NearPair>,
     step: u64,
@@ -192,6 +194,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             pair_history: Vec::new(),
             division: None,
             cleared: false,
+            begun: false,
             spare_pairs: Vec::new(),
             normal,
             tangential,

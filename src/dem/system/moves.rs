@@ -3,6 +3,7 @@
 use crate::dem::block::BLOCK;
 use crate::dem::bodies::{Asked, Bodies, Spheres};
 use crate::dem::effects::Effect;
+use crate::dem::guard::{Limits, TooFast};
 use crate::dem::neighbours::Allowance;
 use crate::dem::profile::{self, Part, Profile};
 use crate::dem::threads::in_parallel;
@@ -12,23 +13,22 @@ use fearless_simd::{Level, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
 /// Spheres to which everything is done before the next ones: few enough to stay in the nearest cache.
 const AT_HAND: usize = 4 * BLOCK;
 
+/// The first sphere that was too fast after each of at most two kicks.
+pub(super) type FirstTooFast = [Option<TooFast>; 2];
+
 /// What is done to each sphere, in this order.
 pub(super) struct Moves<'a> {
     /// Add to its force and torque.
     pub(super) effects: &'a [Box<dyn Effect>],
-    pub(super) kick: Option<Kick>,
+    /// How long each kick is (s), one after the other: the last of a step and the first of the next are two, as
+    /// numbers are rounded after either.
+    pub(super) kicks: &'a [f64],
     pub(super) drift: Option<Drift>,
     /// Forgets forces and torques, which are at hand: others come next.
     pub(super) clear: bool,
-}
-
-/// v += a dt, and the same for spins.
-#[derive(Clone, Copy)]
-pub(super) struct Kick {
-    /// How long it is (s).
+    pub(super) limits: &'a Limits,
+    /// The time step (s).
     pub(super) dt: f64,
-    /// [`Limits::slow`](crate::dem::guard::Limits::slow).
-    pub(super) slow: f64,
 }
 
 /// x += v dt.
@@ -43,8 +43,7 @@ pub(super) struct Drift {
 /// What moves found.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Found {
-    /// A kicked sphere may be too fast.
-    pub(super) fast: bool,
+    pub(super) too_fast: FirstTooFast,
     /// A sphere drifted farther than the near pairs allow.
     pub(super) far: bool,
 }
@@ -78,10 +77,7 @@ impl Moves<'_> {
         });
         shares
             .iter()
-            .fold(Found::default(), |all, (_, _, it)| Found {
-                fast: all.fast || it.fast,
-                far: all.far || it.far,
-            })
+            .fold(Found::default(), |all, (_, _, it)| all.and(*it))
     }
 
     fn of_share(
@@ -98,8 +94,14 @@ impl Moves<'_> {
             if !self.effects.is_empty() {
                 fearless_simd::dispatch!(level, simd => self.act(simd, &mut some, bodies, asked, level, profile));
             }
-            if let Some(kick) = self.kick {
-                found.fast |= fearless_simd::dispatch!(level, simd => kick.all(simd, &mut some));
+            for (&kick, too_fast) in self.kicks.iter().zip(&mut found.too_fast) {
+                let slow = self.limits.slow;
+                if !fearless_simd::dispatch!(level, simd => kick_all(simd, &mut some, kick, slow)) {
+                    let (velocity, radius) = (&*some.velocity, some.radius);
+                    let limits = self.limits;
+                    let first = || limits.first_too_fast(some.first, velocity, radius, self.dt);
+                    *too_fast = too_fast.or_else(first);
+                }
                 profile::mark(profile, Part::Kick);
             }
             if let Some(drift) = self.drift {
@@ -139,32 +141,43 @@ impl Moves<'_> {
     }
 }
 
-impl Kick {
-    /// Whether one of them may be too fast.
-    #[inline(always)]
-    fn all<S: Simd>(&self, simd: S, spheres: &mut Spheres<'_>) -> bool {
-        // The last number of a row means nothing.
-        let most = [self.slow, self.slow, self.slow, f64::INFINITY];
-        let most = f64x4::simd_from(simd, most);
-        let mut slow = mask64x4::splat(simd, true);
-        for ((velocity, force), inverse) in (spheres.velocity.iter_mut())
-            .zip(&*spheres.force)
-            .zip(spheres.inverse_mass)
-        {
-            let row = velocity.simd(simd) + force.simd(simd) * (inverse * self.dt);
-            *velocity = Vector::of_row(row.into());
-            // What is not a number is not slow.
-            slow &= row.abs().simd_le(most);
+impl Found {
+    /// The same of these and later spheres.
+    fn and(self, later: Self) -> Self {
+        let mut too_fast = self.too_fast;
+        for (first, second) in too_fast.iter_mut().zip(later.too_fast) {
+            *first = first.or(second);
         }
-        for ((spin, torque), inverse) in (spheres.spin.iter_mut())
-            .zip(&*spheres.torque)
-            .zip(spheres.inverse_inertia)
-        {
-            let row = spin.simd(simd) + torque.simd(simd) * (inverse * self.dt);
-            *spin = Vector::of_row(row.into());
+        Self {
+            too_fast,
+            far: self.far || later.far,
         }
-        !slow.all_true()
     }
+}
+
+/// v += a dt, and the same for spins. Whether none of them has a component of velocity beyond `slow`.
+#[inline(always)]
+fn kick_all<S: Simd>(simd: S, spheres: &mut Spheres<'_>, dt: f64, slow: f64) -> bool {
+    // The last number of a row means nothing.
+    let most = f64x4::simd_from(simd, [slow, slow, slow, f64::INFINITY]);
+    let mut slow = mask64x4::splat(simd, true);
+    for ((velocity, force), inverse) in (spheres.velocity.iter_mut())
+        .zip(&*spheres.force)
+        .zip(spheres.inverse_mass)
+    {
+        let row = velocity.simd(simd) + force.simd(simd) * (inverse * dt);
+        *velocity = Vector::of_row(row.into());
+        // What is not a number is not slow.
+        slow &= row.abs().simd_le(most);
+    }
+    for ((spin, torque), inverse) in (spheres.spin.iter_mut())
+        .zip(&*spheres.torque)
+        .zip(spheres.inverse_inertia)
+    {
+        let row = spin.simd(simd) + torque.simd(simd) * (inverse * dt);
+        *spin = Vector::of_row(row.into());
+    }
+    slow.all_true()
 }
 
 impl Drift {

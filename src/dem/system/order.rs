@@ -9,9 +9,14 @@ use crate::dem::profile::Part;
 use crate::record::Instability;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
+    /// Whether it is time to look at the order of the spheres.
+    pub(super) fn looks_at_order(&self) -> bool {
+        self.parts.sorted && self.step.is_multiple_of(order::INTERVAL)
+    }
+
     /// Sorts the spheres if it is time to look at their order, and they have mixed.
     pub(super) fn keep_in_order(&mut self) -> Result<(), Instability> {
-        if !self.parts.sorted || !self.step.is_multiple_of(order::INTERVAL) {
+        if !self.looks_at_order() {
             return Ok(());
         }
         let result = match order::found_anew(&self.parts.particles) {

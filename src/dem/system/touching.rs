@@ -5,10 +5,14 @@ use crate::dem::block::{BLOCK, ROWS, row, turned};
 use crate::dem::neighbours::{NearPair, keep_pairs};
 use crate::dem::particles::Particles;
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask32x8, mask64x8, u32x8};
+use prefetch_index::prefetch_index;
 
 /// Contacts that are looked at before those that touch are computed: few enough to stay at hand, so many that
 /// few lanes are left over.
 pub(super) const LOOK: usize = 512;
+
+/// Histories of so many bytes come from farther than the caches, and are sent for.
+const CACHES: usize = 1 << 25;
 
 /// As lanes are written whole, some are written in vain.
 const ROOM: usize = LOOK + ROWS;
@@ -20,6 +24,8 @@ pub(super) struct Touching {
     rest: [NearPair; ROWS],
     /// Where the histories are.
     entries: [u32; ROOM],
+    /// Where those of contacts are that do not touch.
+    apart: [u32; ROOM],
     /// Centre of the first partner from that of the second (m).
     offset: [[f64; ROOM]; 3],
 }
@@ -40,6 +46,7 @@ impl Touching {
             pairs: [NearPair::default(); ROOM],
             rest: [NearPair::default(); ROWS],
             entries: [0; ROOM],
+            apart: [0; ROOM],
             offset: [[0.0; ROOM]; 3],
         }
     }
@@ -76,7 +83,8 @@ impl Touching {
         alike: Option<Solid>,
     ) -> usize {
         const { assert!(LOOK.is_multiple_of(BLOCK)) };
-        let mut found = 0;
+        let (mut found, mut apart) = (0, 0);
+        let far = size_of_val(histories) > CACHES;
         for (first, contacts) in (from..).step_by(ROWS).zip(near.chunks(ROWS)) {
             let eight = match <&[NearPair; ROWS]>::try_from(contacts) {
                 Ok(all) => all,
@@ -99,15 +107,22 @@ impl Touching {
                 lanes.compress(touch).store_slice(&mut column[all.clone()]);
             }
             if size_of::<H>() > 0 {
-                keep_entries(simd, first, bits, &mut self.entries[all]);
-                let histories = histories[first..].iter_mut().take(contacts.len());
-                for (k, history) in histories.enumerate() {
-                    if bits >> k & 1 == 0 {
-                        *history = H::default();
-                    }
+                if far {
+                    send_for(histories, first);
                 }
+                keep_entries(simd, first, bits, &mut self.entries[all]);
+                let others = &mut self.apart[apart..apart + ROWS];
+                let rest = (1 << contacts.len()) - 1 - bits;
+                keep_entries(simd, first, rest, others);
+                apart += contacts.len() - kept;
             }
             found += kept;
+        }
+        // Not where it is found, by a branch that nobody could foretell.
+        if size_of::<H>() > 0 {
+            for &entry in &self.apart[..apart] {
+                histories[entry as usize] = H::default();
+            }
         }
         self.fill_up(found);
         found
@@ -151,6 +166,15 @@ fn touches<S: Simd>(
         }
     };
     ((x * x + y * y + z * z).simd_lt(sum * sum), [x, y, z])
+}
+
+/// Has the processor send for eight histories from there on, which are asked for soon.
+#[inline(always)]
+fn send_for<H>(histories: &[H], first: usize) {
+    const LINE: usize = 64;
+    for entry in (first..first + ROWS).step_by(LINE / size_of::<H>().clamp(1, LINE)) {
+        prefetch_index(histories, entry);
+    }
 }
 
 /// Writes down the entries of those pairs that are to be kept, of which the first has that one.
