@@ -192,6 +192,33 @@ fn a_sphere_that_tunnels_breaks_the_displacement_guard() {
     assert_broken(&scene, Guard::Displacement, 1, 1..=1);
 }
 
+/// The halves of a step of velocity Verlet are done together where steps follow one another.
+#[test]
+fn who_grows_too_fast_is_named_with_the_same_step_however_a_run_is_cut() {
+    let still = sphere([0.0; 3], [0.0; 3]);
+    let mut steps = std::collections::BTreeSet::new();
+    for excess in 0..8 {
+        let fast = sphere(
+            [-1.0, 0.1, 0.0],
+            [0.0, 0.0, -390.0 - 0.27 * f64::from(excess)],
+        );
+        let mut scene = cluster(vec![still.clone(), fast], None, 1e-5);
+        scene.gravity = Some(toml::from_str("acceleration = 2e4").unwrap());
+        for integrator in INTEGRATORS {
+            scene.time.integrator = integrator;
+            let whole = Simulation::new(&scene).unwrap().advance(1000).unwrap_err();
+            assert_eq!(whole.guard, Guard::Displacement, "{whole}");
+            for length in [1, 7] {
+                let mut simulation = Simulation::new(&scene).unwrap();
+                let broken = (0..1000).find_map(|_| simulation.advance(length).err());
+                assert_eq!(broken.as_ref(), Some(&whole), "cut after {length} steps");
+            }
+            steps.insert(whole.step % 7);
+        }
+    }
+    assert!(steps.len() > 1, "all at the same place of a cut");
+}
+
 #[test]
 fn a_sphere_that_leaves_breaks_the_bounds() {
     let still = sphere([0.0; 3], [0.0; 3]);
