@@ -59,6 +59,13 @@ impl Columns {
         Vector::new(x[k], y[k], z[k])
     }
 
+    /// Writes the vector of a lane.
+    #[inline(always)]
+    pub(in crate::dem) fn set(&mut self, k: usize, vector: Vector) {
+        let [x, y, z] = &mut self.0;
+        (x[k], y[k], z[k]) = (vector.x, vector.y, vector.z);
+    }
+
     /// The rows from `at` on; their fourth numbers mean nothing.
     #[inline(always)]
     pub(in crate::dem) fn rows<S: Simd>(&self, simd: S, at: usize) -> [f64x4<S>; ROWS] {

@@ -1,6 +1,6 @@
 //! Friction by a tangential spring and dashpot.
 
-use super::{Grip, Spring, TangentialLaw, Touch, Traction};
+use super::{Grip, LoadedSpring, Spring, TangentialLaw, Touch};
 
 /// A spring of constant stiffness k_t and a dashpot b_t along the contact, together capped at mu F_n
 /// (Cundall and Strack, Geotechnique 29, 47 (1979)): df = -k_t du and f - b_t u while it sticks.
@@ -25,12 +25,14 @@ impl CundallStrack {
 }
 
 impl TangentialLaw for CundallStrack {
+    const DRAGS: bool = true;
     type History = Spring;
 
     #[inline(always)]
-    fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction {
+    fn load(&self, touch: &Touch, spring: Spring) -> LoadedSpring {
         let limit = self.coefficient * touch.normal_force;
-        spring.load(touch, self.stiffness, self.damping, limit)
+        let drag = touch.sliding_velocity() * self.damping;
+        spring.loaded(touch, self.stiffness, drag, limit)
     }
 
     fn stiffness(&self, _: f64, _: f64) -> f64 {

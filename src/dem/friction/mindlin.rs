@@ -1,7 +1,8 @@
 //! Mindlin friction by increments.
 
-use super::{Spring, TangentialLaw, Touch, Traction};
+use super::{LoadedSpring, Spring, TangentialLaw, Touch};
 use crate::dem::contact::contact_radius;
+use crate::dem::vector::Vector;
 
 /// Mindlin's tangential stiffness k_t = 8 G* sqrt(R_eff xi) on a contact that sticks, loaded and
 /// unloaded by increments of the sliding displacement, df = -k_t du, and capped at mu F_n;
@@ -35,10 +36,10 @@ impl TangentialLaw for Mindlin {
     type History = Spring;
 
     #[inline(always)]
-    fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction {
+    fn load(&self, touch: &Touch, spring: Spring) -> LoadedSpring {
         let stiffness = self.modulus * touch.loading_radius;
         let limit = self.coefficient * touch.normal_force;
-        spring.load(touch, stiffness, 0.0, limit)
+        spring.loaded(touch, stiffness, Vector::ZERO, limit)
     }
 
     #[inline(always)]

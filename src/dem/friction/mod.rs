@@ -12,8 +12,9 @@ pub use cundall_strack::CundallStrack;
 pub use mindlin::Mindlin;
 pub use silbert::SilbertFriction;
 pub use spin::SpinFriction;
-pub use spring::Spring;
+pub use spring::{LoadedSpring, Spring};
 
+use super::math::inverse_square_root;
 use super::vector::Vector;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -60,12 +61,18 @@ impl Touch {
     /// the opposite force acts on the other, and both get a torque of the same sense.
     #[inline(always)]
     pub fn traction(&self, force: Vector) -> Traction {
-        let arm = force.cross(self.normal);
+        let arm = arm(force, self.normal);
         Traction {
             force,
             torque: [arm * self.lever[0], arm * self.lever[1]],
         }
     }
+}
+
+/// The torque of a tangential force (N) on either partner, over its lever.
+#[inline(always)]
+pub(super) fn arm(force: Vector, normal: Vector) -> Vector {
+    force.cross(normal)
 }
 
 /// Velocity of one surface relative to the other at the contact point (m/s), tangential part, from that
@@ -159,13 +166,28 @@ pub trait TangentialLaw: Copy + Send + Sync + 'static {
     const WIDENS: bool = false;
     /// Whether the law asks for the effective mass; a [`Touch`] need not have it otherwise.
     const NEEDS_EFFECTIVE_MASS: bool = false;
+    /// Whether a dashpot acts beside the spring of a law with history.
+    const DRAGS: bool = false;
     /// What a contact remembers from step to step; `()` costs nothing. A checkpoint stores it.
     type History: History;
 
     /// Traction at a contact over the coming step; none where the normal force is zero. Free of branches,
     /// for a block of contacts at once. The spring lies [across the normal](Spring::turned) when it comes; a law
-    /// without history leaves it alone.
-    fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction;
+    /// without history leaves it alone, one with a history says how it is [loaded](Self::load) alone.
+    #[inline(always)]
+    fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction {
+        let loaded = self.load(touch, *spring);
+        let squared = loaded.squared();
+        let (force, left) = loaded.capped(squared, inverse_square_root(squared));
+        *spring = left;
+        touch.traction(force)
+    }
+
+    /// The spring of a law with history, loaded over the coming step.
+    #[inline(always)]
+    fn load(&self, _touch: &Touch, _spring: Spring) -> LoadedSpring {
+        LoadedSpring::default()
+    }
 
     /// Energy (J) of what a contact remembers, at an overlap and effective radius (m).
     fn energy(&self, _history: &Self::History, _overlap: f64, _effective_radius: f64) -> f64 {

@@ -1,6 +1,6 @@
 //! The friction of Silbert et al.
 
-use super::{Grip, Spring, TangentialLaw, Touch, Traction};
+use super::{Grip, LoadedSpring, Spring, TangentialLaw, Touch};
 use crate::dem::contact::contact_radius;
 
 /// A spring of stiffness sqrt(R_eff xi) k_t and a dashpot sqrt(R_eff xi) gamma_t m_eff beside it, together
@@ -33,14 +33,15 @@ impl SilbertFriction {
 impl TangentialLaw for SilbertFriction {
     const NEEDS_EFFECTIVE_MASS: bool = true;
     const WIDENS: bool = true;
+    const DRAGS: bool = true;
     type History = Spring;
 
     #[inline(always)]
-    fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction {
+    fn load(&self, touch: &Touch, spring: Spring) -> LoadedSpring {
         let stiffness = self.stiffness * touch.loading_radius;
-        let drag = self.damping * touch.effective_mass * touch.contact_radius;
+        let damping = self.damping * touch.effective_mass * touch.contact_radius;
         let limit = self.coefficient * touch.normal_force;
-        spring.load(touch, stiffness, drag, limit)
+        spring.loaded(touch, stiffness, touch.sliding_velocity() * damping, limit)
     }
 
     #[inline(always)]

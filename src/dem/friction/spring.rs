@@ -1,6 +1,6 @@
 //! The loaded spring of a contact that sticks.
 
-use super::{Touch, Traction};
+use super::Touch;
 use crate::dem::math::inverse_square_root;
 use crate::dem::vector::Vector;
 use serde::{Deserialize, Serialize};
@@ -16,28 +16,22 @@ pub struct Spring {
 const LEAST_PRODUCT: f64 = 1e-280;
 
 impl Spring {
-    /// The traction of the spring, of a stiffness (N/m), and of a dashpot beside it (N s/m), together
-    /// capped at `limit` (N). It is loaded by the sliding since the latest evaluation, df = -k du; one that
-    /// slides keeps the length with which it would go on sticking from there (Luding, Granular Matter 10, 235
-    /// (2008), section 2.3).
+    /// The spring, of a stiffness (N/m), loaded by the sliding since the latest evaluation, df = -k du, with what
+    /// a dashpot beside it takes (N), before both are capped at `limit` (N).
     #[inline(always)]
-    pub(super) fn load(
-        &mut self,
+    pub(super) fn loaded(
+        &self,
         touch: &Touch,
         stiffness: f64,
-        damping: f64,
+        drag: Vector,
         limit: f64,
-    ) -> Traction {
-        let drag = touch.sliding_velocity() * damping;
+    ) -> LoadedSpring {
         let loading = touch.loading_velocity * (stiffness * touch.loading_time);
-        let elastic = self.force - loading;
-        let force = elastic - drag;
-        let squared = force.norm_squared();
-        // Selects, not branches: so the loop over a block of contacts is turned into vector instructions.
-        let slides = squared > limit * limit;
-        let capped = force * (limit * inverse_square_root(squared));
-        self.force = select(slides, capped + drag, elastic);
-        touch.traction(select(slides, capped, force))
+        LoadedSpring {
+            elastic: self.force - loading,
+            drag,
+            limit,
+        }
     }
 
     /// Its energy f^2 / (2 k) (J) at a stiffness k (N/m).
@@ -56,6 +50,44 @@ impl Spring {
         let scale = before * inverse_square_root(product);
         let force = select(product > LEAST_PRODUCT, turned * scale, Vector::ZERO);
         Self { force }
+    }
+}
+
+/// A spring before it is known how much of it friction carries. That takes a root, which many contacts find in a
+/// loop of its own.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LoadedSpring {
+    /// Its force (N).
+    pub(in crate::dem) elastic: Vector,
+    /// The force that a dashpot beside it takes from that (N).
+    pub(in crate::dem) drag: Vector,
+    /// The most that friction carries of both (N).
+    pub(in crate::dem) limit: f64,
+}
+
+impl LoadedSpring {
+    #[inline(always)]
+    fn force(&self) -> Vector {
+        self.elastic - self.drag
+    }
+
+    /// Square of the force of both (N2).
+    #[inline(always)]
+    pub(in crate::dem) fn squared(&self) -> f64 {
+        self.force().norm_squared()
+    }
+
+    /// The tangential force (N), and the spring that is left: one that slides keeps the length with which it would
+    /// go on sticking from there (Luding, Granular Matter 10, 235 (2008), section 2.3). With the square (N2) and
+    /// 1 / its root.
+    #[inline(always)]
+    pub(in crate::dem) fn capped(&self, squared: f64, inverse_root: f64) -> (Vector, Spring) {
+        let force = self.force();
+        // Selects, not branches: so the loop over a block of contacts is turned into vector instructions.
+        let slides = squared > self.limit * self.limit;
+        let capped = force * (self.limit * inverse_root);
+        let left = select(slides, capped + self.drag, self.elastic);
+        (select(slides, capped, force), Spring { force: left })
     }
 }
 

@@ -3,7 +3,9 @@
 //! Free of branches, as it stands in loops over blocks of contacts, which touch or not.
 
 use crate::dem::contact::{NormalLaw, contact_radius};
-use crate::dem::friction::{Spring, TangentialLaw, Touch, Traction, sliding_velocity};
+use crate::dem::friction::{
+    LoadedSpring, Spring, TangentialLaw, Touch, Traction, sliding_velocity,
+};
 use crate::dem::math::inverse_square_root;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
@@ -131,6 +133,26 @@ pub(super) struct Meeting {
     pub(super) spring: Spring,
 }
 
+/// The answer to a contact with a spring before it is asked how much of that friction carries.
+pub(super) struct Pressed {
+    /// As those of a [`Meeting`].
+    pub(super) touches: bool,
+    pub(super) too_deep: bool,
+    pub(super) overlap: f64,
+    /// The force (N) without friction.
+    pub(super) force: Vector,
+    /// Distances of both centres from the contact point, in radii.
+    pub(super) lever: f64,
+    pub(super) spring: LoadedSpring,
+}
+
+/// The force at a contact without friction (N).
+struct NormalForce {
+    along: f64,
+    /// With what drags sideways.
+    total: Vector,
+}
+
 /// Where and how partners meet, whatever the second one is.
 struct Encounter {
     touches: bool,
@@ -140,8 +162,8 @@ struct Encounter {
     contact_radius: f64,
     /// Zero where no law asks for it.
     effective_mass: f64,
-    /// Of friction alone.
-    lever: [f64; 2],
+    /// Of friction alone, in radii.
+    lever: f64,
     lesser_mass: f64,
     /// Sliding velocity (m/s) and contact radius (m) by which a spring is loaded, if not those of now.
     loading: Option<(Vector, f64)>,
@@ -200,6 +222,17 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
     /// Two spheres whose roots are known, with a spring across their normal.
     #[inline(always)]
     pub(super) fn between_with(&self, couple: &Couple, roots: Roots, spring: Spring) -> Meeting {
+        self.answer(couple, &self.encounter(couple, roots), spring)
+    }
+
+    /// The same, until it is asked how much friction carries.
+    #[inline(always)]
+    pub(super) fn pressed_between(&self, couple: &Couple, roots: Roots, spring: Spring) -> Pressed {
+        self.press(couple, &self.encounter(couple, roots), spring)
+    }
+
+    #[inline(always)]
+    fn encounter(&self, couple: &Couple, roots: Roots) -> Encounter {
         let [one, other] = couple.solid;
         let sum = one.radius + other.radius;
         let distance_squared = couple.offset.norm_squared();
@@ -212,7 +245,6 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         // Both centres turn about the point where the surfaces meet, so that the pair keeps its
         // angular momentum.
         let lever = distance * couple.inverse_sum;
-        let lever = [one.radius * lever, other.radius * lever];
         let mut encounter = Encounter {
             touches,
             too_deep: touches & (deep | concentric),
@@ -229,11 +261,12 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             let distance_squared = offset.norm_squared();
             let inverse_distance = inverse_square_root(distance_squared);
             let normal = offset * inverse_distance;
+            let lever = couple.solid.map(|it| it.radius * lever);
             let sliding = sliding_velocity(normal, earlier.velocity, earlier.spin, lever);
             let overlap = sum - distance_squared * inverse_distance;
             encounter.loading = Some((sliding, contact_radius(overlap, effective_radius(couple))));
         }
-        self.answer(couple, encounter, spring)
+        encounter
     }
 
     /// A sphere and a wall.
@@ -263,6 +296,30 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         earlier_contact: Option<&WallContact>,
         spring: Spring,
     ) -> Meeting {
+        let encounter = self.encounter_at_wall(couple, contact, earlier_contact);
+        self.answer(couple, &encounter, spring)
+    }
+
+    /// The same, until it is asked how much friction carries.
+    #[inline(always)]
+    pub(super) fn pressed_at_contact(
+        &self,
+        couple: &Couple,
+        contact: WallContact,
+        earlier_contact: Option<&WallContact>,
+        spring: Spring,
+    ) -> Pressed {
+        let encounter = self.encounter_at_wall(couple, contact, earlier_contact);
+        self.press(couple, &encounter, spring)
+    }
+
+    #[inline(always)]
+    fn encounter_at_wall(
+        &self,
+        couple: &Couple,
+        contact: WallContact,
+        earlier_contact: Option<&WallContact>,
+    ) -> Encounter {
         let Solid { radius, mass, .. } = couple.solid[0];
         let WallContact {
             touches,
@@ -279,18 +336,18 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
                 false => 0.0,
             },
             effective_mass: Self::effective_mass(couple),
-            lever: [radius, 0.0],
+            lever: 1.0,
             lesser_mass: mass,
             loading: None,
         };
         if let (true, Some(earlier), Some(contact)) =
             (Self::REMEMBERS, &couple.earlier, earlier_contact)
         {
-            let lever = encounter.lever;
+            let lever = [radius, 0.0];
             let sliding = sliding_velocity(contact.normal, earlier.velocity, earlier.spin, lever);
             encounter.loading = Some((sliding, contact_radius(contact.overlap, radius)));
         }
-        self.answer(couple, encounter, spring)
+        encounter
     }
 
     /// 1 / (1 / m1 + 1 / m2) (kg), where a law asks for it.
@@ -304,69 +361,112 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
     }
 
     #[inline(always)]
-    fn answer(&self, couple: &Couple, encounter: Encounter, mut spring: Spring) -> Meeting {
+    fn answer(&self, couple: &Couple, encounter: &Encounter, mut spring: Spring) -> Meeting {
+        let mut force = self.normal_force(couple, encounter);
+        let mut torque = [Vector::ZERO; 2];
+        if T::ROTATES {
+            let touch = self.touch(couple, encounter, &force);
+            let Traction {
+                force: sideways,
+                torque: torques,
+            } = self.tangential.traction(&touch, &mut spring);
+            force.total += sideways;
+            torque = torques;
+        }
         let Encounter {
             touches,
             too_deep,
             normal,
             overlap,
             contact_radius,
-            effective_mass,
-            lever,
-            lesser_mass,
-            loading,
-        } = encounter;
-        let Couple { velocity, spin, .. } = *couple;
-        let approach = -velocity.dot(normal);
-        let normal_force = (self.normal).force(overlap, approach, contact_radius, effective_mass);
-        let mut force = normal * normal_force;
-        if N::DRAGS_SIDEWAYS {
-            force -= (velocity + normal * approach) * self.normal.sideways_drag();
-        }
-        let mut torque = [Vector::ZERO; 2];
-        if T::ROTATES {
-            let (loading_velocity, loading_radius) = match loading {
-                Some(loading) => loading,
-                None => (
-                    sliding_velocity(normal, velocity, spin, lever),
-                    contact_radius,
-                ),
-            };
-            let touch = Touch {
-                normal,
-                velocity,
-                spin,
-                lever,
-                inertia: [couple.solid[0].inertia, couple.solid[1].inertia],
-                lesser_mass,
-                effective_mass,
-                contact_radius,
-                // Friction feels none where partners attract each other.
-                normal_force: match N::ATTRACTS {
-                    true => or_zero(normal_force),
-                    false => normal_force,
-                },
-                loading_velocity,
-                loading_radius,
-                loading_time: self.loading.duration,
-            };
-            let Traction {
-                force: sideways,
-                torque: [one, other],
-            } = self.tangential.traction(&touch, &mut spring);
-            force += sideways;
-            torque = [one, other];
-        }
+            ..
+        } = *encounter;
         Meeting {
             touches,
             too_deep,
             normal,
-            velocity,
+            velocity: couple.velocity,
             overlap,
             contact_radius,
-            force,
+            force: force.total,
             torque,
             spring,
+        }
+    }
+
+    /// Answers a contact with a spring, until it is asked how much of that friction carries.
+    #[inline(always)]
+    fn press(&self, couple: &Couple, encounter: &Encounter, spring: Spring) -> Pressed {
+        let force = self.normal_force(couple, encounter);
+        let touch = self.touch(couple, encounter, &force);
+        Pressed {
+            touches: encounter.touches,
+            too_deep: encounter.too_deep,
+            overlap: encounter.overlap,
+            force: force.total,
+            lever: encounter.lever,
+            spring: self.tangential.load(&touch, spring),
+        }
+    }
+
+    #[inline(always)]
+    fn normal_force(&self, couple: &Couple, encounter: &Encounter) -> NormalForce {
+        let Encounter {
+            normal,
+            overlap,
+            contact_radius,
+            effective_mass,
+            ..
+        } = *encounter;
+        let velocity = couple.velocity;
+        let approach = -velocity.dot(normal);
+        let along = (self.normal).force(overlap, approach, contact_radius, effective_mass);
+        let mut total = normal * along;
+        if N::DRAGS_SIDEWAYS {
+            total -= (velocity + normal * approach) * self.normal.sideways_drag();
+        }
+        NormalForce { along, total }
+    }
+
+    /// The contact as friction sees it.
+    #[inline(always)]
+    fn touch(&self, couple: &Couple, encounter: &Encounter, force: &NormalForce) -> Touch {
+        let Couple { velocity, spin, .. } = *couple;
+        let Encounter {
+            normal,
+            contact_radius,
+            effective_mass,
+            lever,
+            lesser_mass,
+            loading,
+            ..
+        } = *encounter;
+        // A wall has no radius.
+        let lever = couple.solid.map(|it| it.radius * lever);
+        let (loading_velocity, loading_radius) = match loading {
+            Some(loading) => loading,
+            None => (
+                sliding_velocity(normal, velocity, spin, lever),
+                contact_radius,
+            ),
+        };
+        Touch {
+            normal,
+            velocity,
+            spin,
+            lever,
+            inertia: [couple.solid[0].inertia, couple.solid[1].inertia],
+            lesser_mass,
+            effective_mass,
+            contact_radius,
+            // Friction feels none where partners attract each other.
+            normal_force: match N::ATTRACTS {
+                true => or_zero(force.along),
+                false => force.along,
+            },
+            loading_velocity,
+            loading_radius,
+            loading_time: self.loading.duration,
         }
     }
 }

@@ -7,12 +7,12 @@
 mod walls;
 
 use super::lanes::{Solids, WallMeetings};
-use super::meeting::{Couple, Earlier, Laws, Meeting, Roots, Solid};
+use super::meeting::{Couple, Earlier, Laws, Meeting, Pressed, Roots, Solid};
 use super::sums::Sums;
 use super::touching::Lanes;
 use crate::dem::block::{BLOCK, Column, Columns, ROWS, Row, row};
 use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{History, Spring, TangentialLaw};
+use crate::dem::friction::{History, LoadedSpring, Spring, TangentialLaw, arm};
 use crate::dem::math::inverse_square_root;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
@@ -50,6 +50,13 @@ pub(super) struct PairBlock<H> {
     earlier_meeting: WallMeetings,
     /// Forces of springs (N).
     spring: Columns,
+    /// Of those that are loaded: forces of dashpots (N), what friction carries (N), squares of both forces (N2) and 1 / their
+    /// roots, levers in radii.
+    drag: Columns,
+    limit: Column,
+    squared: Column,
+    inverse_root: Column,
+    lever: Column,
     force: Columns,
     torque: [Columns; 2],
     /// Overlap of a pair beyond the limit (m), else [`NOT_DEEP`].
@@ -77,6 +84,11 @@ impl<H: History> PairBlock<H> {
             meeting: WallMeetings::NONE,
             earlier_meeting: WallMeetings::NONE,
             spring: Columns::ZERO,
+            drag: Columns::ZERO,
+            limit: [0.0; BLOCK],
+            squared: [0.0; BLOCK],
+            inverse_root: [0.0; BLOCK],
+            lever: [0.0; BLOCK],
             memory: PhantomData,
             force: Columns::ZERO,
             torque: pair(),
@@ -227,15 +239,77 @@ impl<H: History> PairBlock<H> {
                 self.contact_radius[k] = laws.contact_radius(&couple, self.inverse_distance[k]);
             }
         }
-        self.turn_springs(
-            #[inline(always)]
-            |block, k| block.offset.vector(k) * block.inverse_distance[k],
-        );
+        self.turn_springs(Self::normal);
         for k in 0..BLOCK {
             let couple = self.couple::<T, EARLIER>(k, self.solid[1].at(k));
-            let meeting = laws.between_with(&couple, self.roots(k), self.spring(k));
-            self.keep::<T>(k, &meeting);
+            let (roots, spring) = (self.roots(k), self.spring(k));
+            match Self::REMEMBERS {
+                true => self.hold::<T>(k, &laws.pressed_between(&couple, roots, spring)),
+                false => self.keep::<T>(k, &laws.between_with(&couple, roots, spring)),
+            }
         }
+        match self.alike {
+            true => self.rub::<T, true>(Self::normal),
+            false => self.rub::<T, false>(Self::normal),
+        }
+    }
+
+    /// Adds what friction carries of the springs to the forces; with `ONE` torque alone where both are the same, or
+    /// nobody asks for the other. The roots of all are found first: they are a long way of one number after the other, and
+    /// those of a block go it side by side.
+    #[inline(always)]
+    fn rub<T: TangentialLaw<History = H>, const ONE: bool>(
+        &mut self,
+        normal: impl Fn(&Self, usize) -> Vector,
+    ) {
+        if !Self::REMEMBERS {
+            return;
+        }
+        for k in 0..BLOCK {
+            self.inverse_root[k] = inverse_square_root(self.squared[k]);
+        }
+        for k in 0..BLOCK {
+            let loaded = LoadedSpring {
+                elastic: self.spring.vector(k),
+                drag: match T::DRAGS {
+                    true => self.drag.vector(k),
+                    false => Vector::ZERO,
+                },
+                limit: self.limit[k],
+            };
+            let (force, spring) = loaded.capped(self.squared[k], self.inverse_root[k]);
+            let arm = arm(force, normal(self, k));
+            self.force.set(k, self.force.vector(k) + force);
+            let [one, other] = [0, 1].map(|side| self.solid[side].radius[k] * self.lever[k]);
+            self.torque[0].set(k, arm * one);
+            if !ONE {
+                self.torque[1].set(k, arm * other);
+            }
+            self.spring.set(k, spring.force);
+        }
+    }
+
+    /// Keeps what the laws answered of a contact with a spring so far.
+    #[inline(always)]
+    fn hold<T: TangentialLaw>(&mut self, k: usize, pressed: &Pressed) {
+        let touches = pressed.touches;
+        self.too_deep[k] = if pressed.too_deep {
+            pressed.overlap
+        } else {
+            NOT_DEEP
+        };
+        store(&mut self.force, k, touches, pressed.force);
+        store(&mut self.spring, k, touches, pressed.spring.elastic);
+        if T::DRAGS {
+            store(&mut self.drag, k, touches, pressed.spring.drag);
+        }
+        self.limit[k] = pressed.spring.limit;
+        self.squared[k] = if touches {
+            pressed.spring.squared()
+        } else {
+            0.0
+        };
+        self.lever[k] = pressed.lever;
     }
 
     /// Turns springs into the planes across the normals: in a loop of its own, as [`Roots`] are found.
@@ -244,8 +318,7 @@ impl<H: History> PairBlock<H> {
         if Self::REMEMBERS {
             for k in 0..BLOCK {
                 let force = self.spring(k).turned(normal(self, k)).force;
-                let [x, y, z] = &mut self.spring.0;
-                (x[k], y[k], z[k]) = (force.x, force.y, force.z);
+                self.spring.set(k, force);
             }
         }
     }
@@ -272,6 +345,12 @@ impl<H: History> PairBlock<H> {
             });
         }
         couple
+    }
+
+    /// Unit normal of a pair.
+    #[inline(always)]
+    fn normal(&self, k: usize) -> Vector {
+        self.offset.vector(k) * self.inverse_distance[k]
     }
 
     #[inline(always)]
@@ -304,9 +383,6 @@ impl<H: History> PairBlock<H> {
         if T::ROTATES {
             store(&mut self.torque[0], k, touches, meeting.torque[0]);
             store(&mut self.torque[1], k, touches, meeting.torque[1]);
-        }
-        if Self::REMEMBERS {
-            store(&mut self.spring, k, touches, meeting.spring.force);
         }
     }
 

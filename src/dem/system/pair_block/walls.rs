@@ -116,9 +116,21 @@ impl<H: History> PairBlock<H> {
             let earlier = self.earlier_meeting.at(k);
             let earlier = EARLIER.then_some(&earlier);
             let contact = self.meeting.at(k);
-            let meeting = laws.at_contact(&couple, contact, earlier, self.spring(k));
-            self.keep::<T>(k, &meeting);
+            let spring = self.spring(k);
+            match Self::REMEMBERS {
+                true => {
+                    let pressed = laws.pressed_at_contact(&couple, contact, earlier, spring);
+                    self.hold::<T>(k, &pressed);
+                }
+                false => {
+                    self.keep::<T>(k, &laws.at_contact(&couple, contact, earlier, spring));
+                }
+            }
         }
+        self.rub::<T, true>(
+            #[inline(always)]
+            |block, k| block.meeting.at(k).normal,
+        );
     }
 
     /// Adds forces and torques of a wall to those of so many spheres whose sums these are.
