@@ -202,7 +202,7 @@ impl Kind {
             }
             (Self::List(kind), Value::Array(entries)) => {
                 for (index, entry) in entries.iter().enumerate() {
-                    kind.check(entry, &format!("{path}[{index}]"), problems);
+                    kind.check_entry(entry, path, index, problems);
                 }
             }
             (Self::Vector, Value::Array(entries)) if entries.len() == 3 => {
@@ -246,6 +246,17 @@ impl Kind {
             _ if self.fits_type_of(value) => {}
             _ => problems.push(misfit()),
         }
+    }
+
+    /// Checks one entry of a list of this kind that stands at `path`.
+    pub(crate) fn check_entry(
+        &self,
+        entry: &Value,
+        path: &str,
+        index: usize,
+        problems: &mut Vec<Problem>,
+    ) {
+        self.check(entry, &format!("{path}[{index}]"), problems);
     }
 }
 

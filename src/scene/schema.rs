@@ -213,7 +213,8 @@ const START: Kind = Kind::Tagged(
     ],
 );
 
-const START_SPHERE: Kind = Kind::Table(&[
+/// A sphere of a list to start from.
+pub(super) const START_SPHERE: Kind = Kind::Table(&[
     needed("position", Kind::Vector),
     optional("velocity", Kind::Vector),
     optional("spin", Kind::Vector),

@@ -129,8 +129,6 @@ pub(super) struct Meeting {
     pub(super) force: Vector,
     /// Torques on both partners (N m), zero without rotation.
     pub(super) torque: [Vector; 2],
-    /// What the contact remembers.
-    pub(super) spring: Spring,
 }
 
 /// The answer to a contact with a spring before it is asked how much of that friction carries.
@@ -177,6 +175,8 @@ pub(super) struct Roots {
     pub(super) inverse_distance: f64,
     /// The contact radius (m), if a law asks for it.
     pub(super) contact_radius: f64,
+    /// The effective mass (kg), if a law asks for it.
+    pub(super) effective_mass: f64,
 }
 
 impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
@@ -193,6 +193,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         let roots = Roots {
             inverse_distance,
             contact_radius: self.contact_radius(couple, inverse_distance),
+            effective_mass: Self::effective_mass(couple.solid),
         };
         let normal = couple.offset * inverse_distance;
         self.between_with(couple, roots, Self::turned(spring, normal))
@@ -251,7 +252,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             normal: couple.offset * roots.inverse_distance,
             overlap,
             contact_radius: roots.contact_radius,
-            effective_mass: Self::effective_mass(couple),
+            effective_mass: roots.effective_mass,
             lever,
             lesser_mass: lesser(one.mass, other.mass),
             loading: None,
@@ -335,7 +336,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
                 true => contact_radius(overlap, radius),
                 false => 0.0,
             },
-            effective_mass: Self::effective_mass(couple),
+            effective_mass: Self::effective_mass(couple.solid),
             lever: 1.0,
             lesser_mass: mass,
             loading: None,
@@ -352,8 +353,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
 
     /// 1 / (1 / m1 + 1 / m2) (kg), where a law asks for it.
     #[inline(always)]
-    fn effective_mass(couple: &Couple) -> f64 {
-        let [one, other] = couple.solid;
+    pub(super) fn effective_mass([one, other]: [Solid; 2]) -> f64 {
         match Self::NEEDS_EFFECTIVE_MASS {
             true => 1.0 / (one.inverse_mass + other.inverse_mass),
             false => 0.0,
@@ -390,7 +390,6 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             contact_radius,
             force: force.total,
             torque,
-            spring,
         }
     }
 

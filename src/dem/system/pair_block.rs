@@ -45,6 +45,7 @@ pub(super) struct PairBlock<H> {
     /// [`Roots`] of every contact.
     inverse_distance: Column,
     contact_radius: Column,
+    effective_mass: Column,
     /// How spheres meet a wall, now and before.
     meeting: WallMeetings,
     earlier_meeting: WallMeetings,
@@ -81,6 +82,7 @@ impl<H: History> PairBlock<H> {
             inverse_sum: [0.0; BLOCK],
             inverse_distance: [0.0; BLOCK],
             contact_radius: [0.0; BLOCK],
+            effective_mass: [0.0; BLOCK],
             meeting: WallMeetings::NONE,
             earlier_meeting: WallMeetings::NONE,
             spring: Columns::ZERO,
@@ -97,12 +99,13 @@ impl<H: History> PairBlock<H> {
     }
 
     /// Says what all spheres are like, if they are alike: it is then not fetched.
-    pub(super) fn set_alike(&mut self, alike: Option<Solid>) {
+    pub(super) fn set_alike<N: NormalLaw, T: TangentialLaw>(&mut self, alike: Option<Solid>) {
         self.alike = alike.is_some();
         if let Some(solid) = alike {
             self.solid = [Solids::all(solid), Solids::all(solid)];
             self.spin[1] = Columns::ZERO;
             self.inverse_sum = [1.0 / (solid.radius + solid.radius); BLOCK];
+            self.effective_mass = [Laws::<N, T>::effective_mass([solid, solid]); BLOCK];
         }
     }
 
@@ -162,6 +165,9 @@ impl<H: History> PairBlock<H> {
             let [one, other] = &self.solid;
             for (k, inverse) in self.inverse_sum.iter_mut().enumerate() {
                 *inverse = 1.0 / (one.radius[k] + other.radius[k]);
+            }
+            for (k, effective) in self.effective_mass.iter_mut().enumerate() {
+                *effective = Laws::<N, T>::effective_mass([one.at(k), other.at(k)]);
             }
         }
         self.take_springs(
@@ -358,6 +364,7 @@ impl<H: History> PairBlock<H> {
         Roots {
             inverse_distance: self.inverse_distance[k],
             contact_radius: self.contact_radius[k],
+            effective_mass: self.effective_mass[k],
         }
     }
 

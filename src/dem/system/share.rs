@@ -97,7 +97,7 @@ impl<H: History> Share<'_, H> {
             self.sums.torque.fill(Vector::ZERO);
             profile::mark(profile, Part::Rest);
         }
-        self.buffers.block.set_alike(scenery.alike);
+        self.buffers.block.set_alike::<N, T>(scenery.alike);
         // In one loop, as all that stands in it is compiled for every instruction set.
         for crossing in [true, false] {
             self.pair_forces::<S, N, T>(simd, scenery, crossing);

@@ -1,9 +1,11 @@
 //! How deep spheres overlap at the start.
 
+use crate::dem::neighbours::{Reach, VerletList};
+use crate::dem::particles::Particles;
 use crate::dem::start;
 use crate::dem::vector::Vector;
 use crate::dem::walls::{TankWall, Wall};
-use crate::scene::{Scene, Start, Tank};
+use crate::scene::{Neighbours, Scene, Start, Tank};
 
 /// The deepest overlap (m) of two listed spheres, or of one with a wall; zero where none touch. Other
 /// starts have none.
@@ -12,32 +14,35 @@ pub(super) fn deepest_at_start(scene: &Scene) -> f64 {
     let (Start::List { .. }, Ok(spheres)) = (&scene.start, start::place(scene)) else {
         return 0.0;
     };
-    let mut spheres: Vec<_> = spheres.position.into_iter().zip(spheres.radius).collect();
-    spheres.sort_by(|(a, _), (b, _)| a.x.total_cmp(&b.x));
     let pairs = deepest_pair(&spheres);
     let Some(tank) = &scene.tank else {
         return pairs;
     };
-    let walls = spheres.iter().map(|sphere| into_walls(tank, *sphere));
+    let centres = spheres.position.iter().zip(&spheres.radius);
+    let walls = centres.map(|(&centre, &radius)| into_walls(tank, centre, radius));
     walls.fold(pairs, f64::max)
 }
 
-fn into_walls(tank: &Tank, (centre, radius): (Vector, f64)) -> f64 {
+fn into_walls(tank: &Tank, centre: Vector, radius: f64) -> f64 {
     let walls = TankWall::of_tank(tank).into_iter();
     let contacts = walls.map(|wall| wall.contact(centre, radius));
     let touching = contacts.filter(|contact| contact.touches);
     touching.map(|contact| contact.overlap).fold(0.0, f64::max)
 }
 
-/// The deepest overlap of two spheres (centre and radius), which are sorted by their x.
-fn deepest_pair(spheres: &[(Vector, f64)]) -> f64 {
-    let largest = spheres.iter().fold(0.0, |most, &(_, r)| f64::max(most, r));
+/// The deepest overlap of two spheres.
+fn deepest_pair(spheres: &Particles) -> f64 {
+    let Particles {
+        position, radius, ..
+    } = spheres;
+    let mut touching = VerletList::new(Reach::Contact, 0.0, Neighbours::VerletList);
+    touching.build(spheres, 1);
     let mut deepest = 0.0;
-    for (i, &(centre, radius)) in spheres.iter().enumerate() {
-        let end = centre.x + radius + largest;
-        let others = spheres[i + 1..].iter().take_while(|(it, _)| it.x < end);
-        for &(other, other_radius) in others {
-            deepest = f64::max(deepest, radius + other_radius - (centre - other).norm());
+    for (i, entries) in touching.start().windows(2).enumerate() {
+        for &j in &touching.neighbour()[entries[0] as usize..entries[1] as usize] {
+            let j = j as usize;
+            let distance = (position[i] - position[j]).norm();
+            deepest = f64::max(deepest, radius[i] + radius[j] - distance);
         }
     }
     deepest

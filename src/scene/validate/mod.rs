@@ -7,7 +7,7 @@ mod start;
 mod tank;
 mod time;
 
-use super::schema::SCENE;
+use super::schema::{SCENE, START_SPHERE};
 use super::{Contact, Friction, Geometry, Radii, Scene, Spheres, Start, Updraught};
 use crate::document::{Problem, number};
 
@@ -29,8 +29,7 @@ impl Scene {
     /// What is wrong with this scene, but that its time step may be above the limit: nothing of it keeps
     /// the scene from being run.
     pub(crate) fn problems_but_of_limit(&self) -> Vec<Problem> {
-        let mut problems = Vec::new();
-        SCENE.check(&self.tree(), "", &mut problems);
+        let mut problems = self.problems_of_values();
         if problems.is_empty() {
             self.check_all_but_step(&mut problems);
             self.check_whole_steps(&mut problems);
@@ -40,10 +39,31 @@ impl Scene {
 
     /// What is wrong with this scene whatever its time step.
     pub(super) fn problems_but_of_step(&self) -> Vec<Problem> {
-        let mut problems = Vec::new();
-        SCENE.check(&self.tree(), "", &mut problems);
+        let mut problems = self.problems_of_values();
         if problems.is_empty() {
             self.check_all_but_step(&mut problems);
+        }
+        problems
+    }
+
+    /// What is wrong with the kinds of values, and numbers out of their ranges.
+    fn problems_of_values(&self) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        let Start::List { spheres } = &self.start else {
+            SCENE.check(&self.tree(), "", &mut problems);
+            return problems;
+        };
+        // Listed spheres one by one: a tree of all would take a kilobyte for each.
+        let without_them = Self {
+            start: Start::List {
+                spheres: Vec::new(),
+            },
+            ..self.clone()
+        };
+        SCENE.check(&without_them.tree(), "", &mut problems);
+        for (k, sphere) in spheres.iter().enumerate() {
+            let sphere = serde_json::to_value(sphere).expect("a sphere holds no map");
+            START_SPHERE.check_entry(&sphere, "start.spheres", k, &mut problems);
         }
         problems
     }
