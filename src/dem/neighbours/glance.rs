@@ -8,6 +8,8 @@ use fearless_simd::{Simd, SimdBase, SimdMask, f64x8};
 pub(super) struct Facts {
     /// Near enough to touch.
     pub(super) near: u64,
+    /// Touching now.
+    pub(super) touching: u64,
     /// Their part in the shield may change.
     pub(super) undecided: u64,
     /// The second sphere shields the first,
@@ -86,9 +88,12 @@ impl Glance {
         let (dx, dy, dz) = (eight(x), eight(y), eight(z));
         let (ri, rj) = (eight(ri), eight(rj));
         let reach = ri + rj + margin;
-        let near = (dx * dx + dy * dy + dz * dz).simd_lt(reach * reach);
+        let distance_squared = dx * dx + dy * dy + dz * dz;
+        let near = distance_squared.simd_lt(reach * reach);
+        let touching = distance_squared.simd_lt((ri + rj) * (ri + rj));
         let mut facts = Facts {
             near: near.to_bitmask(),
+            touching: touching.to_bitmask(),
             undecided: 0,
             shields_first: 0,
             shields_second: 0,

@@ -54,6 +54,9 @@ pub struct Near {
     /// Sine and cosine of the angle by which the spheres are turned for the shield.
     turned: (f64, f64),
     pairs: Vec<NearPair>,
+    /// How many of them touched when they were found.
+    touching: usize,
+    mostly_touch: bool,
     /// The part of all pairs in the shield.
     shielding: Shield,
     glance: Box<Glance>,
@@ -75,6 +78,8 @@ impl Near {
             life: 0.0,
             turned: (0.0, 1.0),
             pairs: Vec::new(),
+            touching: 0,
+            mostly_touch: false,
             shielding: Shield::default(),
             glance: Box::new(Glance::new()),
             helpers: Vec::new(),
@@ -99,6 +104,11 @@ impl Near {
     #[inline]
     pub fn pairs(&self) -> &[NearPair] {
         &self.pairs
+    }
+
+    /// Whether nine in ten of the pairs, or more, touched when they were found.
+    pub fn mostly_touch(&self) -> bool {
+        self.mostly_touch
     }
 
     /// Takes the pairs out for others, whose memory serves the next ones.
@@ -145,6 +155,7 @@ impl Near {
 
     /// Takes these pairs for all that are near, until they are looked for anew.
     pub fn set_pairs(&mut self, pairs: impl Iterator<Item = (u32, u32)>) {
+        self.mostly_touch = false;
         self.pairs.clear();
         self.pairs.extend(pairs.map(|(i, j)| NearPair::new(i, j)));
     }
@@ -239,9 +250,11 @@ impl Near {
             });
             for helper in &mut helpers {
                 self.pairs.append(&mut helper.pairs);
+                self.touching += helper.touching;
             }
             self.helpers = helpers;
         }
+        self.mostly_touch = 10 * self.touching >= 9 * self.pairs.len();
     }
 
     /// Finds the near ones among these entries of the list.
@@ -265,7 +278,7 @@ impl Near {
         entries: Range<usize>,
     ) {
         let shield = self.shield;
-        let (mut near, mut open) = (0, 0);
+        let (mut near, mut open, mut touching) = (0, 0, 0);
         let Shield {
             counts,
             pairs: undecided,
@@ -291,6 +304,7 @@ impl Near {
                 let all = u64::MAX >> (WORD - (partners.len() - at).min(ROWS));
                 let eight = glance.eight(at);
                 near += keep_pairs(simd, eight, facts.near & all, &mut self.pairs[near..]);
+                touching += (facts.touching & all).count_ones() as usize;
                 if shield {
                     let which = facts.undecided & all;
                     open += keep_pairs(simd, eight, which, &mut undecided[open..]);
@@ -305,6 +319,7 @@ impl Near {
             }
         }
         self.pairs.truncate(if self.contacts { near } else { 0 });
+        self.touching = touching;
         self.shielding.begin(if self.shield { open } else { 0 });
     }
 

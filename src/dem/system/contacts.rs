@@ -1,7 +1,8 @@
 //! What may touch, and what the laws of contacts ask about it.
 
 use super::System;
-use super::meeting::{Couple, Earlier, Laws, Solid};
+use super::couple::{Couple, Earlier, Solid};
+use super::meeting::Laws;
 use super::wall_contacts::NearSphere;
 use crate::dem::block::Row;
 use crate::dem::contact::NormalLaw;

@@ -144,6 +144,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             particles: &self.parts.particles,
             earlier: &self.earlier,
             alike: self.alike,
+            mostly_touch: self.near.mostly_touch(),
         };
         let pairs = Known {
             contacts: &among.pairs[..],

@@ -1,6 +1,7 @@
 //! What a block of contacts holds besides columns of vectors.
 
-use super::meeting::{Laws, Solid};
+use super::couple::Solid;
+use super::meeting::Laws;
 use crate::dem::block::{BLOCK, Column, Columns};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;

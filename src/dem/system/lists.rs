@@ -1,7 +1,8 @@
 //! When lists of neighbours are made anew, and what becomes of the histories of their contacts.
 
+use super::couple::Solid;
 use super::division::threads;
-use super::meeting::{Laws, Solid};
+use super::meeting::Laws;
 use super::{Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};

@@ -2,12 +2,12 @@
 //!
 //! Free of branches, as it stands in loops over blocks of contacts, which touch or not.
 
+use super::couple::{Couple, Solid};
 use crate::dem::contact::{NormalLaw, contact_radius};
 use crate::dem::friction::{
     LoadedSpring, Spring, TangentialLaw, Touch, Traction, sliding_velocity,
 };
 use crate::dem::math::inverse_square_root;
-use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use crate::dem::walls::{Wall, WallContact};
 
@@ -41,74 +41,6 @@ pub(super) struct Laws<N, T> {
     pub(super) tangential: T,
     pub(super) loading: Loading,
     pub(super) overlap_limit: f64,
-}
-
-/// Two partners of a contact, or a sphere and the wall beside it. The first is the one that forces
-/// act on.
-#[derive(Clone, Copy)]
-pub(super) struct Couple {
-    /// Centre of the first from that of the second, or from the origin (m).
-    pub(super) offset: Vector,
-    /// Velocity of the first relative to the second (m/s).
-    pub(super) velocity: Vector,
-    /// Spins (rad/s).
-    pub(super) spin: [Vector; 2],
-    /// What does not change from step to step.
-    pub(super) solid: [Solid; 2],
-    /// 1 / (r1 + r2) (1/m).
-    pub(super) inverse_sum: f64,
-    /// What they did before, by which springs are loaded, if not by the present.
-    pub(super) earlier: Option<Earlier>,
-}
-
-/// What of a sphere does not change.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Solid {
-    /// Radius (m).
-    pub(super) radius: f64,
-    /// Mass (kg).
-    pub(super) mass: f64,
-    /// Inverse mass (1/kg), zero of what does not move.
-    pub(super) inverse_mass: f64,
-    /// Moment of inertia (kg m2).
-    pub(super) inertia: f64,
-}
-
-impl Solid {
-    /// A wall, which friction takes for a partner at rest.
-    pub(super) const WALL: Self = Self {
-        radius: 0.0,
-        mass: 0.0,
-        inverse_mass: 0.0,
-        inertia: 0.0,
-    };
-
-    /// What all spheres are like, if they are alike; `mobile` says whether it matters that some are fixed.
-    pub(super) fn of_all(particles: &Particles, mobile: bool) -> Option<Self> {
-        let Particles {
-            radius,
-            mass,
-            inverse_mass,
-            inertia,
-            ..
-        } = particles;
-        let same = |values: &[f64]| values.windows(2).all(|pair| pair[0] == pair[1]);
-        let alike = same(radius) && same(mass) && same(inertia) && (!mobile || same(inverse_mass));
-        let first = |values: &[f64]| values.first().copied().unwrap_or(0.0);
-        alike.then(|| Self {
-            radius: first(radius),
-            mass: first(mass),
-            inverse_mass: first(inverse_mass),
-            inertia: first(inertia),
-        })
-    }
-}
-
-/// Relative velocity (m/s) and spins (rad/s) before.
-#[derive(Clone, Copy)]
-pub(super) struct Earlier {
-    pub(super) velocity: Vector,
-    pub(super) spin: [Vector; 2],
 }
 
 /// A contact and what its laws answered.
@@ -208,7 +140,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         let [one, other] = couple.solid;
         let distance = couple.offset.norm_squared() * inverse_distance;
         let overlap = one.radius + other.radius - distance;
-        contact_radius(overlap, effective_radius(couple))
+        contact_radius(overlap, couple.effective_radius())
     }
 
     /// A spring across a normal, if a law has springs.
@@ -265,7 +197,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             let lever = couple.solid.map(|it| it.radius * lever);
             let sliding = sliding_velocity(normal, earlier.velocity, earlier.spin, lever);
             let overlap = sum - distance_squared * inverse_distance;
-            encounter.loading = Some((sliding, contact_radius(overlap, effective_radius(couple))));
+            encounter.loading = Some((sliding, contact_radius(overlap, couple.effective_radius())));
         }
         encounter
     }
@@ -468,13 +400,6 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             loading_time: self.loading.duration,
         }
     }
-}
-
-/// r1 r2 / (r1 + r2) (m).
-#[inline(always)]
-fn effective_radius(couple: &Couple) -> f64 {
-    let [one, other] = couple.solid;
-    one.radius * other.radius * couple.inverse_sum
 }
 
 /// Minima and the like as selects, which loops over contacts turn into vector instructions.

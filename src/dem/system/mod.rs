@@ -2,6 +2,7 @@
 
 mod adaptive;
 mod contacts;
+mod couple;
 mod division;
 mod evaluate;
 mod integrate;
@@ -20,11 +21,12 @@ mod touching;
 mod wall_contacts;
 
 use self::adaptive::Workspace;
+use self::couple::Solid;
 use self::division::Division;
 use self::integrate::Before;
 use self::ledger::Ledger;
 pub(in crate::dem) use self::ledger::Work;
-use self::meeting::{Loading, Solid};
+use self::meeting::Loading;
 use self::pair_block::EarlierRows;
 use self::share::Buffers;
 pub(in crate::dem) use self::state::EngineState;

@@ -4,15 +4,17 @@
 //! into vector instructions; a pair that does not touch gets a force of zero. Then the forces are added up
 //! one by one in the order of the list. Adding zero to a sum that began at +0 changes no bit of it.
 
+mod springs;
 mod walls;
 
+use super::couple::{Couple, Earlier, Solid};
 use super::lanes::{Solids, WallMeetings};
-use super::meeting::{Couple, Earlier, Laws, Meeting, Pressed, Roots, Solid};
+use super::meeting::{Laws, Meeting, Roots};
 use super::sums::Sums;
 use super::touching::Lanes;
 use crate::dem::block::{BLOCK, Column, Columns, ROWS, Row, row};
 use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{History, LoadedSpring, Spring, TangentialLaw, arm};
+use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::math::inverse_square_root;
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
@@ -127,9 +129,19 @@ impl<H: History> PairBlock<H> {
         } else {
             position
         };
-        self.take_offset(simd, pairs);
+        let known = self.take_offset(simd, pairs);
         let [first_spin, second_spin] = &mut self.spin;
         for at in (0..BLOCK).step_by(ROWS) {
+            if !known {
+                self.offset.fill_from::<S>(
+                    at,
+                    #[inline(always)]
+                    |k| {
+                        row(simd, position, pairs.pairs[k].i())
+                            - row(simd, position, pairs.pairs[k].j())
+                    },
+                );
+            }
             self.velocity.fill_from::<S>(
                 at,
                 #[inline(always)]
@@ -196,25 +208,19 @@ impl<H: History> PairBlock<H> {
         }
     }
 
+    /// Takes offsets, if they are known. Whether they are.
     #[inline(always)]
-    fn take_offset<S: Simd>(&mut self, simd: S, pairs: &Lanes<'_>) {
-        for (column, lanes) in self.offset.0.iter_mut().zip(pairs.offset) {
+    fn take_offset<S: Simd>(&mut self, simd: S, pairs: &Lanes<'_>) -> bool {
+        let Some(offset) = pairs.offset else {
+            return false;
+        };
+        for (column, lanes) in self.offset.0.iter_mut().zip(offset) {
             for at in (0..BLOCK).step_by(ROWS) {
                 let eight = f64x8::from_slice(simd, &lanes[at..at + ROWS]);
                 eight.store_slice(&mut column[at..at + ROWS]);
             }
         }
-    }
-
-    /// Fetches springs.
-    #[inline(always)]
-    fn take_springs<S: Simd>(&mut self, simd: S, history: impl Fn(usize) -> H) {
-        if Self::REMEMBERS {
-            self.spring.fill::<S>(
-                #[inline(always)]
-                |k| history(k).spring().force.simd(simd),
-            );
-        }
+        true
     }
 
     /// Computes the laws for every pair.
@@ -260,75 +266,6 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Adds what friction carries of the springs to the forces; with `ONE` torque alone where both are the same, or
-    /// nobody asks for the other. The roots of all are found first: they are a long way of one number after the other, and
-    /// those of a block go it side by side.
-    #[inline(always)]
-    fn rub<T: TangentialLaw<History = H>, const ONE: bool>(
-        &mut self,
-        normal: impl Fn(&Self, usize) -> Vector,
-    ) {
-        if !Self::REMEMBERS {
-            return;
-        }
-        for k in 0..BLOCK {
-            self.inverse_root[k] = inverse_square_root(self.squared[k]);
-        }
-        for k in 0..BLOCK {
-            let loaded = LoadedSpring {
-                elastic: self.spring.vector(k),
-                drag: match T::DRAGS {
-                    true => self.drag.vector(k),
-                    false => Vector::ZERO,
-                },
-                limit: self.limit[k],
-            };
-            let (force, spring) = loaded.capped(self.squared[k], self.inverse_root[k]);
-            let arm = arm(force, normal(self, k));
-            self.force.set(k, self.force.vector(k) + force);
-            let [one, other] = [0, 1].map(|side| self.solid[side].radius[k] * self.lever[k]);
-            self.torque[0].set(k, arm * one);
-            if !ONE {
-                self.torque[1].set(k, arm * other);
-            }
-            self.spring.set(k, spring.force);
-        }
-    }
-
-    /// Keeps what the laws answered of a contact with a spring so far.
-    #[inline(always)]
-    fn hold<T: TangentialLaw>(&mut self, k: usize, pressed: &Pressed) {
-        let touches = pressed.touches;
-        self.too_deep[k] = if pressed.too_deep {
-            pressed.overlap
-        } else {
-            NOT_DEEP
-        };
-        store(&mut self.force, k, touches, pressed.force);
-        store(&mut self.spring, k, touches, pressed.spring.elastic);
-        if T::DRAGS {
-            store(&mut self.drag, k, touches, pressed.spring.drag);
-        }
-        self.limit[k] = pressed.spring.limit;
-        self.squared[k] = if touches {
-            pressed.spring.squared()
-        } else {
-            0.0
-        };
-        self.lever[k] = pressed.lever;
-    }
-
-    /// Turns springs into the planes across the normals: in a loop of its own, as [`Roots`] are found.
-    #[inline(always)]
-    fn turn_springs(&mut self, normal: impl Fn(&Self, usize) -> Vector) {
-        if Self::REMEMBERS {
-            for k in 0..BLOCK {
-                let force = self.spring(k).turned(normal(self, k)).force;
-                self.spring.set(k, force);
-            }
-        }
-    }
-
     /// The partners of a contact, the second of them like that, with what they did before if springs are
     /// loaded by that.
     #[inline(always)]
@@ -366,15 +303,6 @@ impl<H: History> PairBlock<H> {
             contact_radius: self.contact_radius[k],
             effective_mass: self.effective_mass[k],
         }
-    }
-
-    #[inline(always)]
-    fn spring(&self, k: usize) -> Spring {
-        let force = match Self::REMEMBERS {
-            true => self.spring.vector(k),
-            false => Vector::ZERO,
-        };
-        Spring { force }
     }
 
     /// Keeps what the laws answered.
@@ -453,28 +381,6 @@ impl<H: History> PairBlock<H> {
             for columns in [&mut self.force, one, other] {
                 for column in &mut columns.0 {
                     column[contacts..].fill(0.0);
-                }
-            }
-        }
-    }
-
-    /// Writes down what the contacts remember, each at its entry.
-    #[inline(always)]
-    pub(super) fn remember<S: Simd>(
-        &self,
-        simd: S,
-        histories: &mut [H],
-        entry: impl Fn(usize) -> usize,
-    ) {
-        if !Self::REMEMBERS {
-            return;
-        }
-        for at in (0..BLOCK).step_by(ROWS) {
-            let rows = self.spring.rows(simd, at);
-            for k in 0..ROWS {
-                if let Some(history) = histories.get_mut(entry(at + k)) {
-                    let force = Vector::of_row(rows[k].into());
-                    *history = H::of_spring(Spring { force });
                 }
             }
         }

@@ -1,8 +1,9 @@
 //! Forces at contacts, block by block: which of them touch, and what acts on whom. One thread answers for all,
 //! or each for a share of the spheres.
 
+use super::couple::Solid;
 use super::lanes::whole;
-use super::meeting::{Laws, Solid};
+use super::meeting::Laws;
 use super::pair_block::{EarlierRows, PairBlock};
 use super::sums::Sums;
 use super::touching::{LOOK, Touching};
@@ -25,6 +26,8 @@ pub(super) struct Scenery<'a, N, T> {
     pub(super) earlier: &'a [EarlierRows],
     /// What all spheres are like, if they are alike.
     pub(super) alike: Option<Solid>,
+    /// Whether nearly all near pairs touch: the others need not be sorted out then.
+    pub(super) mostly_touch: bool,
 }
 
 /// Contacts, possible ones included, and what they remember.
@@ -128,6 +131,7 @@ impl<H: History> Share<'_, H> {
             particles,
             earlier,
             alike,
+            mostly_touch,
         } = scenery;
         let known = match crossing {
             true => &mut self.crossing,
@@ -137,7 +141,10 @@ impl<H: History> Share<'_, H> {
         let Buffers { block, touching } = &mut *self.buffers;
         let histories = &mut *known.histories;
         for (first, near) in (0..).step_by(LOOK).zip(known.contacts.chunks(LOOK)) {
-            let found = touching.find(simd, near, first, histories, particles, *alike);
+            let found = match *mostly_touch {
+                true => touching.take_all(near, first),
+                false => touching.find(simd, near, first, histories, particles, *alike),
+            };
             for at in (0..found).step_by(BLOCK) {
                 let lanes = &touching.block(at, found);
                 block.take_pairs::<S, N, T>(simd, lanes, histories, particles, earlier);

@@ -1,6 +1,6 @@
 //! Which of those that are near each other touch: contacts are computed of these alone.
 
-use super::meeting::Solid;
+use super::couple::Solid;
 use crate::dem::block::{BLOCK, ROWS, row, turned};
 use crate::dem::neighbours::{NearPair, keep_pairs};
 use crate::dem::particles::Particles;
@@ -17,7 +17,7 @@ const CACHES: usize = 1 << 25;
 /// As lanes are written whole, some are written in vain.
 const ROOM: usize = LOOK + ROWS;
 
-/// Contacts that touch, in the order of their list.
+/// Contacts that touch, in the order of their list; or all, where few do not.
 pub(super) struct Touching {
     pairs: [NearPair; ROOM],
     /// The last few that are looked at.
@@ -26,7 +26,9 @@ pub(super) struct Touching {
     entries: [u32; ROOM],
     /// Where those of contacts are that do not touch.
     apart: [u32; ROOM],
-    /// Centre of the first partner from that of the second (m).
+    /// Whether they were sorted out, or others may be among them.
+    sorted_out: bool,
+    /// Centre of the first partner from that of the second (m), of those that were sorted out.
     offset: [[f64; ROOM]; 3],
 }
 
@@ -35,7 +37,8 @@ pub(super) struct Touching {
 pub(super) struct Lanes<'a> {
     pub(super) pairs: &'a [NearPair; BLOCK],
     pub(super) entries: &'a [u32; BLOCK],
-    pub(super) offset: [&'a [f64; BLOCK]; 3],
+    /// Centres of the first partners from those of the second (m), if they are known.
+    pub(super) offset: Option<[&'a [f64; BLOCK]; 3]>,
     /// How many lanes have one.
     pub(super) count: usize,
 }
@@ -47,6 +50,7 @@ impl Touching {
             rest: [NearPair::default(); ROWS],
             entries: [0; ROOM],
             apart: [0; ROOM],
+            sorted_out: true,
             offset: [[0.0; ROOM]; 3],
         }
     }
@@ -60,11 +64,14 @@ impl Touching {
         Lanes {
             pairs: self.pairs[all.clone()].try_into().expect(FITS),
             entries: self.entries[all.clone()].try_into().expect(FITS),
-            offset: [
-                x[all.clone()].try_into().expect(FITS),
-                y[all.clone()].try_into().expect(FITS),
-                z[all].try_into().expect(FITS),
-            ],
+            offset: match self.sorted_out {
+                true => Some([
+                    x[all.clone()].try_into().expect(FITS),
+                    y[all.clone()].try_into().expect(FITS),
+                    z[all].try_into().expect(FITS),
+                ]),
+                false => None,
+            },
             count: (found - at).min(BLOCK),
         }
     }
@@ -124,8 +131,21 @@ impl Touching {
                 histories[entry as usize] = H::default();
             }
         }
+        self.sorted_out = true;
         self.fill_up(found);
         found
+    }
+
+    /// Takes all of these, up to [`LOOK`] of them, the first of which has its history at `from`, without a look at
+    /// whether they touch: the laws find out. Says how many they are.
+    pub(super) fn take_all(&mut self, near: &[NearPair], from: usize) -> usize {
+        self.pairs[..near.len()].copy_from_slice(near);
+        for (k, entry) in self.entries[..near.len()].iter_mut().enumerate() {
+            *entry = (from + k) as u32;
+        }
+        self.sorted_out = false;
+        self.fill_up(near.len());
+        near.len()
     }
 
     /// Repeats the last contact to the end of its block.

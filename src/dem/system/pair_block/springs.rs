@@ -1,0 +1,122 @@
+//! What contacts of a block remember, and what friction carries of it.
+
+use super::{NOT_DEEP, PairBlock, store};
+use crate::dem::block::{BLOCK, ROWS};
+use crate::dem::friction::{History, LoadedSpring, Spring, TangentialLaw, arm};
+use crate::dem::math::inverse_square_root;
+use crate::dem::system::meeting::Pressed;
+use crate::dem::vector::Vector;
+use fearless_simd::Simd;
+
+impl<H: History> PairBlock<H> {
+    /// Fetches springs.
+    #[inline(always)]
+    pub(super) fn take_springs<S: Simd>(&mut self, simd: S, history: impl Fn(usize) -> H) {
+        if Self::REMEMBERS {
+            self.spring.fill::<S>(
+                #[inline(always)]
+                |k| history(k).spring().force.simd(simd),
+            );
+        }
+    }
+
+    /// Adds what friction carries of the springs to the forces; with `ONE` torque alone where both are the same, or
+    /// nobody asks for the other. The roots of all are found first: they are a long way of one number after the other, and
+    /// those of a block go it side by side.
+    #[inline(always)]
+    pub(super) fn rub<T: TangentialLaw<History = H>, const ONE: bool>(
+        &mut self,
+        normal: impl Fn(&Self, usize) -> Vector,
+    ) {
+        if !Self::REMEMBERS {
+            return;
+        }
+        for k in 0..BLOCK {
+            self.inverse_root[k] = inverse_square_root(self.squared[k]);
+        }
+        for k in 0..BLOCK {
+            let loaded = LoadedSpring {
+                elastic: self.spring.vector(k),
+                drag: match T::DRAGS {
+                    true => self.drag.vector(k),
+                    false => Vector::ZERO,
+                },
+                limit: self.limit[k],
+            };
+            let (force, spring) = loaded.capped(self.squared[k], self.inverse_root[k]);
+            let arm = arm(force, normal(self, k));
+            self.force.set(k, self.force.vector(k) + force);
+            let [one, other] = [0, 1].map(|side| self.solid[side].radius[k] * self.lever[k]);
+            self.torque[0].set(k, arm * one);
+            if !ONE {
+                self.torque[1].set(k, arm * other);
+            }
+            self.spring.set(k, spring.force);
+        }
+    }
+
+    /// Keeps what the laws answered of a contact with a spring so far.
+    #[inline(always)]
+    pub(super) fn hold<T: TangentialLaw>(&mut self, k: usize, pressed: &Pressed) {
+        let touches = pressed.touches;
+        self.too_deep[k] = if pressed.too_deep {
+            pressed.overlap
+        } else {
+            NOT_DEEP
+        };
+        store(&mut self.force, k, touches, pressed.force);
+        store(&mut self.spring, k, touches, pressed.spring.elastic);
+        if T::DRAGS {
+            store(&mut self.drag, k, touches, pressed.spring.drag);
+        }
+        self.limit[k] = pressed.spring.limit;
+        self.squared[k] = if touches {
+            pressed.spring.squared()
+        } else {
+            0.0
+        };
+        self.lever[k] = pressed.lever;
+    }
+
+    /// Turns springs into the planes across the normals: in a loop of its own, as [`Roots`] are found.
+    #[inline(always)]
+    pub(super) fn turn_springs(&mut self, normal: impl Fn(&Self, usize) -> Vector) {
+        if Self::REMEMBERS {
+            for k in 0..BLOCK {
+                let force = self.spring(k).turned(normal(self, k)).force;
+                self.spring.set(k, force);
+            }
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn spring(&self, k: usize) -> Spring {
+        let force = match Self::REMEMBERS {
+            true => self.spring.vector(k),
+            false => Vector::ZERO,
+        };
+        Spring { force }
+    }
+
+    /// Writes down what the contacts remember, each at its entry.
+    #[inline(always)]
+    pub(in crate::dem::system) fn remember<S: Simd>(
+        &self,
+        simd: S,
+        histories: &mut [H],
+        entry: impl Fn(usize) -> usize,
+    ) {
+        if !Self::REMEMBERS {
+            return;
+        }
+        for at in (0..BLOCK).step_by(ROWS) {
+            let rows = self.spring.rows(simd, at);
+            for k in 0..ROWS {
+                if let Some(history) = histories.get_mut(entry(at + k)) {
+                    let force = Vector::of_row(rows[k].into());
+                    *history = H::of_spring(Spring { force });
+                }
+            }
+        }
+    }
+}
