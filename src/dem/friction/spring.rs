@@ -66,8 +66,9 @@ pub struct LoadedSpring {
 }
 
 impl LoadedSpring {
+    /// The force of both (N), as long as friction carries it.
     #[inline(always)]
-    fn force(&self) -> Vector {
+    pub(in crate::dem) fn force(&self) -> Vector {
         self.elastic - self.drag
     }
 

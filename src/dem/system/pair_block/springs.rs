@@ -21,8 +21,7 @@ impl<H: History> PairBlock<H> {
     }
 
     /// Adds what friction carries of the springs to the forces; with `ONE` torque alone where both are the same, or
-    /// nobody asks for the other. The roots of all are found first: they are a long way of one number after the other, and
-    /// those of a block go it side by side.
+    /// nobody asks for the other.
     #[inline(always)]
     pub(super) fn rub<T: TangentialLaw<History = H>, const ONE: bool>(
         &mut self,
@@ -31,27 +30,49 @@ impl<H: History> PairBlock<H> {
         if !Self::REMEMBERS {
             return;
         }
-        for k in 0..BLOCK {
-            self.inverse_root[k] = inverse_square_root(self.squared[k]);
-        }
-        for k in 0..BLOCK {
-            let loaded = LoadedSpring {
-                elastic: self.spring.vector(k),
-                drag: match T::DRAGS {
-                    true => self.drag.vector(k),
-                    false => Vector::ZERO,
-                },
-                limit: self.limit[k],
-            };
-            let (force, spring) = loaded.capped(self.squared[k], self.inverse_root[k]);
-            let arm = arm(force, normal(self, k));
-            self.force.set(k, self.force.vector(k) + force);
-            let [one, other] = [0, 1].map(|side| self.solid[side].radius[k] * self.lever[k]);
-            self.torque[0].set(k, arm * one);
-            if !ONE {
-                self.torque[1].set(k, arm * other);
+        for at in (0..BLOCK).step_by(ROWS) {
+            let eight = at..at + ROWS;
+            let slides = |k: usize| self.squared[k] > self.limit[k] * self.limit[k];
+            // In a bed at rest hardly any contact does, and the root is a long way.
+            if eight.clone().fold(false, |any, k| any | slides(k)) {
+                for k in eight.clone() {
+                    self.inverse_root[k] = inverse_square_root(self.squared[k]);
+                }
+                for k in eight {
+                    let loaded = self.loaded::<T>(k);
+                    let (force, spring) = loaded.capped(self.squared[k], self.inverse_root[k]);
+                    self.spring.set(k, spring.force);
+                    self.add_friction::<ONE>(k, force, normal(self, k));
+                }
+            } else {
+                for k in eight {
+                    let force = self.loaded::<T>(k).force();
+                    self.add_friction::<ONE>(k, force, normal(self, k));
+                }
             }
-            self.spring.set(k, spring.force);
+        }
+    }
+
+    #[inline(always)]
+    fn loaded<T: TangentialLaw>(&self, k: usize) -> LoadedSpring {
+        LoadedSpring {
+            elastic: self.spring.vector(k),
+            drag: match T::DRAGS {
+                true => self.drag.vector(k),
+                false => Vector::ZERO,
+            },
+            limit: self.limit[k],
+        }
+    }
+
+    #[inline(always)]
+    fn add_friction<const ONE: bool>(&mut self, k: usize, force: Vector, normal: Vector) {
+        let arm = arm(force, normal);
+        self.force.set(k, self.force.vector(k) + force);
+        let [one, other] = [0, 1].map(|side| self.solid[side].radius[k] * self.lever[k]);
+        self.torque[0].set(k, arm * one);
+        if !ONE {
+            self.torque[1].set(k, arm * other);
         }
     }
 
