@@ -5,6 +5,7 @@ use crate::dem::block::BLOCK;
 use crate::dem::bodies::{Asked, Bodies};
 use crate::dem::particles::Particles;
 use crate::dem::profile::Part;
+use crate::dem::vector::Vector;
 use crate::scene;
 
 pub(super) struct Gravity {
@@ -39,6 +40,11 @@ impl OneBody for Gravity {
                 force_x[k] += mass[k] * x;
             }
         }
+    }
+
+    fn acceleration(&self) -> Option<Vector> {
+        let [x, z] = self.acceleration;
+        Some(Vector::new(x, 0.0, z))
     }
 
     fn energy(&self, particles: &Particles) -> Option<f64> {

@@ -9,6 +9,7 @@ mod updraught;
 use super::bodies::{Asked, Bodies};
 use super::particles::Particles;
 use super::profile::Part;
+use super::vector::Vector;
 use crate::scene::Scene;
 use fearless_simd::Level;
 
@@ -23,6 +24,9 @@ pub(super) trait Effect: Send + Sync {
 
     /// What it asks for.
     fn asks(&self) -> Asked;
+
+    /// The acceleration (m/s2) of all spheres, where it is nothing else: no block of them is needed then.
+    fn acceleration(&self) -> Option<Vector>;
 
     /// What it is called in a profile.
     fn part(&self) -> Part;
@@ -48,6 +52,11 @@ trait OneBody: Send + Sync {
     /// As [`Effect::apply`]; implementations must be inlined always.
     fn add(&self, bodies: &mut Bodies);
 
+    /// As [`Effect::acceleration`].
+    fn acceleration(&self) -> Option<Vector> {
+        None
+    }
+
     /// As [`Effect::reorder`], of an effect that keeps something per sphere.
     fn reorder(&mut self, _order: &[u32]) {}
 
@@ -71,6 +80,10 @@ impl<E: OneBody> Effect for E {
 
     fn asks(&self) -> Asked {
         E::ASKS
+    }
+
+    fn acceleration(&self) -> Option<Vector> {
+        OneBody::acceleration(self)
     }
 
     fn part(&self) -> Part {

@@ -89,9 +89,17 @@ impl Moves<'_> {
         profile: &mut Option<Box<Profile>>,
     ) -> Found {
         let mut found = Found::default();
+        // Gravity alone is no more than a part of the kick.
+        let alone = match self.effects {
+            [effect] => effect.acceleration().map(|it| (it, effect.part())),
+            _ => None,
+        };
         while spheres.len() > 0 {
             let mut some = spheres.split(AT_HAND);
-            if !self.effects.is_empty() {
+            if let Some((acceleration, part)) = alone {
+                fearless_simd::dispatch!(level, simd => accelerate(simd, &mut some, acceleration));
+                profile::mark(profile, part);
+            } else if !self.effects.is_empty() {
                 fearless_simd::dispatch!(level, simd => self.act(simd, &mut some, bodies, asked, level, profile));
             }
             for (&kick, too_fast) in self.kicks.iter().zip(&mut found.too_fast) {
@@ -152,6 +160,16 @@ impl Found {
             too_fast,
             far: self.far || later.far,
         }
+    }
+}
+
+/// F += m a.
+#[inline(always)]
+fn accelerate<S: Simd>(simd: S, spheres: &mut Spheres<'_>, acceleration: Vector) {
+    let acceleration = acceleration.simd(simd);
+    for (force, &mass) in spheres.force.iter_mut().zip(spheres.mass) {
+        let row = force.simd(simd) + acceleration * mass;
+        *force = Vector::of_row(row.into());
     }
 }
 
