@@ -11,7 +11,7 @@ use super::couple::{Couple, Earlier, Solid};
 use super::lanes::{Solids, WallMeetings};
 use super::meeting::{Laws, Meeting, Roots};
 use super::sums::Sums;
-use super::touching::Lanes;
+use super::touching::{Entries, Lanes};
 use crate::dem::block::{BLOCK, Column, Columns, ROWS, Row, row};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
@@ -182,11 +182,21 @@ impl<H: History> PairBlock<H> {
                 *effective = Laws::<N, T>::effective_mass([one.at(k), other.at(k)]);
             }
         }
-        self.take_springs(
-            simd,
-            #[inline(always)]
-            |k| histories[pairs.entries[k] as usize],
-        );
+        match pairs.entries {
+            Entries::Listed(entries) => self.take_springs(
+                simd,
+                #[inline(always)]
+                |k| histories[entries[k] as usize],
+            ),
+            Entries::From(first) => {
+                let histories = &histories[first..first + BLOCK];
+                self.take_springs(
+                    simd,
+                    #[inline(always)]
+                    |k| histories[k],
+                );
+            }
+        }
         if Self::REMEMBERS && !earlier.is_empty() {
             self.earlier_velocity.fill::<S>(
                 #[inline(always)]

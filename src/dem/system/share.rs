@@ -6,7 +6,7 @@ use super::lanes::whole;
 use super::meeting::Laws;
 use super::pair_block::{EarlierRows, PairBlock};
 use super::sums::Sums;
-use super::touching::{LOOK, Touching};
+use super::touching::{Entries, LOOK, Touching};
 use super::wall_contacts::NearSphere;
 use crate::dem::block::BLOCK;
 use crate::dem::contact::NormalLaw;
@@ -142,19 +142,27 @@ impl<H: History> Share<'_, H> {
         let histories = &mut *known.histories;
         for (first, near) in (0..).step_by(LOOK).zip(known.contacts.chunks(LOOK)) {
             let found = match *mostly_touch {
-                true => touching.take_all(near, first),
+                true => near.len(),
                 false => touching.find(simd, near, first, histories, particles, *alike),
             };
             for at in (0..found).step_by(BLOCK) {
-                let lanes = &touching.block(at, found);
+                let lanes = &match *mostly_touch {
+                    true => touching.first_of(&near[at..], first + at),
+                    false => touching.block(at, found),
+                };
                 block.take_pairs::<S, N, T>(simd, lanes, histories, particles, earlier);
                 block.interact(laws);
-                block.remember(
-                    simd,
-                    histories,
-                    #[inline(always)]
-                    |k| lanes.entries[k] as usize,
-                );
+                match lanes.entries {
+                    Entries::Listed(entries) => block.remember(
+                        simd,
+                        histories,
+                        #[inline(always)]
+                        |k| entries[k] as usize,
+                    ),
+                    Entries::From(first) => {
+                        block.remember(simd, &mut histories[first..first + BLOCK], |k| k);
+                    }
+                }
                 block.add_to_pairs::<S, T>(simd, lanes, &mut self.sums);
                 if let Some((k, overlap)) = block.first_too_deep(lanes.count) {
                     let pair = lanes.pairs[k];

@@ -26,9 +26,7 @@ pub(super) struct Touching {
     entries: [u32; ROOM],
     /// Where those of contacts are that do not touch.
     apart: [u32; ROOM],
-    /// Whether they were sorted out, or others may be among them.
-    sorted_out: bool,
-    /// Centre of the first partner from that of the second (m), of those that were sorted out.
+    /// Centre of the first partner from that of the second (m).
     offset: [[f64; ROOM]; 3],
 }
 
@@ -36,11 +34,20 @@ pub(super) struct Touching {
 #[derive(Clone, Copy)]
 pub(super) struct Lanes<'a> {
     pub(super) pairs: &'a [NearPair; BLOCK],
-    pub(super) entries: &'a [u32; BLOCK],
+    pub(super) entries: Entries<'a>,
     /// Centres of the first partners from those of the second (m), if they are known.
     pub(super) offset: Option<[&'a [f64; BLOCK]; 3]>,
     /// How many lanes have one.
     pub(super) count: usize,
+}
+
+/// Where the histories of a block of contacts are.
+#[derive(Clone, Copy)]
+pub(super) enum Entries<'a> {
+    /// Each by itself.
+    Listed(&'a [u32; BLOCK]),
+    /// One after the other, from there on.
+    From(usize),
 }
 
 impl Touching {
@@ -50,12 +57,11 @@ impl Touching {
             rest: [NearPair::default(); ROWS],
             entries: [0; ROOM],
             apart: [0; ROOM],
-            sorted_out: true,
             offset: [[0.0; ROOM]; 3],
         }
     }
 
-    /// The block from `at` on, of so many contacts.
+    /// The block from `at` on, of so many contacts that were found.
     #[inline(always)]
     pub(super) fn block(&self, at: usize, found: usize) -> Lanes<'_> {
         const FITS: &str = "a block lies within the room";
@@ -63,16 +69,36 @@ impl Touching {
         let [x, y, z] = &self.offset;
         Lanes {
             pairs: self.pairs[all.clone()].try_into().expect(FITS),
-            entries: self.entries[all.clone()].try_into().expect(FITS),
-            offset: match self.sorted_out {
-                true => Some([
-                    x[all.clone()].try_into().expect(FITS),
-                    y[all.clone()].try_into().expect(FITS),
-                    z[all].try_into().expect(FITS),
-                ]),
-                false => None,
-            },
+            entries: Entries::Listed(self.entries[all.clone()].try_into().expect(FITS)),
+            offset: Some([
+                x[all.clone()].try_into().expect(FITS),
+                y[all.clone()].try_into().expect(FITS),
+                z[all].try_into().expect(FITS),
+            ]),
             count: (found - at).min(BLOCK),
+        }
+    }
+
+    /// The first [`BLOCK`] of these contacts, or all that there are, without a look at whether they touch: the laws
+    /// find out. The first one has its history at `from`.
+    #[inline(always)]
+    pub(super) fn first_of<'a>(&'a mut self, near: &'a [NearPair], from: usize) -> Lanes<'a> {
+        let Some(pairs) = near.first_chunk() else {
+            self.pairs[..near.len()].copy_from_slice(near);
+            for (entry, at) in self.entries.iter_mut().zip(from..from + near.len()) {
+                *entry = at as u32;
+            }
+            self.fill_up(near.len());
+            return Lanes {
+                offset: None,
+                ..self.block(0, near.len())
+            };
+        };
+        Lanes {
+            pairs,
+            entries: Entries::From(from),
+            offset: None,
+            count: BLOCK,
         }
     }
 
@@ -131,21 +157,8 @@ impl Touching {
                 histories[entry as usize] = H::default();
             }
         }
-        self.sorted_out = true;
         self.fill_up(found);
         found
-    }
-
-    /// Takes all of these, up to [`LOOK`] of them, the first of which has its history at `from`, without a look at
-    /// whether they touch: the laws find out. Says how many they are.
-    pub(super) fn take_all(&mut self, near: &[NearPair], from: usize) -> usize {
-        self.pairs[..near.len()].copy_from_slice(near);
-        for (k, entry) in self.entries[..near.len()].iter_mut().enumerate() {
-            *entry = (from + k) as u32;
-        }
-        self.sorted_out = false;
-        self.fill_up(near.len());
-        near.len()
     }
 
     /// Repeats the last contact to the end of its block.
@@ -241,9 +254,12 @@ mod tests {
             let near: Vec<NearPair> = (1..gaps.len() as u32).map(|j| NearPair::new(j - 1, j)).collect();
             let mut histories: Vec<u32> = (0..(from + near.len()) as u32).map(|k| k + 1).collect();
             let mut touching = Touching::new();
-            let found = fearless_simd::dispatch!(Level::new(), simd => {
-                touching.find(simd, &near, from, &mut histories, &particles, None)
-            });
+            let sort_out = |touching: &mut Touching, histories: &mut Vec<u32>| {
+                fearless_simd::dispatch!(Level::new(), simd => {
+                    touching.find(simd, &near, from, histories, &particles, None)
+                })
+            };
+            let found = sort_out(&mut touching, &mut histories);
             let touch = |pair: &NearPair| {
                 let [i, j] = pair.sides().map(|i| i as usize);
                 let offset = particles.position[i] - particles.position[j];
@@ -261,6 +277,22 @@ mod tests {
                 prop_assert_eq!(kept, touch(pair));
             }
             prop_assert!(histories[..from].iter().zip(1..).all(|(&it, k)| it == k));
+            // Or all are taken as they are.
+            for at in (0..near.len()).step_by(BLOCK) {
+                let lanes = touching.first_of(&near[at..], from + at);
+                let entry = |k: usize| match lanes.entries {
+                    Entries::Listed(entries) => entries[k] as usize,
+                    Entries::From(first) => first + k,
+                };
+                prop_assert_eq!(lanes.count, (near.len() - at).min(BLOCK));
+                prop_assert!(lanes.offset.is_none());
+                for k in 0..BLOCK {
+                    let which = at + k.min(lanes.count - 1);
+                    prop_assert_eq!(lanes.pairs[k], near[which]);
+                    prop_assert_eq!(entry(k), from + which);
+                }
+            }
+            let found = sort_out(&mut touching, &mut histories);
             // The lanes of the last block that have no pair repeat the last one.
             for at in (0..found).step_by(BLOCK) {
                 let lanes = touching.block(at, found);
