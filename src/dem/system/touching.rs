@@ -299,7 +299,7 @@ mod tests {
                 prop_assert_eq!(lanes.count, (found - at).min(BLOCK));
                 for k in lanes.count..BLOCK {
                     prop_assert_eq!(lanes.pairs[k], lanes.pairs[lanes.count - 1]);
-                    prop_assert_eq!(lanes.offset[0][k], lanes.offset[0][lanes.count - 1]);
+                    prop_assert_eq!(lanes.offset.map(|it| it[0][k]), lanes.offset.map(|it| it[0][lanes.count - 1]));
                 }
             }
         }
