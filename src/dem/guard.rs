@@ -123,8 +123,8 @@ impl Limits {
         })
     }
 
-    /// The first that is too fast for its limit of spheres with these velocities and radii, the first of which has
-    /// that index.
+    /// The first sphere that is too fast for its limit, of those with these velocities and radii; their indices
+    /// begin at `first`.
     pub(super) fn first_too_fast(
         &self,
         first: usize,

@@ -25,7 +25,7 @@ pub(super) trait Effect: Send + Sync {
     /// What it asks for.
     fn asks(&self) -> Asked;
 
-    /// The acceleration (m/s2) of all spheres, where it is nothing else: no block of them is needed then.
+    /// The acceleration (m/s2) that it gives to all spheres, if it does nothing else: they then need no blocks.
     fn acceleration(&self) -> Option<Vector>;
 
     /// What it is called in a profile.

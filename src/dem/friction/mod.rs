@@ -173,7 +173,7 @@ pub trait TangentialLaw: Copy + Send + Sync + 'static {
 
     /// Traction at a contact over the coming step; none where the normal force is zero. Free of branches,
     /// for a block of contacts at once. The spring lies [across the normal](Spring::turned) when it comes; a law
-    /// without history leaves it alone, one with a history says how it is [loaded](Self::load) alone.
+    /// without history leaves it as it is, one with a history need only say how it is [loaded](Self::load).
     #[inline(always)]
     fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction {
         let loaded = self.load(touch, *spring);

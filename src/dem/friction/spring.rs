@@ -79,8 +79,8 @@ impl LoadedSpring {
     }
 
     /// The tangential force (N), and the spring that is left: one that slides keeps the length with which it would
-    /// go on sticking from there (Luding, Granular Matter 10, 235 (2008), section 2.3). With the square (N2) and
-    /// 1 / its root.
+    /// go on sticking from there (Luding, Granular Matter 10, 235 (2008), section 2.3). Takes the square of the
+    /// force (N2) and 1 / its root.
     #[inline(always)]
     pub(in crate::dem) fn capped(&self, squared: f64, inverse_root: f64) -> (Vector, Spring) {
         let force = self.force();

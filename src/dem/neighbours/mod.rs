@@ -294,6 +294,22 @@ impl VerletList {
     }
 }
 
+/// Calls `visit` with both spheres of every pair that may touch, and of others. Without a list of them: of a
+/// scene that nobody has looked at yet, all spheres may lie in one place, or anywhere.
+pub fn visit_pairs(particles: &Particles, mut visit: impl FnMut(usize, usize)) {
+    let length = 2.0 * particles.largest_radius();
+    let mut search = Search::new(Neighbours::HashedCells { length });
+    search.fill(particles, length, false, true);
+    for i in 0..particles.len() {
+        let first = particles.first_partner(i) as u32;
+        search.near(i, particles, |j, _, _| {
+            if j >= first {
+                visit(i, j as usize);
+            }
+        });
+    }
+}
+
 /// Lists the partners of sphere `i` that come after it, in no order.
 fn find_partners(
     reach: Reach,

@@ -56,6 +56,7 @@ pub struct Near {
     pairs: Vec<NearPair>,
     /// How many of them touched when they were found.
     touching: usize,
+    /// As [`Self::mostly_touch`] says.
     mostly_touch: bool,
     /// The part of all pairs in the shield.
     shielding: Shield,

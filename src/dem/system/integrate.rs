@@ -102,13 +102,15 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Reports who was too fast in this step, or else in the next one, where that has begun.
-    pub(super) fn check_speeds(&self, too_fast: FirstTooFast) -> Result<(), Instability> {
-        let Parts { limits, dt, .. } = &self.parts;
+    pub(super) fn check_speeds(&mut self, too_fast: FirstTooFast) -> Result<(), Instability> {
         let mut steps = (self.step..).zip(too_fast);
-        match steps.find_map(|(step, it)| Some((step, it?))) {
-            Some((step, it)) => Err(limits.speed_broken(step, *dt, it)),
-            None => Ok(()),
-        }
+        let Some((step, it)) = steps.find_map(|(step, it)| Some((step, it?))) else {
+            return Ok(());
+        };
+        // What is there is of no moment before it broke.
+        (self.step, self.begun) = (step, false);
+        let Parts { limits, dt, .. } = &self.parts;
+        Err(limits.speed_broken(step, *dt, it))
     }
 
     pub(super) fn steps(&mut self, steps: u64) -> Result<(), Instability> {

@@ -89,6 +89,7 @@ impl Moves<'_> {
         profile: &mut Option<Box<Profile>>,
     ) -> Found {
         let mut found = Found::default();
+        debug_assert!(self.kicks.len() <= found.too_fast.len());
         // Gravity alone is no more than a part of the kick.
         let alone = match self.effects {
             [effect] => effect.acceleration().map(|it| (it, effect.part())),
@@ -178,7 +179,7 @@ fn accelerate<S: Simd>(simd: S, spheres: &mut Spheres<'_>, acceleration: Vector)
 fn kick_all<S: Simd>(simd: S, spheres: &mut Spheres<'_>, dt: f64, slow: f64) -> bool {
     // The last number of a row means nothing.
     let most = f64x4::simd_from(simd, [slow, slow, slow, f64::INFINITY]);
-    let mut slow = mask64x4::splat(simd, true);
+    let mut all_slow = mask64x4::splat(simd, true);
     for ((velocity, force), inverse) in (spheres.velocity.iter_mut())
         .zip(&*spheres.force)
         .zip(spheres.inverse_mass)
@@ -186,7 +187,7 @@ fn kick_all<S: Simd>(simd: S, spheres: &mut Spheres<'_>, dt: f64, slow: f64) -> 
         let row = velocity.simd(simd) + force.simd(simd) * (inverse * dt);
         *velocity = Vector::of_row(row.into());
         // What is not a number is not slow.
-        slow &= row.abs().simd_le(most);
+        all_slow &= row.abs().simd_le(most);
     }
     for ((spin, torque), inverse) in (spheres.spin.iter_mut())
         .zip(&*spheres.torque)
@@ -195,7 +196,7 @@ fn kick_all<S: Simd>(simd: S, spheres: &mut Spheres<'_>, dt: f64, slow: f64) -> 
         let row = spin.simd(simd) + torque.simd(simd) * (inverse * dt);
         *spin = Vector::of_row(row.into());
     }
-    slow.all_true()
+    all_slow.all_true()
 }
 
 impl Drift {

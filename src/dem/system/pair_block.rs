@@ -44,7 +44,7 @@ pub(super) struct PairBlock<H> {
     alike: bool,
     /// 1 / (r1 + r2) of a pair (1/m).
     inverse_sum: Column,
-    /// [`Roots`] of every contact.
+    /// [`Roots`] of every pair.
     inverse_distance: Column,
     contact_radius: Column,
     effective_mass: Column,
@@ -53,8 +53,8 @@ pub(super) struct PairBlock<H> {
     earlier_meeting: WallMeetings,
     /// Forces of springs (N).
     spring: Columns,
-    /// Of those that are loaded: forces of dashpots (N), what friction carries (N), squares of both forces (N2) and 1 / their
-    /// roots, levers in radii.
+    /// Of those that are loaded: forces of dashpots (N), what friction carries (N), squares of both forces (N2)
+    /// and 1 / their roots, levers in radii.
     drag: Columns,
     limit: Column,
     squared: Column,

@@ -130,7 +130,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
         self.step = step;
         self.moves = moves;
-        self.cleared = false;
+        (self.cleared, self.begun) = (false, false);
         let Parts {
             limits,
             dt,

@@ -1,4 +1,4 @@
-//! Which of those that are near each other touch: contacts are computed of these alone.
+//! Which of those that are near each other touch: contacts are computed of these alone, unless nearly all do.
 
 use super::couple::Solid;
 use crate::dem::block::{BLOCK, ROWS, row, turned};
@@ -30,7 +30,7 @@ pub(super) struct Touching {
     offset: [[f64; ROOM]; 3],
 }
 
-/// A block of contacts that touch; lanes without one repeat the last.
+/// A block of contacts; lanes without one repeat the last.
 #[derive(Clone, Copy)]
 pub(super) struct Lanes<'a> {
     pub(super) pairs: &'a [NearPair; BLOCK],
@@ -145,8 +145,8 @@ impl Touching {
                 }
                 keep_entries(simd, first, bits, &mut self.entries[all]);
                 let others = &mut self.apart[apart..apart + ROWS];
-                let rest = (1 << contacts.len()) - 1 - bits;
-                keep_entries(simd, first, rest, others);
+                let apart_bits = (1 << contacts.len()) - 1 - bits;
+                keep_entries(simd, first, apart_bits, others);
                 apart += contacts.len() - kept;
             }
             found += kept;

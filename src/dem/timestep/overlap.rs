@@ -1,11 +1,11 @@
 //! How deep spheres overlap at the start.
 
-use crate::dem::neighbours::{Reach, VerletList};
+use crate::dem::neighbours::visit_pairs;
 use crate::dem::particles::Particles;
 use crate::dem::start;
 use crate::dem::vector::Vector;
 use crate::dem::walls::{TankWall, Wall};
-use crate::scene::{Neighbours, Scene, Start, Tank};
+use crate::scene::{Scene, Start, Tank};
 
 /// The deepest overlap (m) of two listed spheres, or of one with a wall; zero where none touch. Other
 /// starts have none.
@@ -35,15 +35,10 @@ fn deepest_pair(spheres: &Particles) -> f64 {
     let Particles {
         position, radius, ..
     } = spheres;
-    let mut touching = VerletList::new(Reach::Contact, 0.0, Neighbours::VerletList);
-    touching.build(spheres, 1);
     let mut deepest = 0.0;
-    for (i, entries) in touching.start().windows(2).enumerate() {
-        for &j in &touching.neighbour()[entries[0] as usize..entries[1] as usize] {
-            let j = j as usize;
-            let distance = (position[i] - position[j]).norm();
-            deepest = f64::max(deepest, radius[i] + radius[j] - distance);
-        }
-    }
+    visit_pairs(spheres, |i, j| {
+        let distance = (position[i] - position[j]).norm();
+        deepest = f64::max(deepest, radius[i] + radius[j] - distance);
+    });
     deepest
 }

@@ -13,7 +13,7 @@ use crate::scene::Tank;
 /// Where a sphere is with respect to a wall.
 #[derive(Clone, Copy, Debug)]
 pub struct WallContact {
-    /// Whether it touches; the rest means nothing if it does not.
+    /// Whether it touches; the rest is finite, but means nothing, if it does not.
     pub touches: bool,
     /// Overlap (m, positive).
     pub overlap: f64,

@@ -72,7 +72,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.check_all_speeds()
     }
 
-    fn check_all_speeds(&self) -> Result<(), Instability> {
+    fn check_all_speeds(&mut self) -> Result<(), Instability> {
         let Parts {
             particles,
             limits,
