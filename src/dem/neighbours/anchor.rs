@@ -18,8 +18,9 @@ impl Reference {
         Self([place.x as f32, place.y as f32, place.z as f32, 0.0])
     }
 
+    /// Where it is (m).
     #[inline(always)]
-    fn place(self) -> Vector {
+    pub(super) fn place(self) -> Vector {
         let [x, y, z, _] = self.0;
         Vector::new(f64::from(x), f64::from(y), f64::from(z))
     }
@@ -60,10 +61,34 @@ impl Anchor {
 
     /// Adds a sphere that came in where it is now.
     pub(super) fn add_sphere(&mut self, position: Vector) {
-        let reference = Reference::of(position);
-        let rounding = (position - reference.place()).norm();
-        self.rounding = self.rounding.max(rounding);
+        let reference = self.rounded(position);
         self.position.push(reference);
+    }
+
+    /// Adds a sphere that came in and has no place yet: nothing holds for it.
+    pub(super) fn add_stray(&mut self) {
+        self.position.push(Reference([f32::NAN; 4]));
+    }
+
+    /// Takes a sphere as if it had been turned with all others, in the `time` (s) since that moment, to this place.
+    pub(super) fn replace(&mut self, sphere: usize, place: Vector, time: f64) {
+        let (sine, cosine) = libm::sincos(self.rotation * time);
+        let Vector { x, y, z, .. } = place;
+        let place = Vector::new(cosine * x + sine * y, cosine * y - sine * x, z);
+        self.position[sphere] = self.rounded(place);
+    }
+
+    /// A reference, whose rounding is noted.
+    fn rounded(&mut self, place: Vector) -> Reference {
+        let reference = Reference::of(place);
+        let rounding = (place - reference.place()).norm();
+        self.rounding = self.rounding.max(rounding);
+        reference
+    }
+
+    /// The farthest that rounding put a reference from its sphere (m).
+    pub(super) fn rounding(&self) -> f64 {
+        self.rounding
     }
 
     /// Forgets the spheres that are not to be kept.
@@ -105,6 +130,11 @@ pub struct Allowance {
 }
 
 impl Allowance {
+    /// How far a sphere may be from its reference (m).
+    pub(super) fn displacement(&self) -> f64 {
+        self.displacement_squared.sqrt()
+    }
+
     /// Whether all spheres are still near enough to their references.
     #[inline(always)]
     pub fn hold(&self, positions: &[Vector], references: &[Reference]) -> bool {

@@ -13,6 +13,7 @@
 mod anchor;
 mod cells;
 mod few;
+mod follow;
 mod glance;
 mod hash;
 mod near;
@@ -127,12 +128,17 @@ impl VerletList {
     /// Whether the list still holds `time` (s) after its build, and will until the offset of
     /// a pair has changed by another `margin` (m). Not so if a coordinate is not a number.
     pub fn holds(&self, particles: &Particles, time: f64, margin: f64) -> bool {
-        let allowance = self
-            .anchor
-            .allowance(time, self.skin - margin, self.half_diagonal);
+        let allowance = self.allowance(time, margin);
         self.builds > 0
             && !self.outdated
             && allowance.hold(&particles.position, self.anchor.position())
+    }
+
+    /// How far spheres may have come `time` (s) after the build, if the offset of a pair may change by another
+    /// `margin` (m).
+    fn allowance(&self, time: f64, margin: f64) -> Allowance {
+        let margin = self.skin - margin;
+        self.anchor.allowance(time, margin, self.half_diagonal)
     }
 
     /// How far the offset of a pair may change from the build to the end of the list (m).
@@ -253,10 +259,7 @@ impl VerletList {
                     find_partners(self.reach, self.skin, &self.search, i, particles, found);
                     self.neighbour[first..].sort_unstable();
                 }
-                self.start.push(self.neighbour.len() as u32);
-                if !self.sorted {
-                    self.owner.resize(self.neighbour.len(), i as u32);
-                }
+                self.end_entries();
             }
         } else {
             self.find_on_threads(particles, threads);
@@ -266,6 +269,15 @@ impl VerletList {
         }
         self.builds += 1;
         self.outdated = false;
+    }
+
+    /// Ends the entries of the next sphere.
+    fn end_entries(&mut self) {
+        let sphere = self.start.len() as u32 - 1;
+        self.start.push(self.neighbour.len() as u32);
+        if !self.sorted {
+            self.owner.resize(self.neighbour.len(), sphere);
+        }
     }
 
     /// Finds the partners of all spheres, those of as many by each thread.

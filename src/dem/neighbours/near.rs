@@ -9,6 +9,7 @@
 //! number, and those that matter are written without a branch.
 
 use super::anchor::{Allowance, Anchor};
+use super::follow::indices_of_kept;
 use super::glance::Glance;
 use super::shield::Shield;
 use super::{NearPair, Particles, VerletList, WORD, keep_pairs};
@@ -165,14 +166,7 @@ impl Near {
     /// new indices. The pairs must be looked for anew. Says of each whether it is kept.
     pub fn remove_spheres(&mut self, keep: &[bool]) -> Vec<bool> {
         self.anchor.remove_spheres(keep);
-        let mut next = 0;
-        let index: Vec<u32> = keep
-            .iter()
-            .map(|&keep| {
-                next += u32::from(keep);
-                next.saturating_sub(1)
-            })
-            .collect();
+        let index = indices_of_kept(keep);
         let stays = |pair: &NearPair| keep[pair.i() as usize] && keep[pair.j() as usize];
         let kept: Vec<bool> = self.pairs.iter().map(stays).collect();
         retain(&mut self.pairs, &kept);

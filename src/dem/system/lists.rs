@@ -15,13 +15,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Looks for near pairs anew, in a list that holds until they must be looked for again.
     pub(super) fn refresh(&mut self) -> Result<(), Instability> {
         let Some(list) = &self.list else {
-            return self.rebuild();
+            self.stale = false;
+            return self.check_positions();
         };
         let age = std::mem::take(&mut self.near_age);
         self.near.adapt(age.steps, age.time, list.skin());
         if !list.holds(&self.parts.particles, self.age.time, self.near.reach()) {
             self.mark(Part::Near);
-            self.rebuild()?;
+            self.renew()?;
             self.mark(Part::List);
         }
         self.stale = false;
@@ -68,26 +69,34 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.stale = true;
     }
 
-    /// Builds the list anew, after making sure that every sphere is somewhere.
-    pub(super) fn rebuild(&mut self) -> Result<(), Instability> {
-        let Parts {
-            particles,
-            limits,
-            dt,
-            ..
-        } = &self.parts;
-        limits.check_positions(particles, self.step, *dt)?;
-        self.stale = false;
-        let age = std::mem::take(&mut self.age);
+    /// Makes sure that every sphere is somewhere, and that the list holds again: it follows those that strayed, or
+    /// is built anew.
+    fn renew(&mut self) -> Result<(), Instability> {
+        self.check_positions()?;
         let Some(list) = &mut self.list else {
             return Ok(());
         };
+        let particles = &self.parts.particles;
+        if list.follow(particles, self.age.time, self.near.reach()) {
+            return Ok(());
+        }
+        let age = std::mem::take(&mut self.age);
         // It says nothing about the skin if the list ended at once, for spheres that changed places.
         if age.steps > 0 {
             list.adapt(age.steps, age.time);
         }
         list.build(particles, threads(&self.division));
         Ok(())
+    }
+
+    pub(super) fn check_positions(&self) -> Result<(), Instability> {
+        let Parts {
+            particles,
+            limits,
+            dt,
+            ..
+        } = &self.parts;
+        limits.check_positions(particles, self.step, *dt)
     }
 }
 

@@ -229,13 +229,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         let result = self.steps(steps);
         self.profile.iter_mut().for_each(|it| it.leave());
         result?;
-        let Parts {
-            particles,
-            limits,
-            dt,
-            ..
-        } = &self.parts;
-        limits.check_positions(particles, self.step, *dt)
+        self.check_positions()
     }
 
     fn use_baseline_instructions(&mut self) {
@@ -294,7 +288,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
             ledger.books.add_sphere();
         }
         limits.add_sphere(sphere.radius, *dt);
-        self.list.iter_mut().for_each(VerletList::outdate);
+        self.list.iter_mut().for_each(VerletList::add_sphere);
         self.near.add_sphere(sphere.position);
         self.renumber();
         self.note_exchange(before);
@@ -307,7 +301,8 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
             ledger.books.retain(keep);
         }
         self.walls.iter_mut().for_each(|wall| wall.retain(keep));
-        self.list.iter_mut().for_each(VerletList::outdate);
+        let lists = self.list.iter_mut();
+        lists.for_each(|list| list.remove_spheres(keep));
         retain(&mut self.pair_history, &self.near.remove_spheres(keep));
         self.renumber();
         self.note_exchange(before);
