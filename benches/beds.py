@@ -2,6 +2,7 @@
 
 import csv
 import math
+import os
 from collections import deque
 
 from common import FOLDER, output
@@ -19,8 +20,9 @@ class Bed:
     """Spheres at rest: their places, and the files from which programs start with them."""
 
     radius, density, dt, laws, weight = RADIUS, DENSITY, DT, ["mindlin", "coulomb"], 9.8 * MASS
-    # The most kinetic energy of a sphere at rest, over its weight times its radius.
-    stir = 1e-3
+    # The most kinetic energy of a sphere at rest, over its weight times its radius. A deep bed creeps where nothing
+    # but viscous friction holds it: some centimetres in a second in LAMMPS.
+    stir = {"mindlin": 1e-3, "coulomb": 1e-2}
 
     def __init__(self, size, phase, folder):
         """A size is a number of spheres, or NUMBER=RECORD.h5 of as many that have come to rest."""
@@ -36,9 +38,10 @@ class Bed:
         if record:
             self.take(phase, record, sides)
             return
-        settle = self.replaced(self.text, {"duration = 2.0": "duration = 1.0"})
+        # Deep ones take longer to come to rest.
+        settle = self.replaced(self.text, {"duration = 2.0": f"duration = {max(1.0, 0.1 * round(5 * self.scale))!r}"})
         (folder / "settle.toml").write_text(settle)
-        output([phase, "run", folder / "settle.toml", "--out", folder / "settle.h5"])
+        output([phase, "run", folder / "settle.toml", "--out", folder / "settle.h5", "--threads", str(os.cpu_count() or 1)])
         self.take(phase, folder / "settle.h5", sides)
 
     def take(self, phase, record, sides):
@@ -103,7 +106,7 @@ class Box(Bed):
 
     radius, dt, laws, weight = 0.5, 1e-4, ["silbert"], 1.0
     # Half of what carries the spheres is friction, whose springs begin without load.
-    stir = 0.1
+    stir = {"silbert": 0.1}
 
     def __init__(self, record, phase, folder):
         self.folder = folder

@@ -2,6 +2,7 @@
 
 use super::System;
 use super::contacts::Among;
+use super::moves::FirstTooFast;
 use super::share::{Known, Scenery, Share};
 use super::sums::Sums;
 use crate::dem::contact::NormalLaw;
@@ -22,9 +23,20 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Evaluates those of contacts alone.
     pub(super) fn evaluate_contacts(&mut self) -> Result<(), Instability> {
-        if self.stale || self.near.is_too_wide(self.near_age.steps) {
-            self.refresh()?;
+        self.hold_near()?;
+        self.forces_of_contacts();
+        self.check_overlaps()
+    }
+
+    /// Looks for near pairs if they do not hold.
+    fn hold_near(&mut self) -> Result<(), Instability> {
+        match self.stale || self.near.is_too_wide(self.near_age.steps) {
+            true => self.refresh(),
+            false => Ok(()),
         }
+    }
+
+    fn forces_of_contacts(&mut self) {
         let among = self.take_all();
         self.note_all_contacts(&among);
         self.mark_ledger();
@@ -33,7 +45,33 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             false => self.parts.particles.clear_forces(),
         }
         self.return_all(among);
-        self.check_overlaps()
+    }
+
+    /// Evaluates all forces, kicks for these times (s), and drifts for a time (s), if one is given; forgets the forces if
+    /// they are to be cleared. Says who was too fast.
+    ///
+    /// Where an overlap is too deep in a large scene, its spheres are moved all the same, on however many threads.
+    pub(super) fn evaluate_and_move(
+        &mut self,
+        kicks: &[f64],
+        drift: Option<f64>,
+        clear: bool,
+    ) -> Result<FirstTooFast, Instability> {
+        self.hold_near()?;
+        self.prepare_effects();
+        let too_fast = match drift {
+            Some(drift) if clear && self.streams() => self.stream(kicks, drift),
+            _ => {
+                self.forces_of_contacts();
+                if !self.parts.sorted {
+                    self.check_overlaps()?;
+                }
+                self.cleared = clear;
+                self.move_all(0..self.parts.effects.len(), kicks, drift, clear)
+            }
+        };
+        self.check_overlaps()?;
+        Ok(too_fast)
     }
 
     /// Forces and torques of all but contacts.

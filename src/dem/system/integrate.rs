@@ -160,12 +160,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.drift(dt);
             too_fast
         } else {
-            self.evaluate_contacts()?;
-            self.prepare_effects();
             // After the last step forces stay, for whoever asks.
-            self.cleared = goes_on && self.list.is_some();
-            let effects = 0..self.parts.effects.len();
-            self.move_all(effects, &[dt], Some(dt), self.cleared)
+            let clear = goes_on && self.list.is_some();
+            self.evaluate_and_move(&[dt], Some(dt), clear)?
         };
         self.check_speeds(too_fast)
     }
@@ -191,18 +188,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.note_kick(half);
             return self.check_speeds(too_fast);
         }
-        self.evaluate_contacts()?;
-        self.prepare_effects();
-        let effects = 0..self.parts.effects.len();
         // The order of spheres follows from where they are after whole steps.
-        self.begun = goes_on && !self.looks_at_order();
-        let too_fast = match self.begun {
-            true => {
-                self.cleared = self.list.is_some();
-                self.move_all(effects, &[half, half], Some(dt), self.cleared)
-            }
-            false => self.move_all(effects, &[half], None, false),
+        let begins_next = goes_on && !self.looks_at_order();
+        let too_fast = match begins_next {
+            true => self.evaluate_and_move(&[half, half], Some(dt), self.list.is_some())?,
+            false => self.evaluate_and_move(&[half], None, false)?,
         };
+        self.begun = begins_next;
         self.check_speeds(too_fast)
     }
 

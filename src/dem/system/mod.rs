@@ -16,6 +16,7 @@ mod order;
 mod pair_block;
 mod share;
 mod state;
+mod stream;
 mod sums;
 mod touching;
 mod wall_contacts;

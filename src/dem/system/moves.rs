@@ -152,7 +152,7 @@ impl Moves<'_> {
 
 impl Found {
     /// The same of these and later spheres.
-    fn and(self, later: Self) -> Self {
+    pub(super) fn and(self, later: Self) -> Self {
         let mut too_fast = self.too_fast;
         for (first, second) in too_fast.iter_mut().zip(later.too_fast) {
             *first = first.or(second);
