@@ -44,7 +44,8 @@ impl Before {
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Applies some effects, kicks for these times (s) and drifts for a time (s), what of these is asked for, and
     /// forgets forces if they are to be cleared. Notes whether a sphere went farther than the near pairs allow. Says
-    /// who was too fast.
+    /// who was too fast. Not inlined: all schemes do so several times, and are compiled for all laws.
+    #[inline(never)]
     pub(super) fn move_all(
         &mut self,
         effects: Range<usize>,
