@@ -4,8 +4,10 @@
 use super::{Reach, VerletList};
 use crate::dem::particles::Particles;
 
-/// Of so many spheres one may have strayed: following more takes as long as building the list anew.
+/// Of so many spheres one may have strayed, and no more than so many in all, each of which is compared with all spheres:
+/// following more takes as long as building the list anew.
 const FEW_OF: usize = 24;
+const MOST: usize = 64;
 
 /// A stray is followed to where it will be when it has gone this part of the way that is allowed: who falls then strays
 /// half as often.
@@ -46,13 +48,16 @@ impl VerletList {
         let places = particles.position.iter().zip(self.anchor.position());
         let is_stray: Vec<bool> = (places.map(|(&at, &from)| !allowance.holds(at, from))).collect();
         let strays = || (0..is_stray.len()).filter(|&i| is_stray[i]);
-        if strays().count() > is_stray.len() / FEW_OF {
+        if strays().count() > (is_stray.len() / FEW_OF).min(MOST) {
             return false;
         }
         for stray in strays() {
             let (position, velocity) = (particles.position[stray], particles.velocity[stray]);
-            let ahead = AHEAD * allowance.displacement() / velocity.norm().max(f64::MIN_POSITIVE);
-            let place = position + velocity * ahead;
+            let speed = velocity.norm();
+            let place = match speed > 0.0 {
+                true => position + velocity * (1.0 / speed) * (AHEAD * allowance.displacement()),
+                false => position,
+            };
             self.anchor.replace(stray, place, time);
         }
         let mut pairs = Vec::new();

@@ -82,7 +82,7 @@ pub struct VerletList {
     /// Whether spheres are sorted in memory by cells of about the search's.
     sorted: bool,
     builds: u64,
-    /// Whether spheres came, went or changed places since the build.
+    /// Whether spheres are others or in another order since the build, or a wider skin is asked for.
     outdated: bool,
 }
 
@@ -120,7 +120,7 @@ impl VerletList {
         }
     }
 
-    /// Notes that spheres came, went or changed places: the list must be built anew.
+    /// Notes that spheres are others, or in another order: the list must be built anew.
     pub fn outdate(&mut self) {
         self.outdated = true;
     }

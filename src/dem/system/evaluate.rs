@@ -5,6 +5,7 @@ use super::contacts::Among;
 use super::moves::FirstTooFast;
 use super::share::{Known, Scenery, Share};
 use super::sums::Sums;
+use super::touching::come_from_far;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
 use crate::dem::particles::Particles;
@@ -183,6 +184,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             earlier: &self.earlier,
             alike: self.alike,
             mostly_touch: self.near.mostly_touch(),
+            far: come_from_far(&self.pair_history),
         };
         let pairs = Known {
             contacts: &among.pairs[..],

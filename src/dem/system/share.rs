@@ -28,6 +28,8 @@ pub(super) struct Scenery<'a, N, T> {
     pub(super) alike: Option<Solid>,
     /// Whether nearly all near pairs touch: the others need not be sorted out then.
     pub(super) mostly_touch: bool,
+    /// Whether histories of pairs come from farther than the caches.
+    pub(super) far: bool,
 }
 
 /// Contacts, possible ones included, and what they remember.
@@ -132,6 +134,7 @@ impl<H: History> Share<'_, H> {
             earlier,
             alike,
             mostly_touch,
+            far,
         } = scenery;
         let known = match crossing {
             true => &mut self.crossing,
@@ -139,6 +142,7 @@ impl<H: History> Share<'_, H> {
         };
         debug_assert!(known.contacts.len() <= known.histories.len());
         let Buffers { block, touching } = &mut *self.buffers;
+        touching.far = *far;
         let histories = &mut *known.histories;
         for (first, near) in (0..).step_by(LOOK).zip(known.contacts.chunks(LOOK)) {
             let found = match *mostly_touch {

@@ -8,7 +8,7 @@ use super::System;
 use super::moves::{Drift, FirstTooFast, Found, Moves};
 use super::share::{Known, Scenery, Share, TooDeep};
 use super::sums::Sums;
-use super::touching::LOOK;
+use super::touching::{LOOK, come_from_far};
 use crate::dem::block::BLOCK;
 use crate::dem::bodies::{Bodies, Spheres};
 use crate::dem::contact::NormalLaw;
@@ -70,7 +70,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Adds the forces of the next pairs, up to the last of these, and of walls on the spheres before `until`.
     fn add_contacts(&mut self, pass: &mut Pass, pairs: &[NearPair], until: usize) {
-        let laws = self.laws();
+        let (laws, far) = (self.laws(), come_from_far(&self.pair_history));
         let particles = &mut self.parts.particles;
         let mut force = std::mem::take(&mut particles.force);
         let mut torque = std::mem::take(&mut particles.torque);
@@ -110,6 +110,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             earlier: &self.earlier,
             alike: self.alike,
             mostly_touch: self.near.mostly_touch(),
+            far,
         };
         share.add_contacts(self.level, &scenery, &mut self.profile);
         pass.too_deep = share.too_deep;

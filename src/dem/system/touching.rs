@@ -14,6 +14,11 @@ pub(super) const LOOK: usize = 512;
 /// Histories of so many bytes come from farther than the caches, and are sent for.
 const CACHES: usize = 1 << 25;
 
+/// Whether these histories, all that there are, come from that far.
+pub(super) fn come_from_far<H>(histories: &[H]) -> bool {
+    size_of_val(histories) > CACHES
+}
+
 /// As lanes are written whole, some are written in vain.
 const ROOM: usize = LOOK + ROWS;
 
@@ -28,6 +33,8 @@ pub(super) struct Touching {
     apart: [u32; ROOM],
     /// Centre of the first partner from that of the second (m).
     offset: [[f64; ROOM]; 3],
+    /// Whether histories are to be sent for.
+    pub(super) far: bool,
 }
 
 /// A block of contacts; lanes without one repeat the last.
@@ -58,6 +65,7 @@ impl Touching {
             entries: [0; ROOM],
             apart: [0; ROOM],
             offset: [[0.0; ROOM]; 3],
+            far: false,
         }
     }
 
@@ -117,7 +125,6 @@ impl Touching {
     ) -> usize {
         const { assert!(LOOK.is_multiple_of(BLOCK)) };
         let (mut found, mut apart) = (0, 0);
-        let far = size_of_val(histories) > CACHES;
         for (first, contacts) in (from..).step_by(ROWS).zip(near.chunks(ROWS)) {
             let eight = match <&[NearPair; ROWS]>::try_from(contacts) {
                 Ok(all) => all,
@@ -140,7 +147,7 @@ impl Touching {
                 lanes.compress(touch).store_slice(&mut column[all.clone()]);
             }
             if size_of::<H>() > 0 {
-                if far {
+                if self.far {
                     send_for(histories, first);
                 }
                 keep_entries(simd, first, bits, &mut self.entries[all]);
