@@ -237,10 +237,11 @@ fn a_broken_guard_names_the_sphere_of_the_scene() {
     assert!(broken[0] == broken[1]);
 }
 
-/// Pressed spheres on a cubic lattice, each with a velocity of its own.
-fn lattice(integrator: Integrator) -> Scene {
+/// Pressed spheres on a cubic lattice in a tank of that radius (m), each with a velocity of its own, and of three radii
+/// if they are not alike.
+fn lattice(integrator: Integrator, tank: f64, alike: bool) -> Scene {
     let mut scene = large(mindlin(), integrator);
-    let (radius, tank) = (0.004, 0.08);
+    let radius = 0.004;
     let spacing = 1.98 * radius;
     let cell = |k: usize| spacing * k as f64;
     let columns = (0..20).flat_map(|i| (0..20).map(move |j| [i, j]));
@@ -255,7 +256,7 @@ fn lattice(integrator: Integrator) -> Scene {
             position: [x, y, -0.05 + 0.99 * radius + cell(layer)],
             velocity: [speed(37), speed(53), speed(71)],
             spin: [0.0; 3],
-            radius: None,
+            radius: (!alike).then(|| radius * (1.0 - 1e-3 * (at % 3) as f64)),
         }
     });
     scene.spheres.radius = Radii::One(radius);
@@ -266,26 +267,64 @@ fn lattice(integrator: Integrator) -> Scene {
     scene
 }
 
-/// Of many contacts spheres are moved while others are still to come; step by step, or on threads, they are moved
-/// after all of them.
+/// Radii of tanks (m): in the wide one most spheres are near those of another thread, in the narrow one few, and each
+/// thread then moves its own while those of others are still to come.
+const WIDE: f64 = 0.08;
+const NARROW: f64 = 0.03;
+
+/// Of many contacts spheres are moved while others are still to come; step by step they are moved after all of them.
 #[test]
 fn bits_do_not_depend_on_when_spheres_are_moved() {
     for integrator in [Integrator::SymplecticEuler, Integrator::VelocityVerlet] {
-        let scene = lattice(integrator);
-        let mut at_once = Simulation::new(&scene).unwrap();
-        at_once.advance(60).unwrap();
-        let expected = bits(&mut at_once);
-        let mut several = Simulation::new(&scene).unwrap();
-        several.use_threads(2).unwrap();
-        several.advance(60).unwrap();
-        assert!(bits(&mut several) == expected, "{integrator:?}, threads");
-        let mut stepwise = Simulation::new(&scene).unwrap();
-        for _ in 0..60 {
-            stepwise.advance(1).unwrap();
+        for (tank, alike) in [(WIDE, true), (NARROW, true), (NARROW, false)] {
+            let scene = lattice(integrator, tank, alike);
+            let advanced = |threads: usize, at_once: u64| {
+                let mut simulation = Simulation::new(&scene).unwrap();
+                simulation.use_threads(threads).unwrap();
+                while simulation.step() < 60 {
+                    simulation.advance(at_once).unwrap();
+                }
+                bits(&mut simulation)
+            };
+            let expected = advanced(1, 60);
+            for (threads, at_once) in [(1, 1), (2, 60), (2, 1), (3, 60), (6, 20)] {
+                assert!(
+                    advanced(threads, at_once) == expected,
+                    "{integrator:?}, {threads} threads, {at_once} steps at once, tank of {tank} m"
+                );
+            }
         }
+    }
+}
+
+/// Wherever it is, at the boundary of two threads too.
+#[test]
+fn a_contact_too_deep_is_the_same_on_threads_that_move_their_own_spheres() {
+    for at in [
+        0,
+        COUNT / 3,
+        COUNT / 2 - 30,
+        COUNT / 2,
+        COUNT / 2 + 30,
+        COUNT - 1,
+    ] {
+        let mut scene = lattice(Integrator::SymplecticEuler, NARROW, true);
+        let Start::List { spheres } = &mut scene.start else {
+            panic!("a list")
+        };
+        // Up from the floor, or down into the others.
+        spheres[at].velocity = [0.0, 0.0, if at == 0 { 30.0 } else { -30.0 }];
+        let broken = [1, 2, 3].map(|threads| {
+            let mut simulation = Simulation::new(&scene).unwrap();
+            simulation.use_threads(threads).unwrap();
+            let instability = simulation.advance(200).unwrap_err();
+            assert_eq!(instability.guard, Guard::Overlap);
+            (instability.to_string(), bits(&mut simulation))
+        });
         assert!(
-            bits(&mut stepwise) == expected,
-            "{integrator:?}, step by step"
+            broken[0] == broken[1] && broken[0] == broken[2],
+            "{at}: {}",
+            broken[0].0
         );
     }
 }

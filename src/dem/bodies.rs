@@ -7,6 +7,7 @@ use super::particles::Particles;
 use super::threads::{split, split_shared};
 use super::vector::Vector;
 use fearless_simd::Simd;
+use std::ops::Range;
 
 /// Spheres in rows: all of them, or a thread's share, or those that are at hand.
 pub(super) struct Spheres<'a> {
@@ -20,6 +21,7 @@ pub(super) struct Spheres<'a> {
     pub(super) radius: &'a [f64],
     pub(super) mass: &'a [f64],
     pub(super) inverse_mass: &'a [f64],
+    pub(super) inertia: &'a [f64],
     pub(super) inverse_inertia: &'a [f64],
     /// Where they were when near pairs were looked for; nothing where none are looked for.
     pub(super) reference: &'a [Reference],
@@ -38,6 +40,7 @@ impl<'a> Spheres<'a> {
             radius: &particles.radius,
             mass: &particles.mass,
             inverse_mass: &particles.inverse_mass,
+            inertia: &particles.inertia,
             inverse_inertia: &particles.inverse_inertia,
             reference,
         }
@@ -46,6 +49,26 @@ impl<'a> Spheres<'a> {
     /// How many they are.
     pub(super) fn len(&self) -> usize {
         self.position.len()
+    }
+
+    /// Some of them, by their places among these.
+    pub(super) fn part(&mut self, range: Range<usize>) -> Spheres<'_> {
+        let mut all = Spheres {
+            first: self.first,
+            position: self.position,
+            velocity: self.velocity,
+            force: self.force,
+            spin: self.spin,
+            torque: self.torque,
+            radius: self.radius,
+            mass: self.mass,
+            inverse_mass: self.inverse_mass,
+            inertia: self.inertia,
+            inverse_inertia: self.inverse_inertia,
+            reference: self.reference,
+        };
+        all.split(range.start);
+        all.split(range.len())
     }
 
     /// Takes so many from the front, or all that there are.
@@ -62,6 +85,7 @@ impl<'a> Spheres<'a> {
             radius: split_shared(&mut self.radius, count),
             mass: split_shared(&mut self.mass, count),
             inverse_mass: split_shared(&mut self.inverse_mass, count),
+            inertia: split_shared(&mut self.inertia, count),
             inverse_inertia: split_shared(&mut self.inverse_inertia, count),
             reference: split_shared(&mut self.reference, count),
         }

@@ -177,15 +177,6 @@ impl Particles {
         (i + 1).max(self.fixed)
     }
 
-    /// The first of two partners that moves.
-    pub(super) fn moving_partner(&self, i: u32, j: u32) -> usize {
-        if (i as usize) < self.fixed {
-            j as usize
-        } else {
-            i as usize
-        }
-    }
-
     /// Largest radius (m).
     pub fn largest_radius(&self) -> f64 {
         self.radius.iter().copied().fold(0.0, f64::max)

@@ -3,11 +3,16 @@
 //! Each thread answers for the forces on a range of indices, which in a sorted scene is a region of space.
 //! A pair whose spheres are those of two threads is computed by both, and each adds to its own sphere, before
 //! its other pairs: so every sum is in the order of the list, as with one thread, and there is nothing to wait
-//! for. What such a pair remembers, both have.
+//! for. What such a pair remembers, both have. Where each moves its spheres at once, such pairs are computed of copies
+//! of the spheres around the boundary.
 
+use super::partners::{Copies, Partners};
 use super::share::{AtWall, Buffers, Known, Scenery, Share, TooDeep};
+use super::stream::Stream;
 use super::sums::Sums;
 use super::wall_contacts::WallContacts;
+use crate::dem::block::BLOCK;
+use crate::dem::bodies::{Bodies, Spheres};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::neighbours::NearPair;
@@ -17,9 +22,14 @@ use crate::dem::walls::TankWall;
 use fearless_simd::Level;
 use std::ops::Range;
 
+/// Boundaries are narrow if at most one of so many spheres is copied for them.
+const NARROW: usize = 8;
+
 /// Who answers for what.
 pub(super) struct Division<H> {
     parts: Vec<Region<H>>,
+    /// Before each but the first: from the first to the last sphere of pairs across the boundary.
+    boundaries: Vec<Copies>,
 }
 
 /// What one thread answers for.
@@ -32,6 +42,15 @@ struct Region<H> {
     crossing: Vec<NearPair>,
     crossing_history: Vec<H>,
     buffers: Box<Buffers<H>>,
+}
+
+/// The contacts that one thread answers for.
+pub(super) struct Contacts<'a, H> {
+    pub(super) spheres: Range<usize>,
+    pub(super) crossing: Known<'a, NearPair, H>,
+    pub(super) pairs: Known<'a, NearPair, H>,
+    pub(super) walls: [Option<AtWall<'a, H>>; TankWall::MOST],
+    pub(super) buffers: &'a mut Buffers<H>,
 }
 
 impl<H: History> Division<H> {
@@ -47,6 +66,7 @@ impl<H: History> Division<H> {
         };
         Self {
             parts: (0..threads).map(|_| region()).collect(),
+            boundaries: (1..threads).map(|_| Copies::default()).collect(),
         }
     }
 
@@ -64,12 +84,18 @@ impl<H: History> Division<H> {
             _ if k == threads => spheres,
             _ => {
                 let pair = pairs.get(pairs.len() * k / threads);
-                pair.map_or(spheres * k / threads, |pair| pair.i() as usize)
+                let sphere = pair.map_or(spheres * k / threads, |pair| pair.i() as usize);
+                whole_blocks(sphere)
             }
         };
         let bounds: Vec<usize> = (0..=threads).map(bound).collect();
-        let mut regions: Vec<_> = self.parts.iter_mut().zip(bounds.windows(2)).collect();
-        in_parallel(&mut regions, &|(region, bounds)| {
+        // There is no boundary before the first one.
+        let mut none = Copies::default();
+        let boundaries = std::iter::once(&mut none).chain(&mut self.boundaries);
+        let mut regions: Vec<_> = (self.parts.iter_mut().zip(boundaries))
+            .zip(bounds.windows(2))
+            .collect();
+        in_parallel(&mut regions, &|((region, boundary), bounds)| {
             let range = bounds[0]..bounds[1];
             let from = |bound: usize| pairs.partition_point(|it| (it.i() as usize) < bound);
             region.pairs = from(range.start)..from(range.end);
@@ -77,16 +103,54 @@ impl<H: History> Division<H> {
                 let from = |bound: usize| wall.near.partition_point(|it| (it.i as usize) < bound);
                 *place = from(range.start)..from(range.end);
             }
-            let before = pairs[..region.pairs.start].iter().zip(histories);
-            let crossing = before.filter(|(it, _)| range.contains(&(it.j() as usize)));
             region.crossing.clear();
             region.crossing_history.clear();
-            for (pair, history) in crossing {
-                region.crossing.push(*pair);
-                region.crossing_history.push(*history);
+            let mut across = range.start..range.start;
+            for (pair, history) in pairs[..region.pairs.start].iter().zip(histories) {
+                let [i, j] = pair.sides().map(|it| it as usize);
+                if j >= range.start {
+                    across = across.start.min(whole_blocks(i))..across.end.max(j + 1);
+                }
+                if range.contains(&j) {
+                    region.crossing.push(*pair);
+                    region.crossing_history.push(*history);
+                }
             }
+            boundary.spheres = across;
             region.spheres = range;
         });
+    }
+
+    /// Whether copies of the spheres around the boundaries are few.
+    pub(super) fn has_narrow_boundaries(&self) -> bool {
+        let copies: usize = self.boundaries.iter().map(|it| it.spheres.len()).sum();
+        let spheres = self.parts.last().map_or(0, |it| it.spheres.end);
+        copies * NARROW <= spheres
+    }
+
+    /// What each thread answers for of these contacts.
+    fn contacts<'a>(
+        parts: &'a mut [Region<H>],
+        mut pairs: Known<'a, NearPair, H>,
+        mut walls: [Option<AtWall<'a, H>>; TankWall::MOST],
+    ) -> impl Iterator<Item = Contacts<'a, H>> {
+        parts.iter_mut().map(move |region| {
+            let at_wall = |(wall, range): (&mut Option<AtWall<'a, H>>, &Range<usize>)| {
+                let (wall, known) = wall.as_mut()?;
+                Some((*wall, known.split(range.len())))
+            };
+            let mut at_walls = walls.iter_mut().zip(&region.walls).map(at_wall);
+            Contacts {
+                spheres: region.spheres.clone(),
+                crossing: Known {
+                    contacts: &region.crossing,
+                    histories: &mut region.crossing_history,
+                },
+                pairs: pairs.split(region.pairs.len()),
+                walls: std::array::from_fn(|_| at_walls.next().flatten()),
+                buffers: &mut region.buffers,
+            }
+        })
     }
 
     /// Evaluates the forces of all contacts; `clear` says whether others are to be forgotten first. Says of the
@@ -94,59 +158,72 @@ impl<H: History> Division<H> {
     pub(super) fn evaluate<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,
-        scenery: &Scenery<'_, N, T>,
-        [force, torque]: [&mut [Vector]; 2],
+        scenery: &Scenery<N, T>,
+        partners: Partners<'_>,
+        [mut force, mut torque]: [&mut [Vector]; 2],
         clear: bool,
         pairs: Known<'_, NearPair, H>,
-        walls: &mut [AtWall<'_, H>],
+        walls: [Option<AtWall<'_, H>>; TankWall::MOST],
     ) -> TooDeep {
-        let (mut forces, mut torques) = (force, torque);
-        let mut histories = pairs.histories;
-        let mut at_walls: Vec<_> = walls
-            .iter_mut()
-            .map(|(wall, known)| (*wall, known.contacts, &mut *known.histories))
-            .collect();
-        let mut shares: Vec<Share<'_, H>> = Vec::with_capacity(self.parts.len());
-        for region in &mut self.parts {
-            let count = region.spheres.len();
-            let mut walls = [const { None }; TankWall::MOST];
-            for ((place, range), (wall, contacts, histories)) in
-                walls.iter_mut().zip(&region.walls).zip(&mut at_walls)
-            {
-                let known = Known {
-                    contacts: &contacts[range.clone()],
-                    histories: split(histories, range.len()),
-                };
-                *place = Some((*wall, known));
-            }
-            shares.push(Share {
-                sums: Sums {
-                    first: region.spheres.start,
-                    force: split(&mut forces, count),
-                    torque: split(&mut torques, count),
-                },
-                clear,
-                buffers: &mut region.buffers,
-                crossing: Known {
-                    contacts: &region.crossing,
-                    histories: &mut region.crossing_history,
-                },
-                pairs: Known {
-                    contacts: &pairs.contacts[region.pairs.clone()],
-                    histories: split(&mut histories, region.pairs.len()),
-                },
-                walls,
-                too_deep: [None; 1 + TankWall::MOST],
-            });
-        }
+        let contacts = Self::contacts(&mut self.parts, pairs, walls);
+        let shares = contacts.map(|of| Share {
+            partners,
+            sums: Sums {
+                first: of.spheres.start,
+                force: split(&mut force, of.spheres.len()),
+                torque: split(&mut torque, of.spheres.len()),
+            },
+            clear,
+            buffers: of.buffers,
+            crossing: of.crossing,
+            pairs: of.pairs,
+            walls: of.walls,
+            too_deep: [None; 1 + TankWall::MOST],
+        });
+        let mut shares: Vec<_> = shares.collect();
         in_parallel(&mut shares, &|share| {
             share.add_contacts(level, scenery, &mut None);
         });
-        // As one thread would find it: pairs before walls.
-        let kinds = 0..=TankWall::MOST;
-        let all = kinds.flat_map(|kind| shares.iter().map(move |share| share.too_deep[kind]));
-        all.flatten().next()
+        first_too_deep(shares.iter().map(|share| share.too_deep))
     }
+
+    /// What each thread does where it moves its spheres at once.
+    pub(super) fn streams<'a>(
+        &'a mut self,
+        mut all: Spheres<'a>,
+        pairs: Known<'a, NearPair, H>,
+        walls: [Option<AtWall<'a, H>>; TankWall::MOST],
+        bodies: &'a mut [Bodies],
+    ) -> Vec<Stream<'a, H>> {
+        let Self { parts, boundaries } = self;
+        boundaries.iter_mut().for_each(|it| it.renew(&all));
+        let around = |it: &'a Copies| Some(it.partners(&all));
+        let around: Vec<_> = boundaries.iter().map(around).collect();
+        let before = std::iter::once(None).chain(around.iter().copied());
+        let after = around.iter().copied().chain(std::iter::once(None));
+        let contacts = Self::contacts(parts, pairs, walls);
+        let streams = contacts.zip(bodies).zip(before.zip(after));
+        let streams = streams.map(|((of, bodies), (before, after))| {
+            let spheres = all.split(of.spheres.len());
+            Stream::new(spheres, of, bodies, before, after)
+        });
+        streams.collect()
+    }
+}
+
+/// The last sphere before which there are whole blocks: effects expect these wherever spheres are moved.
+fn whole_blocks(sphere: usize) -> usize {
+    sphere / BLOCK * BLOCK
+}
+
+/// Of threads, in the order of their spheres: the first contact that is too deep as one thread would find it, pairs
+/// before walls.
+pub(super) fn first_too_deep(
+    of: impl Iterator<Item = [TooDeep; 1 + TankWall::MOST]> + Clone,
+) -> TooDeep {
+    let kinds = 0..=TankWall::MOST;
+    let all = kinds.flat_map(|kind| of.clone().map(move |it| it[kind]));
+    all.flatten().next()
 }
 
 /// Threads that there are, one where the work is not divided.

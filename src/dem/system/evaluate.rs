@@ -3,6 +3,7 @@
 use super::System;
 use super::contacts::Among;
 use super::moves::FirstTooFast;
+use super::partners::Partners;
 use super::share::{Known, Scenery, Share};
 use super::sums::Sums;
 use super::touching::come_from_far;
@@ -178,41 +179,31 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let clear = anew && !std::mem::take(&mut self.cleared);
         let Particles { force, torque, .. } = &mut self.parts.particles;
         let (mut force, mut torque) = (std::mem::take(force), std::mem::take(torque));
-        let scenery = Scenery {
-            laws: self.laws(),
-            particles: &self.parts.particles,
-            earlier: &self.earlier,
-            alike: self.alike,
-            mostly_touch: self.near.mostly_touch(),
-            far: come_from_far(&self.pair_history),
-        };
+        let scenery = self.scenery();
+        let partners = Partners::all(&self.parts.particles, &self.earlier);
         let pairs = Known {
             contacts: &among.pairs[..],
             histories: &mut self.pair_history[..],
         };
-        let walls = self.walls.iter_mut().zip(&among.walls);
-        let walls = walls.map(|(wall, near)| {
+        let mut walls = [const { None }; TankWall::MOST];
+        for ((place, wall), near) in walls.iter_mut().zip(&mut self.walls).zip(&among.walls) {
             let known = Known {
                 contacts: &near[..],
                 histories: &mut wall.histories[..],
             };
-            (wall.wall, known)
-        });
+            *place = Some((wall.wall, known));
+        }
         let too_deep = match self.division.as_mut().filter(|_| anew) {
             Some(division) => {
                 let sums = [&mut force[..], &mut torque[..]];
-                let mut walls: Vec<_> = walls.collect();
                 let too_deep =
-                    division.evaluate(self.level, &scenery, sums, clear, pairs, &mut walls);
+                    division.evaluate(self.level, &scenery, partners, sums, clear, pairs, walls);
                 profile::mark(&mut self.profile, Part::Pairs);
                 too_deep
             }
             None => {
-                let mut at_walls = [const { None }; TankWall::MOST];
-                for (place, wall) in at_walls.iter_mut().zip(walls) {
-                    *place = Some(wall);
-                }
                 let mut share = Share {
+                    partners,
                     sums: Sums {
                         first: 0,
                         force: &mut force,
@@ -220,12 +211,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     },
                     clear,
                     buffers: &mut self.buffers,
-                    crossing: Known {
-                        contacts: &[],
-                        histories: &mut [],
-                    },
+                    crossing: Known::none(),
                     pairs,
-                    walls: at_walls,
+                    walls,
                     too_deep: [None; 1 + TankWall::MOST],
                 };
                 share.add_contacts(self.level, &scenery, &mut self.profile);
@@ -234,6 +222,17 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         };
         self.too_deep = self.too_deep.or(too_deep);
         (self.parts.particles.force, self.parts.particles.torque) = (force, torque);
+    }
+
+    /// What contacts depend on besides their partners and their own memory.
+    pub(super) fn scenery(&self) -> Scenery<N, T> {
+        Scenery {
+            laws: self.laws(),
+            fixed: self.parts.particles.fixed as u32,
+            alike: self.alike,
+            mostly_touch: self.near.mostly_touch(),
+            far: come_from_far(&self.pair_history),
+        }
     }
 }
 

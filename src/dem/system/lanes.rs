@@ -2,10 +2,10 @@
 
 use super::couple::Solid;
 use super::meeting::Laws;
+use super::partners::Partners;
 use crate::dem::block::{BLOCK, Column, Columns};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
-use crate::dem::particles::Particles;
 use crate::dem::walls::WallContact;
 
 /// A block of contacts; lanes without one repeat the first.
@@ -44,21 +44,21 @@ impl Solids {
     #[inline(always)]
     pub(super) fn take<N: NormalLaw, T: TangentialLaw>(
         &mut self,
-        particles: &Particles,
+        partners: &Partners<'_>,
         sphere: impl Fn(usize) -> u32,
     ) {
         for k in 0..BLOCK {
-            self.radius[k] = particles.radius[sphere(k) as usize];
+            self.radius[k] = partners.radius[sphere(k) as usize];
         }
         if T::WEIGHS {
             for k in 0..BLOCK {
-                self.mass[k] = particles.mass[sphere(k) as usize];
-                self.inertia[k] = particles.inertia[sphere(k) as usize];
+                self.mass[k] = partners.mass[sphere(k) as usize];
+                self.inertia[k] = partners.inertia[sphere(k) as usize];
             }
         }
         if Laws::<N, T>::NEEDS_EFFECTIVE_MASS {
             for k in 0..BLOCK {
-                self.inverse_mass[k] = particles.inverse_mass[sphere(k) as usize];
+                self.inverse_mass[k] = partners.inverse_mass[sphere(k) as usize];
             }
         }
     }

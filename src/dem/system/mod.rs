@@ -14,6 +14,7 @@ mod meeting;
 mod moves;
 mod order;
 mod pair_block;
+mod partners;
 mod share;
 mod state;
 mod stream;

@@ -10,13 +10,13 @@ mod walls;
 use super::couple::{Couple, Earlier, Solid};
 use super::lanes::{Solids, WallMeetings};
 use super::meeting::{Laws, Meeting, Roots};
+use super::partners::Partners;
 use super::sums::Sums;
 use super::touching::{Entries, Lanes};
 use crate::dem::block::{BLOCK, Column, Columns, ROWS, Row, row};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::math::inverse_square_root;
-use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use fearless_simd::{Simd, SimdBase, SimdFrom, f64x4, f64x8};
 use std::marker::PhantomData;
@@ -118,14 +118,13 @@ impl<H: History> PairBlock<H> {
         simd: S,
         pairs: &Lanes<'_>,
         histories: &[H],
-        particles: &Particles,
-        earlier: &[EarlierRows],
+        partners: &Partners<'_>,
     ) {
         // Of one length, so that an index is checked once.
-        let spheres = particles.position.len();
-        let (position, velocity) = (&particles.position[..], &particles.velocity[..spheres]);
+        let spheres = partners.position.len();
+        let (position, velocity) = (partners.position, &partners.velocity[..spheres]);
         let spin = if T::ROTATES {
-            &particles.spin[..spheres]
+            &partners.spin[..spheres]
         } else {
             position
         };
@@ -172,8 +171,8 @@ impl<H: History> PairBlock<H> {
             }
         }
         if !self.alike {
-            self.solid[0].take::<N, T>(particles, |k| pairs.pairs[k].i());
-            self.solid[1].take::<N, T>(particles, |k| pairs.pairs[k].j());
+            self.solid[0].take::<N, T>(partners, |k| pairs.pairs[k].i());
+            self.solid[1].take::<N, T>(partners, |k| pairs.pairs[k].j());
             let [one, other] = &self.solid;
             for (k, inverse) in self.inverse_sum.iter_mut().enumerate() {
                 *inverse = 1.0 / (one.radius[k] + other.radius[k]);
@@ -197,7 +196,8 @@ impl<H: History> PairBlock<H> {
                 );
             }
         }
-        if Self::REMEMBERS && !earlier.is_empty() {
+        if Self::REMEMBERS && !partners.earlier.is_empty() {
+            let earlier = partners.earlier;
             self.earlier_velocity.fill::<S>(
                 #[inline(always)]
                 |k| {

@@ -4,7 +4,8 @@
 use super::couple::Solid;
 use super::lanes::whole;
 use super::meeting::Laws;
-use super::pair_block::{EarlierRows, PairBlock};
+use super::pair_block::PairBlock;
+use super::partners::Partners;
 use super::sums::Sums;
 use super::touching::{Entries, LOOK, Touching};
 use super::wall_contacts::NearSphere;
@@ -12,18 +13,18 @@ use crate::dem::block::BLOCK;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::neighbours::NearPair;
-use crate::dem::particles::Particles;
 use crate::dem::profile::{self, Part, Profile};
+use crate::dem::threads::{split, split_shared};
 use crate::dem::vector::Vector;
 use crate::dem::walls::TankWall;
 use fearless_simd::{Level, Simd};
 
-/// What contacts depend on besides their own memory; the particles are without their forces and torques.
+/// What contacts depend on besides their partners and their own memory.
 #[derive(Clone, Copy)]
-pub(super) struct Scenery<'a, N, T> {
+pub(super) struct Scenery<N, T> {
     pub(super) laws: Laws<N, T>,
-    pub(super) particles: &'a Particles,
-    pub(super) earlier: &'a [EarlierRows],
+    /// How many spheres, the first ones, never move.
+    pub(super) fixed: u32,
     /// What all spheres are like, if they are alike.
     pub(super) alike: Option<Solid>,
     /// Whether nearly all near pairs touch: the others need not be sorted out then.
@@ -39,6 +40,23 @@ pub(super) struct Known<'a, C, H> {
     pub(super) histories: &'a mut [H],
 }
 
+impl<C, H> Known<'_, C, H> {
+    pub(super) fn none() -> Self {
+        Self {
+            contacts: &[],
+            histories: &mut [],
+        }
+    }
+
+    /// Takes so many from the front, or all that there are.
+    pub(super) fn split(&mut self, count: usize) -> Self {
+        Self {
+            contacts: split_shared(&mut self.contacts, count),
+            histories: split(&mut self.histories, count),
+        }
+    }
+}
+
 /// A wall and the spheres near it.
 pub(super) type AtWall<'a, H> = (TankWall, Known<'a, NearSphere, H>);
 
@@ -49,6 +67,8 @@ pub(super) type TooDeep = Option<(usize, f64)>;
 pub(super) struct Buffers<H> {
     block: PairBlock<H>,
     touching: Touching,
+    /// Pairs as partners are counted.
+    counted: [NearPair; LOOK],
 }
 
 impl<H: History> Buffers<H> {
@@ -56,12 +76,14 @@ impl<H: History> Buffers<H> {
         Box::new(Self {
             block: PairBlock::new(),
             touching: Touching::new(),
+            counted: [NearPair::default(); LOOK],
         })
     }
 }
 
 /// What a thread answers for: forces and torques of some spheres, or of all.
 pub(super) struct Share<'a, H> {
+    pub(super) partners: Partners<'a>,
     pub(super) sums: Sums<'a>,
     /// Whether sums begin anew.
     pub(super) clear: bool,
@@ -84,7 +106,7 @@ impl<H: History> Share<'_, H> {
     pub(super) fn add_contacts<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,
-        scenery: &Scenery<'_, N, T>,
+        scenery: &Scenery<N, T>,
         profile: &mut Option<Box<Profile>>,
     ) {
         fearless_simd::dispatch!(level, simd => self.add_all(simd, scenery, profile));
@@ -94,7 +116,7 @@ impl<H: History> Share<'_, H> {
     fn add_all<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        scenery: &Scenery<'_, N, T>,
+        scenery: &Scenery<N, T>,
         profile: &mut Option<Box<Profile>>,
     ) {
         if self.clear {
@@ -125,36 +147,41 @@ impl<H: History> Share<'_, H> {
     fn pair_forces<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        scenery: &Scenery<'_, N, T>,
+        scenery: &Scenery<N, T>,
         crossing: bool,
     ) {
         let Scenery {
             laws,
-            particles,
-            earlier,
+            fixed,
             alike,
             mostly_touch,
             far,
         } = scenery;
+        let partners = &self.partners;
         let known = match crossing {
             true => &mut self.crossing,
             false => &mut self.pairs,
         };
         debug_assert!(known.contacts.len() <= known.histories.len());
-        let Buffers { block, touching } = &mut *self.buffers;
+        let Buffers {
+            block,
+            touching,
+            counted,
+        } = &mut *self.buffers;
         touching.far = *far;
         let histories = &mut *known.histories;
         for (first, near) in (0..).step_by(LOOK).zip(known.contacts.chunks(LOOK)) {
+            let near = partners.counted(near, counted);
             let found = match *mostly_touch {
                 true => near.len(),
-                false => touching.find(simd, near, first, histories, particles, *alike),
+                false => touching.find(simd, near, first, histories, partners, *alike),
             };
             for at in (0..found).step_by(BLOCK) {
                 let lanes = &match *mostly_touch {
                     true => touching.first_of(&near[at..], first + at),
                     false => touching.block(at, found),
                 };
-                block.take_pairs::<S, N, T>(simd, lanes, histories, particles, earlier);
+                block.take_pairs::<S, N, T>(simd, lanes, histories, partners);
                 block.interact(laws);
                 match lanes.entries {
                     Entries::Listed(entries) => block.remember(
@@ -169,8 +196,8 @@ impl<H: History> Share<'_, H> {
                 }
                 block.add_to_pairs::<S, T>(simd, lanes, &mut self.sums);
                 if let Some((k, overlap)) = block.first_too_deep(lanes.count) {
-                    let pair = lanes.pairs[k];
-                    let sphere = particles.moving_partner(pair.i(), pair.j());
+                    let [i, j] = lanes.pairs[k].sides().map(|it| it + partners.first);
+                    let sphere = if i < *fixed { j } else { i } as usize;
                     // The other share says so of one that crosses.
                     if !crossing {
                         self.too_deep[0].get_or_insert((sphere, overlap));
@@ -187,7 +214,7 @@ impl<H: History> Share<'_, H> {
         simd: S,
         wall: TankWall,
         place: usize,
-        scenery: &Scenery<'_, N, T>,
+        scenery: &Scenery<N, T>,
     ) {
         let Some((_, near)) = &mut self.walls[place] else {
             return;
@@ -195,13 +222,15 @@ impl<H: History> Share<'_, H> {
         debug_assert!(near.contacts.len() <= near.histories.len());
         let block = &mut self.buffers.block;
         let blocks = (near.contacts.chunks(BLOCK)).zip(near.histories.chunks_mut(BLOCK));
-        let mut rest = [NearSphere::default(); BLOCK];
+        let partners = &self.partners;
+        let (mut rest, mut counted) = (
+            [NearSphere::default(); BLOCK],
+            [NearSphere::default(); BLOCK],
+        );
         for (spheres, histories) in blocks {
             let lanes = whole(spheres, &mut rest);
-            let Scenery {
-                particles, earlier, ..
-            } = scenery;
-            block.take_spheres::<S, N, T>(simd, lanes, histories, particles, earlier);
+            let lanes = partners.counted_at_wall(lanes, &mut counted);
+            block.take_spheres::<S, N, T>(simd, lanes, histories, partners);
             match wall {
                 TankWall::Floor(wall) | TankWall::Side(wall) => block.meet(wall, &scenery.laws),
                 TankWall::Cylinder(wall) => block.meet(wall, &scenery.laws),

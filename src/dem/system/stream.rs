@@ -1,44 +1,61 @@
-//! Forces and moves of a large scene in one pass through its spheres.
+//! Forces and moves of a large scene in one pass through its spheres, or through those of each thread.
 //!
 //! Pairs stand in the order of their first spheres. So when those of a sphere are done, all pairs are that act on it,
 //! and no later one asks where it is: it can be moved while it is at hand. What is done to a sphere, and in which order,
 //! is the same as if all forces came first.
+//!
+//! Threads do not ask where spheres of the others are, which have been moved or not: pairs across a boundary, and all
+//! of spheres that have such pairs with later ones, are computed of copies.
 
 use super::System;
+use super::division::{Contacts, first_too_deep, threads};
 use super::moves::{Drift, FirstTooFast, Found, Moves};
-use super::share::{Known, Scenery, Share, TooDeep};
+use super::partners::Partners;
+use super::share::{AtWall, Buffers, Known, Scenery, Share, TooDeep};
 use super::sums::Sums;
-use super::touching::{LOOK, come_from_far};
+use super::touching::LOOK;
 use crate::dem::block::BLOCK;
 use crate::dem::bodies::{Bodies, Spheres};
 use crate::dem::contact::NormalLaw;
-use crate::dem::friction::TangentialLaw;
+use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::neighbours::NearPair;
+use crate::dem::profile::Profile;
+use crate::dem::threads::in_parallel;
 use crate::dem::walls::TankWall;
+use fearless_simd::Level;
 
 /// After so many near pairs spheres are moved: few enough that these are still in a near cache, so many that few lanes
 /// of blocks are left over.
 const SPAN: usize = 16 * LOOK;
 
-/// How far a pass has come, and what it found.
-#[derive(Default)]
-struct Pass {
-    /// The first pair that is not done.
-    pair: usize,
-    /// The first sphere that is not moved.
-    sphere: usize,
-    /// The first contact with each wall that is not done.
-    at_wall: [usize; TankWall::MOST],
+/// What one thread does: forces and moves of its spheres.
+pub(super) struct Stream<'a, H> {
+    spheres: Spheres<'a>,
+    /// How many of them are moved.
+    moved: usize,
+    /// Contacts that are not done.
+    crossing: Known<'a, NearPair, H>,
+    pairs: Known<'a, NearPair, H>,
+    walls: [Option<AtWall<'a, H>>; TankWall::MOST],
+    buffers: &'a mut Buffers<H>,
+    bodies: &'a mut Bodies,
+    /// Copies of spheres around the boundaries.
+    before: Option<Partners<'a>>,
+    after: Option<Partners<'a>>,
     /// Of pairs, and at each wall.
     too_deep: [TooDeep; 1 + TankWall::MOST],
     found: Found,
+    profile: Option<Box<Profile>>,
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Whether forces and moves may come in one pass. Not on several threads, as each asks where spheres of the others
-    /// are.
+    /// Whether forces and moves may come in one pass.
     pub(super) fn streams(&self) -> bool {
-        self.parts.sorted && self.list.is_some() && self.division.is_none() && self.ledger.is_none()
+        let division = self.division.as_ref();
+        self.parts.sorted
+            && self.list.is_some()
+            && self.ledger.is_none()
+            && division.is_none_or(|it| it.has_narrow_boundaries())
     }
 
     /// Adds up all forces, with near pairs that hold, then kicks for these times (s), drifts for a time (s), and forgets
@@ -49,76 +66,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         self.age.time += drift;
         self.near_age.time += drift;
-        self.bodies.resize_with(1, Bodies::new);
         let pairs = self.near.take_pairs();
-        let spheres = self.parts.particles.len();
-        let mut pass = Pass::default();
-        while pass.sphere < spheres {
-            let end = (pass.pair + SPAN).min(pairs.len());
-            let until = match pairs.get(end) {
-                Some(next) => next.i() as usize / BLOCK * BLOCK,
-                None => spheres,
-            };
-            self.add_contacts(&mut pass, &pairs[..end], until);
-            self.move_until(&mut pass, until, kicks, drift);
-        }
-        self.near.return_pairs(pairs);
-        self.too_deep = pass.too_deep.into_iter().flatten().next();
-        self.stale |= pass.found.far;
-        pass.found.too_fast
-    }
-
-    /// Adds the forces of the next pairs, up to the last of these, and of walls on the spheres before `until`.
-    fn add_contacts(&mut self, pass: &mut Pass, pairs: &[NearPair], until: usize) {
-        let (laws, far) = (self.laws(), come_from_far(&self.pair_history));
-        let particles = &mut self.parts.particles;
-        let mut force = std::mem::take(&mut particles.force);
-        let mut torque = std::mem::take(&mut particles.torque);
-        let mut walls = [const { None }; TankWall::MOST];
-        for ((place, wall), from) in walls.iter_mut().zip(&mut self.walls).zip(&mut pass.at_wall) {
-            let end = *from + wall.near[*from..].partition_point(|it| (it.i as usize) < until);
-            let next = std::mem::replace(from, end)..end;
-            let known = Known {
-                contacts: &wall.near[next.clone()],
-                histories: &mut wall.histories[next],
-            };
-            *place = Some((wall.wall, known));
-        }
-        let next = std::mem::replace(&mut pass.pair, pairs.len())..pairs.len();
-        let mut share = Share {
-            sums: Sums {
-                first: 0,
-                force: &mut force,
-                torque: &mut torque,
-            },
-            clear: false,
-            buffers: &mut self.buffers,
-            crossing: Known {
-                contacts: &[],
-                histories: &mut [],
-            },
-            pairs: Known {
-                contacts: &pairs[next.clone()],
-                histories: &mut self.pair_history[next],
-            },
-            walls,
-            too_deep: pass.too_deep,
-        };
-        let scenery = Scenery {
-            laws,
-            particles,
-            earlier: &self.earlier,
-            alike: self.alike,
-            mostly_touch: self.near.mostly_touch(),
-            far,
-        };
-        share.add_contacts(self.level, &scenery, &mut self.profile);
-        pass.too_deep = share.too_deep;
-        (particles.force, particles.torque) = (force, torque);
-    }
-
-    /// Moves the next spheres, those before `until`.
-    fn move_until(&mut self, pass: &mut Pass, until: usize, kicks: &[f64], drift: f64) {
+        let scenery = self.scenery();
         let moves = Moves {
             effects: &self.parts.effects,
             kicks,
@@ -131,11 +80,160 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             dt: self.parts.dt,
         };
         let reference = self.near.anchor().position();
-        let mut all = Spheres::new(&mut self.parts.particles, reference);
-        let from = std::mem::replace(&mut pass.sphere, until);
-        all.split(from);
-        let next = all.split(until - from);
-        let found = moves.of_all(next, &mut self.bodies, self.level, &mut self.profile);
-        pass.found = pass.found.and(found);
+        let spheres = Spheres::new(&mut self.parts.particles, reference);
+        let known = Known {
+            contacts: &pairs[..],
+            histories: &mut self.pair_history[..],
+        };
+        let mut walls = [const { None }; TankWall::MOST];
+        for (place, wall) in walls.iter_mut().zip(&mut self.walls) {
+            let known = Known {
+                contacts: &wall.near[..],
+                histories: &mut wall.histories[..],
+            };
+            *place = Some((wall.wall, known));
+        }
+        self.bodies
+            .resize_with(threads(&self.division), Bodies::new);
+        let bodies = &mut self.bodies[..];
+        let mut streams = match &mut self.division {
+            Some(division) => division.streams(spheres, known, walls, bodies),
+            None => {
+                let all = Contacts {
+                    spheres: 0..spheres.len(),
+                    crossing: Known::none(),
+                    pairs: known,
+                    walls,
+                    buffers: &mut self.buffers,
+                };
+                vec![Stream::new(spheres, all, &mut bodies[0], None, None)]
+            }
+        };
+        // One of several threads is looked at.
+        streams[0].profile = self.profile.take();
+        let level = self.level;
+        in_parallel(&mut streams, &|stream| stream.flow(level, &scenery, &moves));
+        self.profile = streams[0].profile.take();
+        self.too_deep = first_too_deep(streams.iter().map(|it| it.too_deep));
+        let found = streams.iter().map(|it| it.found);
+        let found = found.fold(Found::default(), Found::and);
+        drop(streams);
+        self.near.return_pairs(pairs);
+        self.stale |= found.far;
+        found.too_fast
+    }
+}
+
+impl<'a, H: History> Stream<'a, H> {
+    /// Of these spheres and contacts, with copies of the spheres around the boundaries before and after them.
+    pub(super) fn new(
+        spheres: Spheres<'a>,
+        contacts: Contacts<'a, H>,
+        bodies: &'a mut Bodies,
+        before: Option<Partners<'a>>,
+        after: Option<Partners<'a>>,
+    ) -> Self {
+        Self {
+            spheres,
+            moved: 0,
+            crossing: contacts.crossing,
+            pairs: contacts.pairs,
+            walls: contacts.walls,
+            buffers: contacts.buffers,
+            bodies,
+            before,
+            after,
+            too_deep: [None; 1 + TankWall::MOST],
+            found: Found::default(),
+            profile: None,
+        }
+    }
+
+    fn flow<N: NormalLaw, T: TangentialLaw<History = H>>(
+        &mut self,
+        level: Level,
+        scenery: &Scenery<N, T>,
+        moves: &Moves<'_>,
+    ) {
+        let first = self.spheres.first;
+        let end = first + self.spheres.len();
+        if self.before.is_some() {
+            let crossing = std::mem::replace(&mut self.crossing, Known::none());
+            self.add(
+                level,
+                scenery,
+                self.before,
+                [crossing, Known::none()],
+                first,
+            );
+        }
+        // From there on spheres have pairs with those of later threads.
+        let inside = (self.after).map_or(end, |it| (it.first as usize).clamp(first, end));
+        let pairs = &mut self.pairs;
+        let count = pairs
+            .contacts
+            .partition_point(|it| (it.i() as usize) < inside);
+        let mut pairs = pairs.split(count);
+        while first + self.moved < inside {
+            let until = match pairs.contacts.get(SPAN) {
+                Some(next) => next.i() as usize / BLOCK * BLOCK,
+                None => inside,
+            };
+            let some = pairs.split(SPAN);
+            self.add(level, scenery, None, [Known::none(), some], until);
+            self.move_until(level, moves, until);
+        }
+        if inside < end {
+            let rest = std::mem::replace(&mut self.pairs, Known::none());
+            self.add(level, scenery, self.after, [Known::none(), rest], end);
+            self.move_until(level, moves, end);
+        }
+    }
+
+    /// Adds the forces of some pairs, crossing ones and others, and of walls on the next spheres, those before `until`;
+    /// with copies of all these, if they are given.
+    fn add<N: NormalLaw, T: TangentialLaw<History = H>>(
+        &mut self,
+        level: Level,
+        scenery: &Scenery<N, T>,
+        copies: Option<Partners<'_>>,
+        [crossing, pairs]: [Known<'_, NearPair, H>; 2],
+        until: usize,
+    ) {
+        let mut walls = [const { None }; TankWall::MOST];
+        for (next, wall) in walls.iter_mut().zip(&mut self.walls) {
+            let Some((wall, known)) = wall else { break };
+            let near = known.contacts;
+            let count = near.partition_point(|it| (it.i as usize) < until);
+            *next = Some((*wall, known.split(count)));
+        }
+        let first = self.spheres.first;
+        let (partners, [force, torque]) = Partners::of(&mut self.spheres);
+        let partners = copies.unwrap_or(partners);
+        let mut share = Share {
+            partners,
+            sums: Sums {
+                first: first.wrapping_sub(partners.first as usize),
+                force,
+                torque,
+            },
+            clear: false,
+            buffers: self.buffers,
+            crossing,
+            pairs,
+            walls,
+            too_deep: self.too_deep,
+        };
+        share.add_contacts(level, scenery, &mut self.profile);
+        self.too_deep = share.too_deep;
+    }
+
+    /// Moves the next spheres, those before `until`.
+    fn move_until(&mut self, level: Level, moves: &Moves<'_>, until: usize) {
+        let from = std::mem::replace(&mut self.moved, until - self.spheres.first);
+        let next = self.spheres.part(from..self.moved);
+        let bodies = std::slice::from_mut(self.bodies);
+        let found = moves.of_all(next, bodies, level, &mut self.profile);
+        self.found = self.found.and(found);
     }
 }

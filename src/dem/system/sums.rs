@@ -4,9 +4,9 @@ use crate::dem::friction::TangentialLaw;
 use crate::dem::vector::Vector;
 use fearless_simd::{Simd, f64x4};
 
-/// Forces and torques of the spheres from one on, or of all.
+/// Forces and torques of some spheres, one after the other.
 pub(super) struct Sums<'a> {
-    /// The index of the first one.
+    /// The first one, as the partners of contacts are counted; wrapped where it comes before these.
     pub(super) first: usize,
     /// Forces (N).
     pub(super) force: &'a mut [Vector],

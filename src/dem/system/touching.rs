@@ -1,9 +1,9 @@
 //! Which of those that are near each other touch: contacts are computed of these alone, unless nearly all do.
 
 use super::couple::Solid;
+use super::partners::Partners;
 use crate::dem::block::{BLOCK, ROWS, row, turned};
 use crate::dem::neighbours::{NearPair, keep_pairs};
-use crate::dem::particles::Particles;
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask32x8, mask64x8, u32x8};
 use prefetch_index::prefetch_index;
 
@@ -120,7 +120,7 @@ impl Touching {
         near: &[NearPair],
         from: usize,
         histories: &mut [H],
-        particles: &Particles,
+        partners: &Partners<'_>,
         alike: Option<Solid>,
     ) -> usize {
         const { assert!(LOOK.is_multiple_of(BLOCK)) };
@@ -135,7 +135,7 @@ impl Touching {
                     &self.rest
                 }
             };
-            let (mut touch, offset) = touches(simd, eight, particles, alike);
+            let (mut touch, offset) = touches(simd, eight, partners, alike);
             let mut bits = touch.to_bitmask();
             if contacts.len() < ROWS {
                 bits &= (1 << contacts.len()) - 1;
@@ -187,10 +187,10 @@ impl Touching {
 fn touches<S: Simd>(
     simd: S,
     pairs: &[NearPair; ROWS],
-    particles: &Particles,
+    partners: &Partners<'_>,
     alike: Option<Solid>,
 ) -> (mask64x8<S>, [f64x8<S>; 3]) {
-    let (position, radius) = (&particles.position[..], &particles.radius[..]);
+    let (position, radius) = (partners.position, partners.radius);
     let [x, y, z] = turned::<S>(
         #[inline(always)]
         |k| row(simd, position, pairs[k].i()) - row(simd, position, pairs[k].j()),
@@ -233,6 +233,7 @@ fn keep_entries<S: Simd>(simd: S, first: usize, which: u64, list: &mut [u32]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dem::particles::Particles;
     use crate::dem::vector::Vector;
     use fearless_simd::Level;
     use proptest::prelude::*;
@@ -263,7 +264,7 @@ mod tests {
             let mut touching = Touching::new();
             let sort_out = |touching: &mut Touching, histories: &mut Vec<u32>| {
                 fearless_simd::dispatch!(Level::new(), simd => {
-                    touching.find(simd, &near, from, histories, &particles, None)
+                    touching.find(simd, &near, from, histories, &Partners::all(&particles, &[]), None)
                 })
             };
             let found = sort_out(&mut touching, &mut histories);

@@ -4,10 +4,9 @@ use super::PairBlock;
 use crate::dem::block::{BLOCK, ROWS, row};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
-use crate::dem::particles::Particles;
 use crate::dem::system::couple::Solid;
 use crate::dem::system::meeting::Laws;
-use crate::dem::system::pair_block::EarlierRows;
+use crate::dem::system::partners::Partners;
 use crate::dem::system::sums::Sums;
 use crate::dem::system::wall_contacts::NearSphere;
 use crate::dem::vector::Vector;
@@ -26,32 +25,32 @@ impl<H: History> PairBlock<H> {
         simd: S,
         spheres: &[NearSphere; BLOCK],
         histories: &[H],
-        particles: &Particles,
-        earlier: &[EarlierRows],
+        partners: &Partners<'_>,
     ) {
         self.offset.fill::<S>(
             #[inline(always)]
-            |k| row(simd, &particles.position, spheres[k].i),
+            |k| row(simd, partners.position, spheres[k].i),
         );
         self.velocity.fill::<S>(
             #[inline(always)]
-            |k| row(simd, &particles.velocity, spheres[k].i),
+            |k| row(simd, partners.velocity, spheres[k].i),
         );
         if T::ROTATES {
             self.spin[0].fill::<S>(
                 #[inline(always)]
-                |k| row(simd, &particles.spin, spheres[k].i),
+                |k| row(simd, partners.spin, spheres[k].i),
             );
         }
         if !self.alike {
-            self.solid[0].take::<N, T>(particles, |k| spheres[k].i);
+            self.solid[0].take::<N, T>(partners, |k| spheres[k].i);
         }
         self.take_springs(
             simd,
             #[inline(always)]
             |k| histories.get(k).copied().unwrap_or_default(),
         );
-        if Self::REMEMBERS && !earlier.is_empty() {
+        if Self::REMEMBERS && !partners.earlier.is_empty() {
+            let earlier = partners.earlier;
             self.earlier_velocity.fill::<S>(
                 #[inline(always)]
                 |k| f64x4::simd_from(simd, earlier[spheres[k].i as usize][0]),

@@ -1,0 +1,155 @@
+//! What contacts read of spheres.
+
+use super::pair_block::EarlierRows;
+use super::wall_contacts::NearSphere;
+use crate::dem::block::BLOCK;
+use crate::dem::bodies::Spheres;
+use crate::dem::neighbours::NearPair;
+use crate::dem::particles::Particles;
+use crate::dem::vector::Vector;
+use std::ops::Range;
+
+/// What contacts read of spheres, from one on: of all, of those that a thread answers for, or of copies. Contacts are
+/// computed with the first one as number 0.
+#[derive(Clone, Copy)]
+pub(super) struct Partners<'a> {
+    /// The index of the first one.
+    pub(super) first: u32,
+    /// Centres (m).
+    pub(super) position: &'a [Vector],
+    /// Velocities (m/s).
+    pub(super) velocity: &'a [Vector],
+    /// Spins (rad/s), of spheres that turn.
+    pub(super) spin: &'a [Vector],
+    /// Radii (m).
+    pub(super) radius: &'a [f64],
+    /// Masses (kg).
+    pub(super) mass: &'a [f64],
+    /// Inverse masses (1/kg).
+    pub(super) inverse_mass: &'a [f64],
+    /// Moments of inertia (kg m2), of spheres that turn.
+    pub(super) inertia: &'a [f64],
+    /// Velocities and spins that load springs, if these are not the present ones.
+    pub(super) earlier: &'a [EarlierRows],
+}
+
+impl<'a> Partners<'a> {
+    /// All spheres.
+    pub(super) fn all(particles: &'a Particles, earlier: &'a [EarlierRows]) -> Self {
+        let Particles {
+            position,
+            velocity,
+            spin,
+            radius,
+            mass,
+            inverse_mass,
+            inertia,
+            ..
+        } = particles;
+        Self {
+            first: 0,
+            position,
+            velocity,
+            spin,
+            radius,
+            mass,
+            inverse_mass,
+            inertia,
+            earlier,
+        }
+    }
+
+    /// These spheres, and their forces and torques.
+    pub(super) fn of(spheres: &'a mut Spheres<'_>) -> (Self, [&'a mut [Vector]; 2]) {
+        let partners = Self {
+            first: spheres.first as u32,
+            position: spheres.position,
+            velocity: spheres.velocity,
+            spin: spheres.spin,
+            radius: spheres.radius,
+            mass: spheres.mass,
+            inverse_mass: spheres.inverse_mass,
+            inertia: spheres.inertia,
+            earlier: &[],
+        };
+        (partners, [spheres.force, spheres.torque])
+    }
+
+    /// Pairs as these partners are counted, in `room`.
+    #[inline(always)]
+    pub(super) fn counted<'p>(
+        &self,
+        pairs: &'p [NearPair],
+        room: &'p mut [NearPair],
+    ) -> &'p [NearPair] {
+        if self.first == 0 {
+            return pairs;
+        }
+        let first = NearPair::new(self.first, self.first).word();
+        for (counted, pair) in room.iter_mut().zip(pairs) {
+            *counted = NearPair::of_word(pair.word() - first);
+        }
+        &room[..pairs.len()]
+    }
+
+    /// Spheres at a wall as these partners are counted, in `room`.
+    #[inline(always)]
+    pub(super) fn counted_at_wall<'p>(
+        &self,
+        spheres: &'p [NearSphere; BLOCK],
+        room: &'p mut [NearSphere; BLOCK],
+    ) -> &'p [NearSphere; BLOCK] {
+        if self.first == 0 {
+            return spheres;
+        }
+        for (counted, sphere) in room.iter_mut().zip(spheres) {
+            counted.i = sphere.i - self.first;
+        }
+        room
+    }
+}
+
+/// Copies of what changes of some spheres.
+#[derive(Default)]
+pub(super) struct Copies {
+    /// Their indices.
+    pub(super) spheres: Range<usize>,
+    position: Vec<Vector>,
+    velocity: Vec<Vector>,
+    spin: Vec<Vector>,
+}
+
+impl Copies {
+    /// Copies the spheres as they are now, out of all.
+    pub(super) fn renew(&mut self, all: &Spheres<'_>) {
+        let columns = [
+            (&mut self.position, &*all.position),
+            (&mut self.velocity, &*all.velocity),
+            (&mut self.spin, &*all.spin),
+        ];
+        for (copies, all) in columns {
+            copies.clear();
+            copies.extend_from_slice(part(all, &self.spheres));
+        }
+    }
+
+    /// These spheres, with what does not change out of that of all.
+    pub(super) fn partners<'a>(&'a self, all: &Spheres<'a>) -> Partners<'a> {
+        Partners {
+            first: self.spheres.start as u32,
+            position: &self.position,
+            velocity: &self.velocity,
+            spin: &self.spin,
+            radius: part(all.radius, &self.spheres),
+            mass: part(all.mass, &self.spheres),
+            inverse_mass: part(all.inverse_mass, &self.spheres),
+            inertia: part(all.inertia, &self.spheres),
+            earlier: &[],
+        }
+    }
+}
+
+/// These entries, of an array that may have none at all.
+fn part<'a, E>(all: &'a [E], range: &Range<usize>) -> &'a [E] {
+    all.get(range.clone()).unwrap_or_default()
+}
