@@ -1,15 +1,52 @@
 //! Work divided among threads: what is done for each share, and shares of arrays.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// How long a thread that is done looks whether the others are: about what it takes to wake one that went to sleep
+/// instead, of which a step of a few thousand spheres would have several.
+const PATIENCE: Duration = Duration::from_micros(200);
+
 /// Does the work of each item, on the threads of the pool that runs this, if one does.
 pub(in crate::dem) fn in_parallel<I: Send>(items: &mut [I], work: &(impl Fn(&mut I) + Sync)) {
+    if items.len() < 2 || rayon::current_thread_index().is_none() {
+        items.iter_mut().for_each(work);
+        return;
+    }
+    let (begun, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    fork(items, &|item| {
+        begun.fetch_add(1, Ordering::Relaxed);
+        work(item);
+        done.fetch_add(1, Ordering::Relaxed);
+        // Nothing but time depends on these numbers.
+        let since = Instant::now();
+        while done.load(Ordering::Relaxed) < begun.load(Ordering::Relaxed)
+            && since.elapsed() < PATIENCE
+        {
+            std::hint::spin_loop();
+        }
+    });
+}
+
+fn fork<I: Send>(items: &mut [I], work: &(impl Fn(&mut I) + Sync)) {
     match items {
         [] => {}
         [item] => work(item),
-        _ if rayon::current_thread_index().is_none() => items.iter_mut().for_each(work),
         _ => {
             let (one, other) = items.split_at_mut(items.len() / 2);
-            rayon::join(|| in_parallel(one, work), || in_parallel(other, work));
+            rayon::join(|| fork(one, work), || fork(other, work));
         }
+    }
+}
+
+/// Does both, at once if there are several threads, those of the pool that runs this.
+pub(in crate::dem) fn both(threads: usize, one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
+    // A single thread's pool may be one that has other things to do meanwhile.
+    if threads > 1 && rayon::current_thread_index().is_some() {
+        rayon::join(one, other);
+    } else {
+        one();
+        other();
     }
 }
 

@@ -44,10 +44,14 @@ impl Anchor {
     pub(super) fn drop(&mut self, particles: &Particles) {
         self.position.clear();
         self.position.reserve_exact(particles.len());
-        self.rounding = 0.0;
+        let mut farthest_squared = 0.0_f64;
         for &place in &particles.position {
-            self.add_sphere(place);
+            let reference = Reference::of(place);
+            let rounding = place - reference.place();
+            farthest_squared = farthest_squared.max(rounding.norm_squared());
+            self.position.push(reference);
         }
+        self.rounding = farthest_squared.sqrt();
         self.rotation = mean_rotation(particles);
         self.middle = 0.0;
     }

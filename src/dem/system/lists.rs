@@ -3,12 +3,14 @@
 use super::couple::Solid;
 use super::division::threads;
 use super::meeting::Laws;
+use super::wall_contacts::WallContacts;
 use super::{Parts, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::profile::Part;
+use crate::dem::threads::both;
 use crate::record::Instability;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
@@ -32,7 +34,12 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             if Self::REMEMBERS {
                 let before = near.exchange_pairs(std::mem::take(&mut self.spare_pairs));
                 near.refresh(self.level, list, particles, threads);
-                carry_over(&before, near.pairs(), &mut self.pair_history);
+                let (pairs, histories) = (near.pairs(), &mut self.pair_history);
+                both(
+                    threads,
+                    || carry_over(&before, pairs, histories),
+                    || find_at_walls(&mut self.walls, particles, near.margin()),
+                );
                 // Of many spheres it would be memory for nothing most of the time.
                 if !self.parts.sorted {
                     self.spare_pairs = before;
@@ -42,10 +49,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 // Histories that take no memory.
                 self.pair_history
                     .resize(near.pairs().len(), T::History::default());
-            }
-            let margin = near.margin();
-            for wall in &mut self.walls {
-                wall.find(particles, margin);
+                find_at_walls(&mut self.walls, particles, near.margin());
             }
             if let Some(division) = &mut self.division {
                 let (pairs, histories) = (self.near.pairs(), &self.pair_history);
@@ -100,31 +104,46 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 }
 
+/// Finds the spheres near each wall.
+fn find_at_walls<H: History>(walls: &mut [WallContacts<H>], particles: &Particles, margin: f64) {
+    for wall in walls {
+        wall.find(particles, margin);
+    }
+}
+
 /// Puts the histories of near pairs into the order of those that are near now; who is no longer near is
 /// forgotten. Both lists are sorted, so one pass over each suffices; histories move within their
 /// array, of which a second one would be most of what a large scene takes.
 fn carry_over<H: History>(before: &[NearPair], now: &[NearPair], histories: &mut Vec<H>) {
-    // What is remembered moves to the front; it stands in the order of its places, none of which
-    // comes before the one it then has.
+    const GONE: u32 = u32::MAX;
     let mut places: Vec<u32> = Vec::with_capacity(before.len());
+    let mut new: Vec<u32> = Vec::new();
     let mut rest = now.iter().zip(0..).peekable();
-    for (pair, at) in before.iter().zip(0..) {
-        let history: H = histories[at];
-        if history.is_new() {
-            continue;
+    for pair in before {
+        while let Some((_, place)) = rest.next_if(|(it, _)| *it < pair) {
+            new.push(place);
         }
-        while rest.next_if(|(it, _)| *it < pair).is_some() {}
-        if let Some((_, place)) = rest.next_if(|(it, _)| *it == pair) {
-            histories[places.len()] = history;
-            places.push(place);
+        let same = rest.next_if(|(it, _)| *it == pair);
+        places.push(same.map_or(GONE, |(_, place)| place));
+    }
+    new.extend(rest.map(|(_, place)| place));
+    histories.resize(before.len().max(now.len()), H::default());
+    // Places grow. So nobody who moves down, the first one first, comes to where another one still is; and then
+    // nobody who moves up, the last one first.
+    for (at, &place) in places.iter().enumerate() {
+        if (place as usize) < at {
+            histories[place as usize] = histories[at];
         }
     }
-    histories.truncate(places.len());
-    histories.resize(now.len(), H::default());
-    for (from, &place) in places.iter().enumerate().rev() {
-        let history = std::mem::take(&mut histories[from]);
-        histories[place as usize] = history;
+    for (at, &place) in places.iter().enumerate().rev() {
+        if place != GONE && place as usize > at {
+            histories[place as usize] = histories[at];
+        }
     }
+    for place in new {
+        histories[place as usize] = H::default();
+    }
+    histories.truncate(now.len());
 }
 
 #[cfg(test)]
@@ -132,6 +151,8 @@ mod tests {
     use super::*;
     use crate::dem::friction::Spring;
     use crate::dem::vector::Vector;
+    use proptest::prelude::*;
+    use std::collections::BTreeSet;
 
     fn pairs(of: &[[u32; 2]]) -> Vec<NearPair> {
         of.iter().map(|&[i, j]| NearPair::new(i, j)).collect()
@@ -155,5 +176,23 @@ mod tests {
         carry_over(&now, &before, &mut histories);
         let found: Vec<f64> = histories.iter().map(|it| it.force.x).collect();
         assert_eq!(found, [0.0, 0.0, 3.0, 4.0, 0.0]);
+    }
+
+    proptest! {
+        #[test]
+        fn histories_stay_with_any_pairs(
+            before in prop::collection::btree_set((0..9_u32, 9..18_u32), 0..60),
+            now in prop::collection::btree_set((0..9_u32, 9..18_u32), 0..60),
+        ) {
+            let sorted = |of: &BTreeSet<(u32, u32)>| -> Vec<NearPair> {
+                of.iter().map(|&(i, j)| NearPair::new(i, j)).collect()
+            };
+            let number = |&(i, j): &(u32, u32)| f64::from(100 + 18 * i + j);
+            let mut histories = springs(&before.iter().map(number).collect::<Vec<_>>());
+            carry_over(&sorted(&before), &sorted(&now), &mut histories);
+            let expected = now.iter().map(|pair| if before.contains(pair) { number(pair) } else { 0.0 });
+            let found = histories.iter().map(|it| it.force.x);
+            prop_assert!(found.eq(expected));
+        }
     }
 }
