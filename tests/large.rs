@@ -237,47 +237,87 @@ fn a_broken_guard_names_the_sphere_of_the_scene() {
     assert!(broken[0] == broken[1]);
 }
 
-/// Pressed spheres on a cubic lattice in a tank of that radius (m), each with a velocity of its own, and of three radii
-/// if they are not alike.
-fn lattice(integrator: Integrator, tank: f64, alike: bool) -> Scene {
-    let mut scene = large(mindlin(), integrator);
-    let radius = 0.004;
-    let spacing = 1.98 * radius;
-    let cell = |k: usize| spacing * k as f64;
-    let columns = (0..20).flat_map(|i| (0..20).map(move |j| [i, j]));
-    let columns = columns
-        .map(|[i, j]| [cell(i), cell(j)].map(|x| x - 9.5 * spacing))
-        .filter(|[x, y]| libm::hypot(*x, *y) < tank - radius);
-    let columns: Vec<_> = columns.collect();
-    let spheres = (0..COUNT).map(|at| {
-        let ([x, y], layer) = (columns[at % columns.len()], at / columns.len());
-        let speed = |salt: usize| 1e-4 * ((at * salt) % 101) as f64;
-        StartSphere {
-            position: [x, y, -0.05 + 0.99 * radius + cell(layer)],
-            velocity: [speed(37), speed(53), speed(71)],
-            spin: [0.0; 3],
-            radius: (!alike).then(|| radius * (1.0 - 1e-3 * (at % 3) as f64)),
-        }
-    });
-    scene.spheres.radius = Radii::One(radius);
-    scene.tank.as_mut().unwrap().radius = Some(tank);
-    scene.start = Start::List {
-        spheres: spheres.collect(),
-    };
-    scene
+/// Spheres on a cubic lattice, each with a velocity of its own.
+#[derive(Clone, Copy, Debug)]
+struct Lattice {
+    /// Radius of the tank (m): in a wide one most spheres are near those of another thread; in a narrow one few, and each
+    /// thread then moves its own while those of others are still to come.
+    tank: f64,
+    count: usize,
+    /// Whether all are pressed together; or they meet and part.
+    pressed: bool,
+    /// Whether all have one radius, or one of three.
+    alike: bool,
+    friction: bool,
 }
 
-/// Radii of tanks (m): in the wide one most spheres are near those of another thread, in the narrow one few, and each
-/// thread then moves its own while those of others are still to come.
-const WIDE: f64 = 0.08;
-const NARROW: f64 = 0.03;
+const WIDE: Lattice = Lattice {
+    tank: 0.08,
+    count: COUNT,
+    pressed: true,
+    alike: true,
+    friction: true,
+};
+
+/// 44 spheres in a layer, and so many of them that two threads move theirs in several goes.
+const NARROW: Lattice = Lattice {
+    tank: 0.033,
+    count: 10_000,
+    ..WIDE
+};
+
+impl Lattice {
+    fn scene(self, integrator: Integrator) -> Scene {
+        let mut scene = large(self.friction.then(mindlin).flatten(), integrator);
+        let radius = 0.004;
+        let (spacing, slowest) = match self.pressed {
+            true => (1.98 * radius, 1e-4),
+            false => (2.02 * radius, 3e-3),
+        };
+        let cell = |k: usize| spacing * k as f64;
+        let columns = (0..20).flat_map(|i| (0..20).map(move |j| [i, j]));
+        let columns = columns
+            .map(|[i, j]| [cell(i), cell(j)].map(|x| x - 9.5 * spacing))
+            .filter(|[x, y]| libm::hypot(*x, *y) < self.tank - radius);
+        let columns: Vec<_> = columns.collect();
+        let spheres = (0..self.count).map(|at| {
+            let ([x, y], layer) = (columns[at % columns.len()], at / columns.len());
+            let speed = |salt: usize| slowest * ((at * salt) % 101) as f64;
+            StartSphere {
+                position: [x, y, -0.05 + 0.99 * radius + cell(layer)],
+                velocity: [speed(37), speed(53), speed(71)],
+                spin: [0.0; 3],
+                radius: (!self.alike).then_some(radius * (1.0 - 1e-3 * (at % 3) as f64)),
+            }
+        });
+        scene.spheres.radius = Radii::One(radius);
+        scene.spheres.count = self.count;
+        scene.tank.as_mut().unwrap().radius = Some(self.tank);
+        scene.start = Start::List {
+            spheres: spheres.collect(),
+        };
+        scene
+    }
+}
 
 /// Of many contacts spheres are moved while others are still to come; step by step they are moved after all of them.
 #[test]
 fn bits_do_not_depend_on_when_spheres_are_moved() {
+    let unlike = Lattice {
+        alike: false,
+        ..NARROW
+    };
+    let loose = Lattice {
+        pressed: false,
+        ..NARROW
+    };
+    let smooth = Lattice {
+        friction: false,
+        ..loose
+    };
     for integrator in [Integrator::SymplecticEuler, Integrator::VelocityVerlet] {
-        for (tank, alike) in [(WIDE, true), (NARROW, true), (NARROW, false)] {
-            let scene = lattice(integrator, tank, alike);
+        for lattice in [WIDE, NARROW, unlike, loose, smooth] {
+            let scene = lattice.scene(integrator);
             let advanced = |threads: usize, at_once: u64| {
                 let mut simulation = Simulation::new(&scene).unwrap();
                 simulation.use_threads(threads).unwrap();
@@ -287,10 +327,10 @@ fn bits_do_not_depend_on_when_spheres_are_moved() {
                 bits(&mut simulation)
             };
             let expected = advanced(1, 60);
-            for (threads, at_once) in [(1, 1), (2, 60), (2, 1), (3, 60), (6, 20)] {
+            for (threads, at_once) in [(1, 1), (2, 60), (3, 20), (8, 60)] {
                 assert!(
                     advanced(threads, at_once) == expected,
-                    "{integrator:?}, {threads} threads, {at_once} steps at once, tank of {tank} m"
+                    "{integrator:?}, {threads} threads, {at_once} steps at once, {lattice:?}"
                 );
             }
         }
@@ -300,15 +340,16 @@ fn bits_do_not_depend_on_when_spheres_are_moved() {
 /// Wherever it is, at the boundary of two threads too.
 #[test]
 fn a_contact_too_deep_is_the_same_on_threads_that_move_their_own_spheres() {
+    let middle = NARROW.count / 2;
     for at in [
         0,
-        COUNT / 3,
-        COUNT / 2 - 30,
-        COUNT / 2,
-        COUNT / 2 + 30,
-        COUNT - 1,
+        NARROW.count / 3,
+        middle - 40,
+        middle,
+        middle + 40,
+        NARROW.count - 1,
     ] {
-        let mut scene = lattice(Integrator::SymplecticEuler, NARROW, true);
+        let mut scene = NARROW.scene(Integrator::SymplecticEuler);
         let Start::List { spheres } = &mut scene.start else {
             panic!("a list")
         };

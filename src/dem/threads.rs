@@ -13,17 +13,19 @@ pub(in crate::dem) fn in_parallel<I: Send>(items: &mut [I], work: &(impl Fn(&mut
         items.iter_mut().for_each(work);
         return;
     }
+    let all = items.len();
     let (begun, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
     fork(items, &|item| {
         begun.fetch_add(1, Ordering::Relaxed);
         work(item);
         done.fetch_add(1, Ordering::Relaxed);
-        // Nothing but time depends on these numbers.
+        // Nothing but time depends on these numbers. While an item has not begun, there is work to be found.
         let since = Instant::now();
-        while done.load(Ordering::Relaxed) < begun.load(Ordering::Relaxed)
+        while begun.load(Ordering::Relaxed) == all
+            && done.load(Ordering::Relaxed) < all
             && since.elapsed() < PATIENCE
         {
-            std::hint::spin_loop();
+            std::thread::yield_now();
         }
     });
 }

@@ -44,6 +44,7 @@ impl Anchor {
     pub(super) fn drop(&mut self, particles: &Particles) {
         self.position.clear();
         self.position.reserve_exact(particles.len());
+        // One root for all.
         let mut farthest_squared = 0.0_f64;
         for &place in &particles.position {
             let reference = Reference::of(place);

@@ -3,7 +3,8 @@
 use super::System;
 use super::couple::{Couple, Earlier, Solid};
 use super::meeting::Laws;
-use super::wall_contacts::NearSphere;
+use super::share::{AtWalls, Known};
+use super::wall_contacts::{NearSphere, WallContacts};
 use crate::dem::block::Row;
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
@@ -28,6 +29,27 @@ impl Among {
         let entry = |k: usize| self.entries.get(k).map_or(k, |&entry| entry as usize);
         let pairs = self.pairs.iter().enumerate();
         pairs.map(move |(k, &pair)| (pair, entry(k)))
+    }
+
+    /// Pairs and spheres near walls, with their histories, of which there is one for each of them.
+    pub(super) fn known<'a, H>(
+        &'a self,
+        pair_history: &'a mut [H],
+        at_walls: &'a mut [WallContacts<H>],
+    ) -> (Known<'a, NearPair, H>, AtWalls<'a, H>) {
+        let mut walls = [const { None }; TankWall::MOST];
+        for ((place, wall), near) in walls.iter_mut().zip(at_walls).zip(&self.walls) {
+            let known = Known {
+                contacts: near,
+                histories: &mut wall.histories,
+            };
+            *place = Some((wall.wall, known));
+        }
+        let pairs = Known {
+            contacts: &self.pairs,
+            histories: pair_history,
+        };
+        (pairs, walls)
     }
 }
 

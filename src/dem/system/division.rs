@@ -7,7 +7,7 @@
 //! of the spheres around the boundary.
 
 use super::partners::{Copies, Partners};
-use super::share::{AtWall, Buffers, Known, Scenery, Share, TooDeep};
+use super::share::{AtWalls, Buffers, Known, Scenery, Share, TooDeep};
 use super::stream::Stream;
 use super::sums::Sums;
 use super::wall_contacts::WallContacts;
@@ -45,11 +45,10 @@ struct Region<H> {
 }
 
 /// The contacts that one thread answers for.
-pub(super) struct Contacts<'a, H> {
-    pub(super) spheres: Range<usize>,
+pub(super) struct Portion<'a, H> {
     pub(super) crossing: Known<'a, NearPair, H>,
     pub(super) pairs: Known<'a, NearPair, H>,
-    pub(super) walls: [Option<AtWall<'a, H>>; TankWall::MOST],
+    pub(super) walls: AtWalls<'a, H>,
     pub(super) buffers: &'a mut Buffers<H>,
 }
 
@@ -128,20 +127,18 @@ impl<H: History> Division<H> {
         copies * NARROW <= spheres
     }
 
-    /// What each thread answers for of these contacts.
-    fn contacts<'a>(
+    /// The spheres and contacts that each thread answers for, of all contacts.
+    fn portions<'a>(
         parts: &'a mut [Region<H>],
         mut pairs: Known<'a, NearPair, H>,
-        mut walls: [Option<AtWall<'a, H>>; TankWall::MOST],
-    ) -> impl Iterator<Item = Contacts<'a, H>> {
+        mut walls: AtWalls<'a, H>,
+    ) -> impl Iterator<Item = (Range<usize>, Portion<'a, H>)> {
         parts.iter_mut().map(move |region| {
-            let at_wall = |(wall, range): (&mut Option<AtWall<'a, H>>, &Range<usize>)| {
+            let mut at_walls = walls.iter_mut().zip(&region.walls).map(|(wall, range)| {
                 let (wall, known) = wall.as_mut()?;
                 Some((*wall, known.split(range.len())))
-            };
-            let mut at_walls = walls.iter_mut().zip(&region.walls).map(at_wall);
-            Contacts {
-                spheres: region.spheres.clone(),
+            });
+            let portion = Portion {
                 crossing: Known {
                     contacts: &region.crossing,
                     histories: &mut region.crossing_history,
@@ -149,7 +146,8 @@ impl<H: History> Division<H> {
                 pairs: pairs.split(region.pairs.len()),
                 walls: std::array::from_fn(|_| at_walls.next().flatten()),
                 buffers: &mut region.buffers,
-            }
+            };
+            (region.spheres.clone(), portion)
         })
     }
 
@@ -162,16 +160,15 @@ impl<H: History> Division<H> {
         partners: Partners<'_>,
         [mut force, mut torque]: [&mut [Vector]; 2],
         clear: bool,
-        pairs: Known<'_, NearPair, H>,
-        walls: [Option<AtWall<'_, H>>; TankWall::MOST],
+        (pairs, walls): (Known<'_, NearPair, H>, AtWalls<'_, H>),
     ) -> TooDeep {
-        let contacts = Self::contacts(&mut self.parts, pairs, walls);
-        let shares = contacts.map(|of| Share {
+        let portions = Self::portions(&mut self.parts, pairs, walls);
+        let shares = portions.map(|(spheres, of)| Share {
             partners,
             sums: Sums {
-                first: of.spheres.start,
-                force: split(&mut force, of.spheres.len()),
-                torque: split(&mut torque, of.spheres.len()),
+                first: spheres.start,
+                force: split(&mut force, spheres.len()),
+                torque: split(&mut torque, spheres.len()),
             },
             clear,
             buffers: of.buffers,
@@ -192,20 +189,19 @@ impl<H: History> Division<H> {
         &'a mut self,
         mut all: Spheres<'a>,
         pairs: Known<'a, NearPair, H>,
-        walls: [Option<AtWall<'a, H>>; TankWall::MOST],
+        walls: AtWalls<'a, H>,
         bodies: &'a mut [Bodies],
     ) -> Vec<Stream<'a, H>> {
         let Self { parts, boundaries } = self;
-        boundaries.iter_mut().for_each(|it| it.renew(&all));
-        let around = |it: &'a Copies| Some(it.partners(&all));
+        in_parallel(boundaries, &|boundary| boundary.renew(&all));
+        let around = |boundary: &'a Copies| Some(boundary.partners(&all));
         let around: Vec<_> = boundaries.iter().map(around).collect();
         let before = std::iter::once(None).chain(around.iter().copied());
         let after = around.iter().copied().chain(std::iter::once(None));
-        let contacts = Self::contacts(parts, pairs, walls);
-        let streams = contacts.zip(bodies).zip(before.zip(after));
-        let streams = streams.map(|((of, bodies), (before, after))| {
-            let spheres = all.split(of.spheres.len());
-            Stream::new(spheres, of, bodies, before, after)
+        let portions = Self::portions(parts, pairs, walls).zip(bodies);
+        let streams = portions.zip(before.zip(after));
+        let streams = streams.map(|(((spheres, portion), bodies), copies)| {
+            Stream::new(all.split(spheres.len()), portion, bodies, copies)
         });
         streams.collect()
     }
@@ -229,4 +225,90 @@ pub(super) fn first_too_deep(
 /// Threads that there are, one where the work is not divided.
 pub(super) fn threads<H>(division: &Option<Division<H>>) -> usize {
     division.as_ref().map_or(1, |it| it.parts.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::collections::BTreeSet;
+
+    fn divided(spheres: usize, pairs: &[NearPair], threads: usize) -> Division<()> {
+        let mut division = Division::new(threads);
+        division.divide(spheres, pairs, &vec![(); pairs.len()], &[]);
+        division
+    }
+
+    fn inside(pair: NearPair, range: &Range<usize>) -> bool {
+        pair.sides()
+            .iter()
+            .all(|&it| range.contains(&(it as usize)))
+    }
+
+    proptest! {
+        /// Every pair is computed by whoever answers for one of its spheres, of spheres that are there.
+        #[test]
+        fn pairs_are_inside_their_regions_or_among_the_copies(
+            spheres in 2..900_usize,
+            steps in prop::collection::btree_set((0..900_u32, 1..200_u32), 0..400),
+            threads in 2..9_usize,
+        ) {
+            let pairs = steps.iter().map(|&(i, step)| NearPair::new(i, i + step));
+            let pairs: Vec<_> = pairs.filter(|pair| (pair.j() as usize) < spheres).collect();
+            let division = divided(spheres, &pairs, threads);
+            let nobody = Copies::default();
+            let mut own = 0;
+            for (k, region) in division.parts.iter().enumerate() {
+                let Range { start, end } = region.spheres;
+                prop_assert_eq!(start, if k == 0 { 0 } else { division.parts[k - 1].spheres.end });
+                prop_assert!(start.is_multiple_of(BLOCK) || start == spheres);
+                let before = k.checked_sub(1).map_or(&nobody, |k| &division.boundaries[k]);
+                let expected = pairs.iter().filter(|it| (it.i() as usize) < start);
+                let expected = expected.filter(|it| region.spheres.contains(&(it.j() as usize)));
+                prop_assert!(region.crossing.iter().eq(expected));
+                prop_assert!(region.crossing.iter().all(|&it| inside(it, &before.spheres)));
+                let tail = division.boundaries.get(k).map_or(spheres..spheres, |it| it.spheres.clone());
+                let moved_at_once = start..tail.start.clamp(start, end);
+                for &pair in &pairs[region.pairs.clone()] {
+                    prop_assert!(region.spheres.contains(&(pair.i() as usize)));
+                    match moved_at_once.contains(&(pair.i() as usize)) {
+                        true => prop_assert!(inside(pair, &region.spheres)),
+                        false => prop_assert!(inside(pair, &tail)),
+                    }
+                }
+                own += region.pairs.len();
+            }
+            prop_assert_eq!(division.parts[threads - 1].spheres.end, spheres);
+            prop_assert_eq!(own, pairs.len());
+        }
+    }
+
+    /// Spheres of a cubic lattice with so many in a layer, in contact with the next one along each axis.
+    fn lattice(layer: u32, layers: u32) -> Vec<NearPair> {
+        let count = layer * layers;
+        let pairs = (0..count).flat_map(|i| [1, layer].map(|step| (i, i + step)));
+        let pairs = pairs.filter(|&(_, j)| j < count);
+        let sorted: BTreeSet<_> = pairs.collect();
+        sorted
+            .into_iter()
+            .map(|(i, j)| NearPair::new(i, j))
+            .collect()
+    }
+
+    #[test]
+    fn boundaries_of_a_column_are_narrow_and_those_of_a_slab_are_not() {
+        for (layer, layers, threads, narrow) in [
+            (40, 200, 2, true),
+            (40, 200, 4, true),
+            (2000, 4, 2, false),
+            (40, 200, 60, false),
+        ] {
+            let division = divided((layer * layers) as usize, &lattice(layer, layers), threads);
+            assert_eq!(
+                division.has_narrow_boundaries(),
+                narrow,
+                "{layer} a layer, {threads} threads"
+            );
+        }
+    }
 }

@@ -181,27 +181,17 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let (mut force, mut torque) = (std::mem::take(force), std::mem::take(torque));
         let scenery = self.scenery();
         let partners = Partners::all(&self.parts.particles, &self.earlier);
-        let pairs = Known {
-            contacts: &among.pairs[..],
-            histories: &mut self.pair_history[..],
-        };
-        let mut walls = [const { None }; TankWall::MOST];
-        for ((place, wall), near) in walls.iter_mut().zip(&mut self.walls).zip(&among.walls) {
-            let known = Known {
-                contacts: &near[..],
-                histories: &mut wall.histories[..],
-            };
-            *place = Some((wall.wall, known));
-        }
+        let known = among.known(&mut self.pair_history, &mut self.walls);
         let too_deep = match self.division.as_mut().filter(|_| anew) {
             Some(division) => {
                 let sums = [&mut force[..], &mut torque[..]];
                 let too_deep =
-                    division.evaluate(self.level, &scenery, partners, sums, clear, pairs, walls);
+                    division.evaluate(self.level, &scenery, partners, sums, clear, known);
                 profile::mark(&mut self.profile, Part::Pairs);
                 too_deep
             }
             None => {
+                let (pairs, walls) = known;
                 let mut share = Share {
                     partners,
                     sums: Sums {

@@ -116,34 +116,34 @@ fn find_at_walls<H: History>(walls: &mut [WallContacts<H>], particles: &Particle
 /// array, of which a second one would be most of what a large scene takes.
 fn carry_over<H: History>(before: &[NearPair], now: &[NearPair], histories: &mut Vec<H>) {
     const GONE: u32 = u32::MAX;
-    let mut places: Vec<u32> = Vec::with_capacity(before.len());
-    let mut new: Vec<u32> = Vec::new();
     let mut rest = now.iter().zip(0..).peekable();
-    for pair in before {
-        while let Some((_, place)) = rest.next_if(|(it, _)| *it < pair) {
-            new.push(place);
-        }
+    let mut place_of = |pair: &NearPair| {
+        while rest.next_if(|(it, _)| *it < pair).is_some() {}
         let same = rest.next_if(|(it, _)| *it == pair);
-        places.push(same.map_or(GONE, |(_, place)| place));
-    }
-    new.extend(rest.map(|(_, place)| place));
+        same.map_or(GONE, |(_, place)| place)
+    };
+    let places: Vec<u32> = before.iter().map(&mut place_of).collect();
+    let places = || places.iter().map(|&place| place as usize).enumerate();
     histories.resize(before.len().max(now.len()), H::default());
-    // Places grow. So nobody who moves down, the first one first, comes to where another one still is; and then
-    // nobody who moves up, the last one first.
-    for (at, &place) in places.iter().enumerate() {
-        if (place as usize) < at {
-            histories[place as usize] = histories[at];
-        }
+    // Places grow. So those that move down, from the front, come to none that is still to move; nor then do those that
+    // move up, from the back.
+    for (at, place) in places().filter(|(at, place)| place < at) {
+        histories[place] = histories[at];
     }
-    for (at, &place) in places.iter().enumerate().rev() {
-        if place != GONE && place as usize > at {
-            histories[place as usize] = histories[at];
-        }
-    }
-    for place in new {
-        histories[place as usize] = H::default();
+    let stay = |place: &usize| *place != GONE as usize;
+    for (at, place) in places()
+        .rev()
+        .filter(|(at, place)| place > at && stay(place))
+    {
+        histories[place] = histories[at];
     }
     histories.truncate(now.len());
+    let mut next = 0;
+    for (_, place) in places().filter(|(_, place)| stay(place)) {
+        histories[next..place].fill(H::default());
+        next = place + 1;
+    }
+    histories[next..].fill(H::default());
 }
 
 #[cfg(test)]

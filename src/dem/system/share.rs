@@ -57,8 +57,8 @@ impl<C, H> Known<'_, C, H> {
     }
 }
 
-/// A wall and the spheres near it.
-pub(super) type AtWall<'a, H> = (TankWall, Known<'a, NearSphere, H>);
+/// Walls, each with the spheres near it.
+pub(super) type AtWalls<'a, H> = [Option<(TankWall, Known<'a, NearSphere, H>)>; TankWall::MOST];
 
 /// A sphere whose contact is beyond the overlap limit, and the overlap (m).
 pub(super) type TooDeep = Option<(usize, f64)>;
@@ -93,7 +93,7 @@ pub(super) struct Share<'a, H> {
     pub(super) crossing: Known<'a, NearPair, H>,
     /// Pairs whose first sphere is one of these.
     pub(super) pairs: Known<'a, NearPair, H>,
-    pub(super) walls: [Option<AtWall<'a, H>>; TankWall::MOST],
+    pub(super) walls: AtWalls<'a, H>,
     /// The first contact found too deep among pairs and at each wall.
     pub(super) too_deep: [TooDeep; 1 + TankWall::MOST],
 }

@@ -4,14 +4,15 @@
 //! and no later one asks where it is: it can be moved while it is at hand. What is done to a sphere, and in which order,
 //! is the same as if all forces came first.
 //!
-//! Threads do not ask where spheres of the others are, which have been moved or not: pairs across a boundary, and all
-//! of spheres that have such pairs with later ones, are computed of copies.
+//! Threads do not ask where spheres of the others are, which have been moved or not: pairs across a boundary are computed
+//! of copies of the spheres around it, and so are all pairs of a thread's spheres from the first one on that has such a
+//! pair with a later one, as a block of pairs reads its partners in one place.
 
 use super::System;
-use super::division::{Contacts, first_too_deep, threads};
+use super::division::{Portion, first_too_deep, threads};
 use super::moves::{Drift, FirstTooFast, Found, Moves};
 use super::partners::Partners;
-use super::share::{AtWall, Buffers, Known, Scenery, Share, TooDeep};
+use super::share::{Known, Scenery, Share, TooDeep};
 use super::sums::Sums;
 use super::touching::LOOK;
 use crate::dem::block::BLOCK;
@@ -33,11 +34,8 @@ pub(super) struct Stream<'a, H> {
     spheres: Spheres<'a>,
     /// How many of them are moved.
     moved: usize,
-    /// Contacts that are not done.
-    crossing: Known<'a, NearPair, H>,
-    pairs: Known<'a, NearPair, H>,
-    walls: [Option<AtWall<'a, H>>; TankWall::MOST],
-    buffers: &'a mut Buffers<H>,
+    /// What is not done.
+    portion: Portion<'a, H>,
     bodies: &'a mut Bodies,
     /// Copies of spheres around the boundaries.
     before: Option<Partners<'a>>,
@@ -66,7 +64,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         self.age.time += drift;
         self.near_age.time += drift;
-        let pairs = self.near.take_pairs();
+        debug_assert!(
+            self.loading.age == 0.0,
+            "springs are loaded by present velocities"
+        );
+        let among = self.take_all();
         let scenery = self.scenery();
         let moves = Moves {
             effects: &self.parts.effects,
@@ -81,35 +83,23 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         };
         let reference = self.near.anchor().position();
         let spheres = Spheres::new(&mut self.parts.particles, reference);
-        let known = Known {
-            contacts: &pairs[..],
-            histories: &mut self.pair_history[..],
-        };
-        let mut walls = [const { None }; TankWall::MOST];
-        for (place, wall) in walls.iter_mut().zip(&mut self.walls) {
-            let known = Known {
-                contacts: &wall.near[..],
-                histories: &mut wall.histories[..],
-            };
-            *place = Some((wall.wall, known));
-        }
+        let (pairs, walls) = among.known(&mut self.pair_history, &mut self.walls);
         self.bodies
             .resize_with(threads(&self.division), Bodies::new);
         let bodies = &mut self.bodies[..];
         let mut streams = match &mut self.division {
-            Some(division) => division.streams(spheres, known, walls, bodies),
+            Some(division) => division.streams(spheres, pairs, walls, bodies),
             None => {
-                let all = Contacts {
-                    spheres: 0..spheres.len(),
+                let all = Portion {
                     crossing: Known::none(),
-                    pairs: known,
+                    pairs,
                     walls,
                     buffers: &mut self.buffers,
                 };
-                vec![Stream::new(spheres, all, &mut bodies[0], None, None)]
+                vec![Stream::new(spheres, all, &mut bodies[0], (None, None))]
             }
         };
-        // One of several threads is looked at.
+        // A profile looks at one of several threads; the rest of its step is to wait for the others.
         streams[0].profile = self.profile.take();
         let level = self.level;
         in_parallel(&mut streams, &|stream| stream.flow(level, &scenery, &moves));
@@ -118,7 +108,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let found = streams.iter().map(|it| it.found);
         let found = found.fold(Found::default(), Found::and);
         drop(streams);
-        self.near.return_pairs(pairs);
+        self.return_all(among);
         self.stale |= found.far;
         found.too_fast
     }
@@ -128,18 +118,14 @@ impl<'a, H: History> Stream<'a, H> {
     /// Of these spheres and contacts, with copies of the spheres around the boundaries before and after them.
     pub(super) fn new(
         spheres: Spheres<'a>,
-        contacts: Contacts<'a, H>,
+        portion: Portion<'a, H>,
         bodies: &'a mut Bodies,
-        before: Option<Partners<'a>>,
-        after: Option<Partners<'a>>,
+        (before, after): (Option<Partners<'a>>, Option<Partners<'a>>),
     ) -> Self {
         Self {
             spheres,
             moved: 0,
-            crossing: contacts.crossing,
-            pairs: contacts.pairs,
-            walls: contacts.walls,
-            buffers: contacts.buffers,
+            portion,
             bodies,
             before,
             after,
@@ -158,7 +144,7 @@ impl<'a, H: History> Stream<'a, H> {
         let first = self.spheres.first;
         let end = first + self.spheres.len();
         if self.before.is_some() {
-            let crossing = std::mem::replace(&mut self.crossing, Known::none());
+            let crossing = std::mem::replace(&mut self.portion.crossing, Known::none());
             self.add(
                 level,
                 scenery,
@@ -169,22 +155,20 @@ impl<'a, H: History> Stream<'a, H> {
         }
         // From there on spheres have pairs with those of later threads.
         let inside = (self.after).map_or(end, |it| (it.first as usize).clamp(first, end));
-        let pairs = &mut self.pairs;
-        let count = pairs
-            .contacts
-            .partition_point(|it| (it.i() as usize) < inside);
-        let mut pairs = pairs.split(count);
+        let own = &mut self.portion.pairs;
+        let within = (own.contacts).partition_point(|it| (it.i() as usize) < inside);
+        let mut within = own.split(within);
         while first + self.moved < inside {
-            let until = match pairs.contacts.get(SPAN) {
+            let until = match within.contacts.get(SPAN) {
                 Some(next) => next.i() as usize / BLOCK * BLOCK,
                 None => inside,
             };
-            let some = pairs.split(SPAN);
+            let some = within.split(SPAN);
             self.add(level, scenery, None, [Known::none(), some], until);
             self.move_until(level, moves, until);
         }
         if inside < end {
-            let rest = std::mem::replace(&mut self.pairs, Known::none());
+            let rest = std::mem::replace(&mut self.portion.pairs, Known::none());
             self.add(level, scenery, self.after, [Known::none(), rest], end);
             self.move_until(level, moves, end);
         }
@@ -201,7 +185,7 @@ impl<'a, H: History> Stream<'a, H> {
         until: usize,
     ) {
         let mut walls = [const { None }; TankWall::MOST];
-        for (next, wall) in walls.iter_mut().zip(&mut self.walls) {
+        for (next, wall) in walls.iter_mut().zip(&mut self.portion.walls) {
             let Some((wall, known)) = wall else { break };
             let near = known.contacts;
             let count = near.partition_point(|it| (it.i as usize) < until);
@@ -218,7 +202,7 @@ impl<'a, H: History> Stream<'a, H> {
                 torque,
             },
             clear: false,
-            buffers: self.buffers,
+            buffers: self.portion.buffers,
             crossing,
             pairs,
             walls,
