@@ -142,4 +142,16 @@ fn what_is_not_verified_is_refused() {
         .phase(&["verify", "--list", "--case", "parabola"])
         .code(0)
         .says("x + v t + a t^2 / 2");
+    // Symptom: nothing was printed.
+    let json = place
+        .phase(&["verify", "--list", "--case", "parabola", "--json"])
+        .code(0);
+    let json: serde_json::Value = serde_json::from_str(&json.stdout).unwrap();
+    assert_eq!(json["cases"][0]["family"], "flight");
+    assert!(
+        !json["cases"][0]["integrators"]
+            .as_array()
+            .unwrap()
+            .is_empty()
+    );
 }

@@ -17,16 +17,16 @@ pub(super) fn make(folder: &Path) -> Result<(), Failure> {
     })
 }
 
-/// Refuses to write over a file that does not begin with `signature`: it is something other than
-/// `kind`, which the command would write there.
+/// Refuses to write over a file that does not begin with `signature`, as far as it goes: it is something other
+/// than `kind`, which the command would write there.
 pub(super) fn refuse_to_replace(path: &Path, kind: &str, signature: &[u8]) -> Result<(), Failure> {
-    let Ok(mut file) = File::open(path) else {
+    let Ok(file) = File::open(path) else {
         return Ok(());
     };
-    let mut start = vec![0; signature.len()];
     let is_file = file.metadata().is_ok_and(|data| data.is_file());
-    let is_empty = file.metadata().is_ok_and(|data| data.len() == 0);
-    if is_file && (is_empty || file.read_exact(&mut start).is_ok() && start == signature) {
+    let mut start = Vec::new();
+    let read = file.take(signature.len() as u64).read_to_end(&mut start);
+    if is_file && read.is_ok() && signature.starts_with(&start) {
         return Ok(());
     }
     Err(Failure::refused(format_args!(

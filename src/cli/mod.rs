@@ -28,8 +28,9 @@ mod time_step;
 mod verify;
 mod view;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::Console;
+use phase::scene::LARGEST_SEED;
 use std::process::ExitCode;
 
 const VERSION: &str = concat!(
@@ -113,9 +114,25 @@ impl Command {
     }
 }
 
+/// Parses the command line. A number may be negative: whoever takes no such one says so.
+fn parse() -> CommandLine {
+    let command = CommandLine::command();
+    let command = command.mut_subcommands(|command| command.allow_negative_numbers(true));
+    let parsed = CommandLine::from_arg_matches(&command.get_matches());
+    parsed.unwrap_or_else(|error| error.exit())
+}
+
+/// Parses a seed.
+fn seed(text: &str) -> Result<u64, String> {
+    match text.parse() {
+        Ok(seed) if seed <= LARGEST_SEED => Ok(seed),
+        _ => Err(format!("must be a whole number from 0 to {LARGEST_SEED}")),
+    }
+}
+
 /// Parses the command line and does what it says.
 pub(crate) fn main() -> ExitCode {
-    let CommandLine { verbosity, command } = CommandLine::parse();
+    let CommandLine { verbosity, command } = parse();
     let console = Console::new(verbosity.quiet, verbosity.verbose, command.wants_json());
     let result = match command {
         Command::Sweep(arguments) => sweep::main(&arguments, &console),

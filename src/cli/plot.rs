@@ -210,7 +210,12 @@ fn draw_folders(
                 folder.root().display()
             )));
         }
-        let table = store::read_labels(&path).map_err(Failure::failed)?;
+        let table = store::read_labels(&path).map_err(|error| {
+            Failure::failed(format_args!(
+                "{error}; `phase classify {}` makes it anew",
+                folder.root().display()
+            ))
+        })?;
         if arguments.figure.is_empty() {
             draw_default_figures(&folder, &sweep, &table, console)?;
         }

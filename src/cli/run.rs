@@ -59,7 +59,7 @@ pub(crate) struct Arguments {
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Seed in place of the scene's.
-    #[arg(short, long, conflicts_with = "from")]
+    #[arg(short, long, conflicts_with = "from", value_parser = super::seed)]
     seed: Option<u64>,
     /// Store position, velocity and spin of every sphere at every frame.
     #[arg(short, long)]
@@ -126,10 +126,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     time_step::tell_of_scene(&scene, console);
     let interval = arguments.checkpoint_interval.unwrap_or(DEFAULT_INTERVAL);
     let checkpoints = Checkpoints::beside(&path, interval);
-    if !arguments.resume {
-        let signature = store::CHECKPOINT_SIGNATURE;
-        folders::refuse_to_replace(checkpoints.path(), "a checkpoint", signature)?;
-    }
+    let signature = store::CHECKPOINT_SIGNATURE;
+    folders::refuse_to_replace(checkpoints.path(), "a checkpoint", signature)?;
     let ran = interruptible::run(
         &scene,
         arguments.threads,

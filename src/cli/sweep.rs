@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
     #[arg(short, long)]
     force: bool,
     /// Seeds in place of the file's; may be given several times.
-    #[arg(short, long, value_name = "SEED", value_delimiter = ',')]
+    #[arg(short, long, value_name = "SEED", value_delimiter = ',', value_parser = super::seed)]
     seed: Vec<u64>,
     /// Time between two checkpoints of a run (s), from which it goes on when the sweep is run again
     /// [default: 120].

@@ -117,6 +117,21 @@ struct Answer {
     files: Vec<PathBuf>,
 }
 
+/// What `--list --json` prints.
+#[derive(Serialize)]
+struct List<'a> {
+    cases: Vec<Listed<'a>>,
+}
+
+/// A case that was not run.
+#[derive(Serialize)]
+struct Listed<'a> {
+    family: &'static str,
+    case: &'a str,
+    integrators: Vec<&'static str>,
+    source: &'a str,
+}
+
 fn chosen(arguments: &Arguments) -> Result<Vec<&'static Case>, Failure> {
     let mut families: Vec<&str> = verify::cases().iter().map(|it| it.setup.name()).collect();
     families.dedup();
@@ -155,6 +170,15 @@ fn list(cases: &[&Case], console: &Console) -> Result<Exit, Failure> {
             case.source
         ))?;
     }
+    let listed = cases.iter().map(|case| Listed {
+        family: case.setup.name(),
+        case: &case.name,
+        integrators: case.integrators.iter().map(|it| it.name()).collect(),
+        source: &case.source,
+    });
+    console.answer(&List {
+        cases: listed.collect(),
+    })?;
     Ok(Exit::Done)
 }
 

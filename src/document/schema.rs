@@ -57,6 +57,9 @@ pub(crate) type Variant = (&'static str, &'static [Key]);
 /// A tag and all its variants.
 type Variants = (&'static str, &'static [Variant]);
 
+/// The first whole number that is too large for TOML.
+const LARGEST_WHOLE: f64 = (1_u64 << 63) as f64;
+
 /// Which numbers are allowed.
 #[derive(Clone, Copy)]
 pub(crate) struct Range {
@@ -236,8 +239,7 @@ impl Kind {
             }
             (Self::Whole(least), Value::Number(number)) => {
                 if number.as_u64().is_none_or(|number| number < *least) {
-                    problems
-                        .push(misfit().help(format!("use {least} or more, without a fraction")));
+                    problems.push(misfit().help(advice_on_whole(number, *least)));
                 }
             }
             (Self::Number(_), Value::Null) => {
@@ -257,6 +259,16 @@ impl Kind {
         problems: &mut Vec<Problem>,
     ) {
         self.check(entry, &format!("{path}[{index}]"), problems);
+    }
+}
+
+/// What to write in place of a number that is not whole, or less than that.
+fn advice_on_whole(number: &serde_json::Number, least: u64) -> String {
+    let value = number.as_f64().unwrap_or(f64::NAN);
+    match libm::trunc(value) == value && value >= least as f64 {
+        true if value < LARGEST_WHOLE => format!("write {value:.0}, without a point"),
+        true => format!("the largest whole number of a file is {}", i64::MAX),
+        false => format!("use {least} or more, without a fraction"),
     }
 }
 

@@ -282,7 +282,9 @@ pub enum PlotError {
         needs: &'static str,
     },
     /// There is nothing to draw.
-    #[error("the table of labels is empty: no run of this sweep has been classified yet")]
+    #[error(
+        "the table of labels is empty: no run of this sweep has ended and been classified; `phase sweep` goes on with it"
+    )]
     EmptyTable,
     /// No run has what the figure shows.
     #[error("no run of this sweep has a measure that the figure shows")]

@@ -157,6 +157,9 @@ impl Scene {
     }
 }
 
+/// The largest seed: TOML has no larger whole number.
+pub const LARGEST_SEED: u64 = i64::MAX as u64;
+
 fn default_seed() -> u64 {
     1
 }

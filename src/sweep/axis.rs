@@ -185,7 +185,9 @@ fn check_count(count: f64, path: &str) -> Result<(), Problem> {
         return Ok(());
     }
     let message = format!("the axis would have {count:.0} values");
-    Err(Problem::new(path, message).help(format!("{MOST_VALUES} are the most; use larger steps")))
+    Err(Problem::new(path, message).help(format!(
+        "{MOST_VALUES} are the most; use fewer values or larger steps"
+    )))
 }
 
 fn check_values(values: &[f64], path: &str) -> Result<Vec<f64>, Problem> {

@@ -6,7 +6,7 @@ use super::schema::SWEEP;
 use super::{Axis, PlotSettings, Sweep};
 use crate::classify::{Family, Sieves};
 use crate::document::{Document, LoadError, Problem, one_of, suggest};
-use crate::scene::{self, Reading, Scene};
+use crate::scene::{self, LARGEST_SEED, Reading, Scene};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
@@ -116,7 +116,14 @@ pub(crate) fn base_scene(
             document.refuse(&problems.into_iter().map(within).collect::<Vec<_>>())
         });
     };
-    match scene::load_base_with(&document.folder().join(path), reading) {
+    let file = document.folder().join(path);
+    let names_another = Document::read(&file).is_ok_and(|it| it.tree().get("scene").is_some());
+    if names_another {
+        let message = format!("{} is a sweep, not a scene", file.display());
+        let help = "name the scene that it names";
+        return Err(document.refuse(&[Problem::new("scene", message).help(help)]));
+    }
+    match scene::load_base_with(&file, reading) {
         Err(error @ LoadError::Read { .. }) => {
             let help = "the path is relative to the folder of this file";
             Err(document.refuse(&[Problem::new("scene", error.to_string()).help(help)]))
@@ -171,7 +178,12 @@ fn expand_seeds(entry: Option<&SeedsEntry>, problems: &mut Vec<Problem>) -> Vec<
         }
         Some(SeedsEntry { first, count, .. }) => {
             let (first, count) = (first.unwrap_or(1), count.unwrap_or(1));
-            if count > MOST_JOBS as u64 || first.checked_add(count).is_none() {
+            if first.saturating_add(count) > LARGEST_SEED {
+                let message = format!("the seeds would go beyond {LARGEST_SEED}, the largest one");
+                problems.push(Problem::new("seeds.first", message).help("begin with a lower one"));
+                return Vec::new();
+            }
+            if count > MOST_JOBS as u64 {
                 let message = format!("{count} seeds are too many");
                 let help = format!("{MOST_JOBS} jobs are the most");
                 problems.push(Problem::new("seeds.count", message).help(help));
@@ -267,7 +279,10 @@ fn check_plot(sweep: &Sweep, problems: &mut Vec<Problem>) {
         let Some(name) = name else { continue };
         let path = format!("plot.{key}");
         if !names().any(|known| known == name) {
-            let known = format!("the axes are {}", one_of(names()));
+            let known = match sweep.axes.is_empty() {
+                true => "it has no axes; remove the key".to_owned(),
+                false => format!("the axes are {}", one_of(names())),
+            };
             let help = match suggest(name, names()) {
                 Some(near) => format!("did you mean \"{near}\"? {known}"),
                 None => known,

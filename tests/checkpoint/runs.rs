@@ -148,13 +148,15 @@ fn nothing_goes_on_from_a_checkpoint_that_is_not_right() {
     assert_eq!(fs::read(&path).unwrap(), good);
 
     fs::write(&path, "something of somebody").unwrap();
-    resume(&place, &[])
-        .code(2)
-        .complains("this is not a checkpoint");
-    place
-        .phase(&["run", "scene.toml", "--out", "run.h5"])
-        .code(2)
-        .complains("this is not a checkpoint");
+    let runs = [
+        resume(&place, &[]),
+        place.phase(&["run", "scene.toml", "--out", "run.h5"]),
+    ];
+    for run in runs {
+        run.code(2)
+            .complains("this is not a checkpoint")
+            .complains("choose another name");
+    }
     assert_eq!(place.read("run.checkpoint"), "something of somebody");
 }
 

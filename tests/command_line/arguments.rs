@@ -20,6 +20,38 @@ fn wrong_arguments_are_refused() {
     }
 }
 
+/// Symptom: `--seed -1` advised to write `-- -1`, which does not help, and a seed that no file can hold was taken.
+#[test]
+fn numbers_are_refused_for_what_they_are() {
+    let place = Workplace::new();
+    let seeds = "must be a whole number from 0 to 9223372036854775807";
+    for (arguments, reason) in [
+        (&["run", "tiny.toml", "--seed", "-1"][..], seeds),
+        (
+            &["run", "tiny.toml", "--seed", "9223372036854775808"],
+            seeds,
+        ),
+        (
+            &["sweep", "tiny.toml", "--seed", "1,9223372036854775808"],
+            seeds,
+        ),
+        (
+            &["sweep", "tiny.toml", "-j", "-1"],
+            "must be a whole number from 1",
+        ),
+        (
+            &["run", "tiny.toml", "--checkpoint-interval", "-1"],
+            "must be a time in seconds, 0 or more",
+        ),
+        (
+            &["cost", "tiny.toml", "--seconds", "-1"],
+            "must be a time in seconds, 0 or more",
+        ),
+    ] {
+        place.phase(arguments).code(2).complains(reason);
+    }
+}
+
 #[test]
 fn every_command_has_an_example() {
     let place = Workplace::new();

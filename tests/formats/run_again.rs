@@ -94,6 +94,19 @@ fn other_bits_are_noticed() {
         .says("no record of this job to compare with");
 }
 
+/// Symptom: a damaged record was found after the whole run, which then seemed to have failed.
+#[test]
+fn a_damaged_record_is_found_before_the_run() {
+    let place = swept();
+    std::fs::write(original(&place), "junk").unwrap();
+    place
+        .phase(&AGAIN)
+        .code(2)
+        .complains("it is not an HDF5 file")
+        .complains("`phase sweep` makes it again");
+    assert!(!place.path("results/tiny/runs").exists());
+}
+
 #[test]
 fn the_point_must_be_one_of_the_sweep() {
     let place = swept();

@@ -2,8 +2,8 @@
 
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
-use phase::record::RunRecord;
-use phase::store;
+use phase::record::{Program, RunRecord};
+use phase::store::{self, StoreError};
 use phase::sweep::{Axis, Folder, Job, parse_point};
 use std::path::{Path, PathBuf};
 
@@ -12,6 +12,33 @@ pub(super) struct Original {
     folder: Folder,
     axes: Vec<Axis>,
     pub(super) job: Job,
+    /// What the sweep's record says, if it has one.
+    before: Option<Before>,
+}
+
+/// What a run that is made again is compared with.
+struct Before {
+    digest: String,
+    program: Program,
+}
+
+impl Before {
+    /// Of a record, if it is there.
+    fn read(path: &Path) -> Result<Option<Self>, Failure> {
+        if !path.exists() {
+            return Ok(None);
+        }
+        let refuse = |error: StoreError| {
+            Failure::refused(format_args!(
+                "{error}; the run could not be compared with it. `phase sweep` makes it again"
+            ))
+        };
+        let record = store::read_record(path).map_err(refuse)?;
+        Ok(Some(Self {
+            digest: store::motion_digest(&record).map_err(Failure::failed)?,
+            program: record.program,
+        }))
+    }
 }
 
 impl Original {
@@ -46,10 +73,12 @@ impl Original {
                 jobs[0].seed
             ));
         }
+        let job = jobs.swap_remove(0);
         Ok(Self {
+            before: Before::read(&folder.record(&job.id))?,
             folder,
             axes: chosen.axes,
-            job: jobs.swap_remove(0),
+            job,
         })
     }
 
@@ -90,16 +119,14 @@ impl Original {
         console: &Console,
     ) -> Result<Option<bool>, Failure> {
         let path = self.record();
-        if !path.exists() {
+        let Some(before) = &self.before else {
             console.result(format_args!(
                 "the sweep has no record of this job to compare with ({})",
                 path.display()
             ))?;
             return Ok(None);
-        }
-        let before = store::read_record(&path).map_err(Failure::failed)?;
-        let digest = |record| store::motion_digest(record).map_err(Failure::failed);
-        if digest(&before)? == digest(again)? {
+        };
+        if before.digest == store::motion_digest(again).map_err(Failure::failed)? {
             console.result(format_args!(
                 "same bits as in the sweep: {} frames of observables and the last state of all \
                  spheres ({})",
@@ -108,16 +135,14 @@ impl Original {
             ))?;
             return Ok(Some(true));
         }
-        let by = |record: &RunRecord| {
-            let program = &record.program;
-            format!("phase {}, commit {}", program.version, program.commit)
-        };
+        let by =
+            |program: &Program| format!("phase {}, commit {}", program.version, program.commit);
         Err(Failure::failed(format_args!(
             "the run differs from the sweep's record {}: that one is by {}, this one by {}. \
              Records of another program may differ; run the sweep again to have one kind",
             path.display(),
-            by(&before),
-            by(again)
+            by(&before.program),
+            by(&again.program)
         )))
     }
 }

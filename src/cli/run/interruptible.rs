@@ -65,7 +65,13 @@ pub(super) fn run(
             ControlFlow::Continue(())
         }
     };
-    let mut warn = |error| progress.note(format_args!("no checkpoint: {error}"));
+    let mut warned = false;
+    let mut warn = |error| {
+        // The next ones fail in the same way, most likely.
+        if !std::mem::replace(&mut warned, true) {
+            progress.note(format_args!("no checkpoint, the run goes on: {error}"));
+        }
+    };
     let ending = checkpoints.run(run, &mut control, &mut warn);
     let seconds = progress.finish();
     let path = checkpoints.path().display();

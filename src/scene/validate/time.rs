@@ -3,7 +3,7 @@
 use super::rounded;
 use crate::dem::timestep;
 use crate::document::{Problem, number};
-use crate::scene::{Scene, Start};
+use crate::scene::{Output, Scene, Start};
 
 /// Two times count as commensurate if their ratio is a whole number within this.
 const ROUNDING: f64 = 1e-6;
@@ -30,13 +30,15 @@ impl Scene {
         }
         let snapshots = self.output.snapshot_interval;
         if snapshots > 0.0 && !multiple(snapshots, interval) {
-            let path = "output.snapshot_interval";
-            problems.push(not_multiple(
-                path,
-                snapshots,
-                "time.frame_interval",
-                interval,
-            ));
+            let unit = "time.frame_interval";
+            let mut problem = not_multiple("output.snapshot_interval", snapshots, unit, interval);
+            if snapshots == Output::default().snapshot_interval {
+                let help = problem.help.unwrap_or_default();
+                problem.help = Some(format!(
+                    "{help} in [output]; a scene without the key has 1 s"
+                ));
+            }
+            problems.push(problem);
         }
     }
 
