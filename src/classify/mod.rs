@@ -88,6 +88,22 @@ impl Sieves {
         }
     }
 
+    /// Sieves whose windows (s) are longer than a run of this scene, by their names: it can have none of their labels.
+    /// Those of a silo take what there is of a window.
+    pub fn without_room(&self, scene: &Scene) -> Vec<(&'static str, f64)> {
+        if Family::of(scene) == Family::Silo {
+            return Vec::new();
+        }
+        let windows = [
+            ("settle", self.settle.window),
+            ("fluid", self.fluid.window),
+            ("pinned", self.pinned.window),
+            ("spout", self.spout.window),
+        ];
+        let too_long = |(_, window): &(&str, f64)| *window > scene.time.duration;
+        windows.into_iter().filter(too_long).collect()
+    }
+
     /// Names of the sieves of a family, as in `[sieves.NAME]`.
     pub(crate) fn names(family: Family) -> &'static [&'static str] {
         match family {

@@ -61,6 +61,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.result(line("time step", text))?;
     }
     time_step::warn_of_jobs(&tightest, &sweep.axes, console);
+    if is_sweep {
+        super::classify::warn_of_windows(&sweep, &jobs, console);
+    }
     let walls = walls::weakest(&jobs);
     if let Some(wall) = &walls {
         console.result(line("walls", wall.describe(&sweep.axes)))?;

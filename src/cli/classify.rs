@@ -126,6 +126,20 @@ fn refuse_other_runs(folder: &Folder, sweep: &Sweep, edited: &Sweep) -> Result<(
     )))
 }
 
+/// Warns of sieves that find nothing in any run, as these are too short.
+pub(super) fn warn_of_windows(sweep: &Sweep, jobs: &[Job], console: &Console) {
+    let scenes = jobs.iter().map(|job| &job.scene);
+    let longest = scenes.max_by(|one, other| one.time.duration.total_cmp(&other.time.duration));
+    let Some(scene) = longest else { return };
+    let duration = scene.time.duration;
+    for (name, window) in sweep.sieves.without_room(scene) {
+        console.warning(format_args!(
+            "the window of the sieve {name}, {window} s, is longer than the runs, {duration} s: it finds nothing in \
+             any of them; lengthen time.duration, or shorten `window` in [sieves.{name}]"
+        ));
+    }
+}
+
 /// Refuses sieves that cannot judge the runs of a sweep, before any time is spent on these.
 pub(super) fn check_sieves(sweep: &Sweep, jobs: &[Job]) -> Result<(), Failure> {
     let check = |job: &Job| sweep.sieves.check(&job.scene);

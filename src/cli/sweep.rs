@@ -111,6 +111,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     };
     tell_of_plan(&plan, console);
     time_step::tell_of_jobs(&jobs, &sweep.axes, console);
+    if !arguments.no_classify {
+        classify::warn_of_windows(&sweep, &jobs, console);
+    }
     let pool = Pool {
         folder: &folder,
         sweep: &sweep,

@@ -176,3 +176,34 @@ fn a_failed_job_does_not_stop_the_rest_and_is_listed() {
         failed
     );
 }
+
+/// Symptom: all runs were `unsettled`, and nothing said that no sieve had room for its window.
+#[test]
+fn runs_too_short_for_a_sieve_are_warned_of() {
+    let place = Workplace::new();
+    let sweep = TinySweep {
+        duration: 0.4,
+        ..TinySweep::default()
+    };
+    place.write("tiny.toml", &sweep.text());
+    for command in ["check", "sweep"] {
+        let answer = place.phase(&[command, "tiny.toml"]).code(0);
+        for (sieve, window) in [
+            ("settle", "0.5"),
+            ("fluid", "1.5"),
+            ("pinned", "2"),
+            ("spout", "2"),
+        ] {
+            let warning = format!(
+                "the window of the sieve {sieve}, {window} s, is longer than the runs, 0.4 s"
+            );
+            assert_eq!(answer.stderr.matches(&warning).count(), 1, "{answer:#?}");
+        }
+    }
+    place.write("tiny.toml", &TinySweep::default().text());
+    let answer = place.phase(&["check", "tiny.toml"]).code(0);
+    assert!(
+        !answer.stderr.contains("is longer than the runs"),
+        "{answer:#?}"
+    );
+}
