@@ -69,30 +69,37 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     counts.sort_unstable();
     counts.dedup();
+    if let Some(folder) = &arguments.out {
+        folders::make(folder)?;
+    }
+    // All of them before anything is measured: a number that does not fit loses no measurement.
+    let mut moments = Vec::new();
+    for &count in &counts {
+        console.note(format_args!(
+            "{count} spheres: runs the scene until they are in"
+        ));
+        moments.push(Moment::of_scene(&scene, count).map_err(Failure::failed)?);
+    }
     let mut study = Study::default();
     console.result(format_args!(
         "{:<22} {:>8} {:>14} {:>9}",
         "search", "spheres", "time of a step", "speed-up"
     ))?;
-    for &count in &counts {
-        console.note(format_args!(
-            "{count} spheres: runs the scene until they are in"
-        ));
-        let moment = Moment::of_scene(&scene, count).map_err(Failure::failed)?;
+    for (k, moment) in moments.iter().enumerate() {
         let searches = [
             Neighbours::AllPairs,
             Neighbours::Cells { length },
             Neighbours::HashedCells { length },
             Neighbours::VerletList,
         ];
-        let rows = study.measure(&moment, &searches, None, console)?;
-        if Some(&count) == counts.last() {
+        let rows = study.measure(moment, &searches, None, console)?;
+        if k + 1 == moments.len() {
             let least = scene.least_cell_length();
             let searches = LENGTHS.map(|ratio| Neighbours::Cells {
                 length: ratio * least,
             });
             let all_pairs = rows.first().map(|row| row.step_time);
-            study.lengths = study.measure(&moment, &searches, all_pairs, console)?;
+            study.lengths = study.measure(moment, &searches, all_pairs, console)?;
         }
         study.counts.extend(rows);
     }
@@ -173,7 +180,6 @@ impl Study {
     }
 
     fn write(&self, folder: &Path, scene: &Scene, console: &Console) -> Result<(), Failure> {
-        folders::make(folder)?;
         for (name, rows, against) in [
             ("count", &self.counts, Against::Count),
             ("length", &self.lengths, Against::Length),

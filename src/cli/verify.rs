@@ -66,6 +66,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if arguments.list {
         return list(&cases, console);
     }
+    if let Some(folder) = &arguments.out {
+        folders::make(folder)?;
+    }
     let runs: Vec<(&Case, Integrator)> = cases
         .iter()
         .flat_map(|case| case.integrators.iter().map(move |&it| (*case, it)))
@@ -245,7 +248,6 @@ fn write(
     folder: &Path,
     console: &Console,
 ) -> Result<(), Failure> {
-    folders::make(folder)?;
     let place = |end: &str| folder.join(format!("verification.{end}"));
     store::write_rows(rows, &place("csv")).map_err(Failure::failed)?;
     console.file(&place("csv"))?;

@@ -401,7 +401,14 @@ impl<H: History> PairBlock<H> {
 #[inline(always)]
 fn store(columns: &mut Columns, k: usize, touches: bool, vector: Vector) {
     let [x, y, z] = &mut columns.0;
-    x[k] = if touches { vector.x } else { 0.0 };
-    y[k] = if touches { vector.y } else { 0.0 };
-    z[k] = if touches { vector.z } else { 0.0 };
+    x[k] = if_touching(touches, vector.x);
+    y[k] = if_touching(touches, vector.y);
+    z[k] = if_touching(touches, vector.z);
+}
+
+/// That number, or zero. A branch would be made of a plain `if`, and stores under a mask of that, which take a
+/// processor without AVX-512 some 20 cycles each.
+#[inline(always)]
+fn if_touching(touches: bool, value: f64) -> f64 {
+    std::hint::select_unpredictable(touches, value, 0.0)
 }

@@ -1,6 +1,6 @@
 //! What contacts of a block remember, and what friction carries of it.
 
-use super::{NOT_DEEP, PairBlock, store};
+use super::{NOT_DEEP, PairBlock, if_touching, store};
 use crate::dem::block::{BLOCK, ROWS};
 use crate::dem::friction::{History, LoadedSpring, Spring, TangentialLaw, arm};
 use crate::dem::math::inverse_square_root;
@@ -91,11 +91,7 @@ impl<H: History> PairBlock<H> {
             store(&mut self.drag, k, touches, pressed.spring.drag);
         }
         self.limit[k] = pressed.spring.limit;
-        self.squared[k] = if touches {
-            pressed.spring.squared()
-        } else {
-            0.0
-        };
+        self.squared[k] = if_touching(touches, pressed.spring.squared());
         self.lever[k] = pressed.lever;
     }
 
