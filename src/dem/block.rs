@@ -125,9 +125,15 @@ pub(in crate::dem) fn turned<S: Simd>(row: impl Fn(usize) -> f64x4<S>) -> [f64x8
 /// Four rows as columns.
 #[inline(always)]
 fn transpose<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
-    let (ac, bd) = (a.interleave(c), b.interleave(d));
-    let (low, high) = (ac.0.interleave(bd.0), ac.1.interleave(bd.1));
-    [low.0, low.1, high.0, high.1]
+    let (ab, cd) = (a.interleave(b), c.interleave(d));
+    let [(x, y), (z, w)] = [ab.0.split(), ab.1.split()];
+    let [(more_x, more_y), (more_z, more_w)] = [cd.0.split(), cd.1.split()];
+    [
+        x.combine(more_x),
+        y.combine(more_y),
+        z.combine(more_z),
+        w.combine(more_w),
+    ]
 }
 
 /// The row of one of the vectors.

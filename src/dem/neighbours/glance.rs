@@ -100,17 +100,23 @@ impl Glance {
         };
         if let Some((sine, cosine)) = shield {
             let (dx, dy) = (dx * cosine - dy * sine, dx * sine + dy * cosine);
-            let (dx, dy) = (dx.abs(), dy.abs());
-            let within = |r: f64x8<S>, depth: f64x8<S>, margin: f64| {
-                let reach = r * 2.0 + margin;
-                let deep = depth.simd_gt(f64x8::splat(simd, -margin));
-                (dx.simd_lt(reach) & dy.simd_lt(reach) & deep).to_bitmask()
-            };
-            let (first, second) = (within(ri, dz, -margin), within(rj, -dz, -margin));
-            facts.undecided = first ^ within(ri, dz, margin) | second ^ within(rj, -dz, margin);
+            let (across, up) = ([dx.abs(), dy.abs()], dz);
+            let first = within(across, up, ri, -margin);
+            let second = within(across, -up, rj, -margin);
+            facts.undecided =
+                first ^ within(across, up, ri, margin) | second ^ within(across, -up, rj, margin);
             facts.shields_first = first & !facts.undecided;
             facts.shields_second = second & !facts.undecided;
         }
         facts
     }
+}
+
+/// Bits of the spheres of radius `r` that shield partners which are so far away across and above, with a margin (m).
+/// Not a closure: those are not always inlined, and then compiled without the instruction set.
+#[inline(always)]
+fn within<S: Simd>(across: [f64x8<S>; 2], up: f64x8<S>, r: f64x8<S>, margin: f64) -> u64 {
+    let reach = r * 2.0 + margin;
+    let above = up.simd_gt(-margin);
+    (across[0].simd_lt(reach) & across[1].simd_lt(reach) & above).to_bitmask()
 }
