@@ -155,3 +155,15 @@ fn what_is_not_verified_is_refused() {
             .is_empty()
     );
 }
+
+// Symptom: all cases ran, and then their table had no place.
+#[test]
+fn a_folder_that_cannot_be_made_is_found_before_any_case_runs() {
+    let place = Workplace::new();
+    place.write("file", "");
+    let answer = place
+        .phase(&["verify", "--case", "parabola", "--out", "file/verified"])
+        .code(1)
+        .complains("file/verified: Not a directory");
+    assert_eq!(answer.stdout, "");
+}

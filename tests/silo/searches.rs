@@ -173,3 +173,15 @@ fn searches_are_compared_in_a_table_and_two_figures() {
         );
     }
 }
+
+// Symptom: what was measured of fewer spheres was lost when more of them did not come in.
+#[test]
+fn too_many_spheres_are_found_before_anything_is_measured() {
+    let place = Workplace::new();
+    place.write("silo.toml", crate::HOPPER);
+    let answer = place
+        .phase(&["neighbours", "silo.toml", "--count", "10,100000"])
+        .code(1)
+        .complains("100000 spheres are not in after time.duration");
+    assert_eq!(answer.stdout, "");
+}
