@@ -88,12 +88,6 @@ class Bed:
         path.write_text(text[:start] + '[start]\nkind = "file"\npath = "bed.csv"\n\n' + text[end:])
         return path
 
-    def falling(self, law, steps):
-        """The same of spheres that begin to fall: they are not in the scene, which would take memory."""
-        path = self.folder / f"{law}-{steps}-falling.toml"
-        path.write_text(self.of_one_frame(law, steps))
-        return path
-
     def of_one_frame(self, law, steps):
         friction = f"[friction]\n{LAWS[law]}" if LAWS[law] else ""
         changes = {f"[friction]\n{LAWS['mindlin']}": friction, "duration = 2.0": f"duration = {steps * DT!r}"}

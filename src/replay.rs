@@ -136,7 +136,7 @@ fn radii(scene: &Scene, count: usize) -> Result<Vec<f64>, ReplayError> {
         if spheres.len() != count {
             return Err(ReplayError::Radii(count));
         }
-        for (radius, sphere) in radii.iter_mut().zip(spheres) {
+        for (radius, sphere) in radii.iter_mut().zip(spheres.iter()) {
             *radius = sphere.radius.unwrap_or(*radius);
         }
     }

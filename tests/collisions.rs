@@ -8,7 +8,7 @@ mod support;
 use phase::observe::Snapshot;
 use phase::plot;
 use phase::record::{Outcome, RunRecord};
-use phase::scene::{self, Contact, Friction, Scene, Start};
+use phase::scene::{self, Contact, Friction, Scene};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use support::Workplace;
@@ -187,9 +187,7 @@ fn figure_7_a_spinning_sphere_and_the_one_it_falls_onto_roll_apart() {
 #[test]
 fn figure_7_without_spin_the_two_bounce_upward() {
     let mut scene = load("spin-onto-rest");
-    let Start::List { spheres } = &mut scene.start else {
-        panic!("a start list")
-    };
+    let spheres = scene.start.list_mut().unwrap();
     spheres[1].spin = [0.0; 3];
     let record = run(&scene);
     for snapshot in &record.trajectory {
@@ -368,9 +366,7 @@ fn tracks_show_the_plane_of_the_motion() {
         }
     }
     let mut scene = load("parallel-spins");
-    let Start::List { spheres } = &mut scene.start else {
-        panic!("a start list")
-    };
+    let spheres = scene.start.list_mut().unwrap();
     for sphere in spheres {
         sphere.position.rotate_right(1);
         sphere.velocity.rotate_right(1);

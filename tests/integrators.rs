@@ -18,7 +18,7 @@ fn steel(spheres: Vec<StartSphere>, dissipation: f64, dt: f64) -> Scene {
     )
     .unwrap();
     scene.spheres.count = spheres.len();
-    scene.start = Start::List { spheres };
+    scene.start = Start::list(spheres);
     scene.time.dt = dt;
     if let Some(phase::scene::Contact::Hertz {
         dissipation_time, ..

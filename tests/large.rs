@@ -70,9 +70,7 @@ fn listed(mut scene: Scene) -> Scene {
         spin: triple(&place, 6),
         radius: Some(radius),
     });
-    scene.start = Start::List {
-        spheres: spheres.collect(),
-    };
+    scene.start = Start::list(spheres.collect());
     scene
 }
 
@@ -193,9 +191,7 @@ fn the_numbers_of_spheres_change_no_bit() {
     let mut scene = listed(large(mindlin(), Integrator::SynchronisedVerlet));
     let mut one = Simulation::new(&scene).unwrap();
     one.advance(STEPS).unwrap();
-    let Start::List { spheres } = &mut scene.start else {
-        panic!("a list")
-    };
+    let spheres = scene.start.list_mut().unwrap();
     spheres.reverse();
     let mut other = Simulation::new(&scene).unwrap();
     other.use_threads(2).unwrap();
@@ -208,9 +204,7 @@ fn the_numbers_of_spheres_change_no_bit() {
 #[test]
 fn a_broken_guard_names_the_sphere_of_the_scene() {
     let mut scene = listed(large(mindlin(), Integrator::SymplecticEuler));
-    let Start::List { spheres } = &mut scene.start else {
-        panic!("a list")
-    };
+    let spheres = scene.start.list_mut().unwrap();
     spheres[1234].velocity = [1e3, 0.0, 0.0];
     for threads in [1, 2] {
         let mut simulation = Simulation::new(&scene).unwrap();
@@ -221,9 +215,7 @@ fn a_broken_guard_names_the_sphere_of_the_scene() {
             (Guard::Displacement, 1234)
         );
     }
-    let Start::List { spheres } = &mut scene.start else {
-        panic!("a list")
-    };
+    let spheres = scene.start.list_mut().unwrap();
     spheres[1234] = spheres[321].clone();
     // What is left of the spheres does not depend on how they were moved either.
     let broken = [1, 2].map(|threads| {
@@ -293,9 +285,7 @@ impl Lattice {
         scene.spheres.radius = Radii::One(radius);
         scene.spheres.count = self.count;
         scene.tank.as_mut().unwrap().radius = Some(self.tank);
-        scene.start = Start::List {
-            spheres: spheres.collect(),
-        };
+        scene.start = Start::list(spheres.collect());
         scene
     }
 }
@@ -350,9 +340,7 @@ fn a_contact_too_deep_is_the_same_on_threads_that_move_their_own_spheres() {
         NARROW.count - 1,
     ] {
         let mut scene = NARROW.scene(Integrator::SymplecticEuler);
-        let Start::List { spheres } = &mut scene.start else {
-            panic!("a list")
-        };
+        let spheres = scene.start.list_mut().unwrap();
         // Up from the floor, or down into the others.
         spheres[at].velocity = [0.0, 0.0, if at == 0 { 30.0 } else { -30.0 }];
         let broken = [1, 2, 3].map(|threads| {

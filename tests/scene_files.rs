@@ -275,9 +275,7 @@ fn files_named_by_a_scene_become_part_of_it() {
 fn values_of_every_listed_sphere_are_checked() {
     let mut scene = load_scene("tests/good/from-files.toml");
     assert!(scene.problems().is_empty());
-    let Start::List { spheres } = &mut scene.start else {
-        panic!("{:?}", scene.start);
-    };
+    let spheres = scene.start.list_mut().unwrap();
     spheres[1].radius = Some(-1.0);
     spheres[2].velocity[1] = f64::INFINITY;
     let problems: Vec<String> = scene.problems().iter().map(|it| it.to_string()).collect();

@@ -62,7 +62,7 @@ impl Moment {
         if let Radii::Each(radii) = &mut scene.spheres.radius {
             radii.truncate(count);
         }
-        if let Start::List { spheres } = &mut scene.start {
+        if let Some(spheres) = scene.start.list_mut() {
             spheres.truncate(count);
         }
         let mut simulation = Simulation::new(&scene)?;
@@ -87,9 +87,7 @@ impl Moment {
                 ..StartSphere::at(vector(&particles.position))
             }
         });
-        let start = Start::List {
-            spheres: spheres.collect(),
-        };
+        let start = Start::list(spheres.collect());
         let fixed = particles.fixed;
         Ok(Self {
             scene: Scene {

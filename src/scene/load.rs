@@ -126,7 +126,7 @@ fn read_files(scene: &mut Scene, folder: &Path, problems: &mut Vec<Problem>) {
     }
     if let Start::File { path } = &scene.start {
         match store::read_start(&folder.join(path)) {
-            Ok(spheres) => scene.start = Start::List { spheres },
+            Ok(spheres) => scene.start = Start::list(spheres),
             Err(error) => problems.push(Problem::new("start.path", error.to_string())),
         }
     }

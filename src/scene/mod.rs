@@ -119,7 +119,7 @@ impl Scene {
     ///     gravity: Some(Gravity { acceleration: 9.8, tilt: 0.0 }),
     ///     ..Scene::new(
     ///         Spheres { count: 1, radius: Radii::One(0.004), density: 2500.0, shape: Shape::Sphere },
-    ///         Start::List { spheres: vec![StartSphere::at([0.0, 0.0, 1.0])] },
+    ///         Start::list(vec![StartSphere::at([0.0, 0.0, 1.0])]),
     ///         Time {
     ///             dt: 1e-4,
     ///             safety_factor: None,

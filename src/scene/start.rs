@@ -1,8 +1,10 @@
 //! Where and how the spheres start.
 
+use super::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Where and how the spheres start.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -25,7 +27,8 @@ pub enum Start {
     /// Every sphere listed in the scene.
     List {
         /// One entry per sphere; their number must equal `spheres.count`.
-        spheres: Vec<StartSphere>,
+        // A million of them are in memory once, however often the scene is copied.
+        spheres: Arc<Vec<StartSphere>>,
     },
     /// One sphere after the other, all at one place and with one velocity, from time zero on.
     Feed {
@@ -47,6 +50,37 @@ pub enum Start {
         /// Path of the file, relative to the scene file.
         path: PathBuf,
     },
+}
+
+impl Start {
+    /// These spheres.
+    pub fn list(spheres: Vec<StartSphere>) -> Self {
+        Self::List {
+            spheres: Arc::new(spheres),
+        }
+    }
+
+    /// The spheres of a list, to be changed.
+    pub fn list_mut(&mut self) -> Option<&mut Vec<StartSphere>> {
+        match self {
+            Self::List { spheres } => Some(Arc::make_mut(spheres)),
+            _ => None,
+        }
+    }
+}
+
+impl Scene {
+    /// If its start lists spheres: the scene without them, and these.
+    pub(crate) fn apart_from_list(&self) -> Option<(Self, &[StartSphere])> {
+        let Start::List { spheres } = &self.start else {
+            return None;
+        };
+        let without_them = Self {
+            start: Start::list(Vec::new()),
+            ..self.clone()
+        };
+        Some((without_them, spheres))
+    }
 }
 
 /// One sphere of a start list.

@@ -3,7 +3,8 @@
 //! ```text
 //! signature   21 bytes, "phase checkpoint" between marks
 //! version     u32
-//! header      version and commit of the program, the scene (JSON)
+//! header      version and commit of the program, the scene's identity, the scene (JSON) without the
+//!             spheres that its start lists
 //! state       of the run at one frame
 //! checksum    32 bytes, the BLAKE3 hash of all before
 //! ```
@@ -27,7 +28,7 @@ use std::path::{Path, PathBuf};
 /// What every checkpoint begins with.
 pub const CHECKPOINT_SIGNATURE: &[u8; 21] = b"\x89phase checkpoint\r\n\x1a\n";
 /// Raised with every change of the layout above; what a state holds follows from the program.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Why a run cannot go on from a checkpoint. The file stays as it is.
 #[derive(Debug, thiserror::Error)]
@@ -96,7 +97,9 @@ pub enum CheckpointError {
 struct Header {
     program_version: String,
     program_commit: String,
-    /// The resolved scene (JSON).
+    /// Identity of the resolved scene.
+    identity: String,
+    /// The scene (JSON), [`without_list`]: a million spheres would make a long text.
     scene: String,
 }
 
@@ -122,7 +125,9 @@ fn encode(
     let header = Header {
         program_version: program.version.clone(),
         program_commit: program.commit.clone(),
-        scene: serde_json::to_string(scene).expect("a scene holds no map with odd keys"),
+        identity: scene.identity(),
+        scene: serde_json::to_string(&without_list(scene))
+            .expect("a scene holds no map with odd keys"),
     };
     let mut hashed = Hashed::new(file);
     let mut pieces = BufWriter::new(&mut hashed);
@@ -186,17 +191,25 @@ fn decode(bytes: &[u8], path: &Path, scene: &Scene) -> Result<RunState<'static>,
     }
     let saved: Scene =
         serde_json::from_str(&header.scene).map_err(|_| damaged("its scene cannot be read"))?;
-    if saved.identity() != scene.identity() || saved.output != scene.output {
-        return Err(CheckpointError::OtherScene {
-            path: path(),
-            keys: differing_keys(&without_names(&saved), &without_names(scene)),
-        });
+    let expected = without_names(&without_list(scene));
+    let mut keys = differing_keys(&without_names(&saved), &expected);
+    if keys.is_empty() && header.identity != scene.identity() {
+        keys.push("start.spheres".to_owned());
+    }
+    if !keys.is_empty() {
+        return Err(CheckpointError::OtherScene { path: path(), keys });
     }
     match postcard::take_from_bytes(body) {
         Ok((state, [])) => Ok(state),
         Ok(_) => Err(damaged("there is something after its end")),
         Err(error) => Err(unreadable(error)),
     }
+}
+
+/// The scene without the spheres that its start lists.
+fn without_list(scene: &Scene) -> Scene {
+    let apart = scene.apart_from_list();
+    apart.map_or_else(|| scene.clone(), |(without_list, _)| without_list)
 }
 
 /// The scene without what changes nothing in its record but itself.

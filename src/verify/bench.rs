@@ -229,7 +229,7 @@ impl Bench {
                 displacement: f64::MAX,
                 ..Guards::default()
             },
-            ..Scene::new(spheres, Start::List { spheres: list }, time)
+            ..Scene::new(spheres, Start::list(list), time)
         }
     }
 
@@ -290,9 +290,7 @@ impl Bench {
         };
         let bare = Scene {
             time,
-            start: Start::List {
-                spheres: particles.position.iter().map(centre).collect(),
-            },
+            start: Start::list(particles.position.iter().map(centre).collect()),
             friction: None,
             gravity: None,
             drag: None,

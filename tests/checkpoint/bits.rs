@@ -8,7 +8,7 @@ use phase::record::{MilestoneKind, Outcome, RunRecord};
 use phase::resume::{Checkpoints, Ending};
 use phase::run::Run;
 use phase::scene::{Friction, Integrator, Neighbours, Scene};
-use phase::store::content_digest;
+use phase::store::{content_digest, read_checkpoint, write_checkpoint};
 use std::ops::ControlFlow;
 use std::time::Duration;
 
@@ -207,6 +207,22 @@ fn a_state_that_does_not_fit_is_refused() {
         undisturbed.advance(100).unwrap();
         assert!(state(&simulation).bits() == state(&undisturbed).bits());
     }
+}
+
+/// The spheres of a list are known again, though the file does not hold them.
+#[test]
+fn a_list_of_other_spheres_is_refused() {
+    let mut scene = tank(None, Integrator::SymplecticEuler);
+    let simulation = Simulation::new(&scene).unwrap();
+    scene.start = state(&simulation).start(simulation.radius());
+    let place = Workplace::new();
+    let path = place.path("run.checkpoint");
+    let run = Run::new(&scene).unwrap();
+    write_checkpoint(&path, &scene, &run.state().unwrap()).unwrap();
+    assert!(read_checkpoint(&path, &scene).unwrap().is_some());
+    scene.start.list_mut().unwrap()[3].velocity[1] += 1e-12;
+    let error = read_checkpoint(&path, &scene).unwrap_err().to_string();
+    assert!(error.ends_with("they differ in start.spheres"), "{error}");
 }
 
 /// A disk that is full for a while must not end a run of hours; who stops it then is told.

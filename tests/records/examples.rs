@@ -3,7 +3,7 @@
 use ndarray::{Array2, Array3};
 use phase::observe::{Observations, Snapshot};
 use phase::record::{Guard, Instability, Outcome, Program, RunRecord};
-use phase::scene::Scene;
+use phase::scene::{Scene, Start, StartSphere};
 
 /// A scene with one start sphere, numbers that have no short decimal form, and a long text.
 pub(crate) fn scene() -> Scene {
@@ -89,6 +89,19 @@ pub(crate) fn record(frames: usize, bins: usize, spheres: usize, snapshots: usiz
         observations,
         cpu_seconds: 0.6,
     }
+}
+
+/// A start that lists so many spheres, every third of them of the scene's radius.
+pub(crate) fn long_start(count: usize) -> Start {
+    let mut noise = Noise(count as u64);
+    let mut vector = || [noise.next(), -0.0, noise.next() - 0.5];
+    let sphere = |i: usize| StartSphere {
+        position: vector(),
+        velocity: vector(),
+        spin: vector(),
+        radius: (!i.is_multiple_of(3)).then_some(1.0 / i as f64),
+    };
+    Start::list((0..count).map(sphere).collect())
 }
 
 /// How a run ends that a guard ended.

@@ -5,6 +5,7 @@
 
 use crate::examples;
 use phase::record::RunRecord;
+use phase::scene::{Start, StartSphere};
 use phase::store::write_record;
 use serde_json::{Value, json};
 use std::io::Write;
@@ -44,6 +45,14 @@ fn with_all(mut record: RunRecord) -> RunRecord {
         state.spin = ndarray::Array2::zeros((0, 3));
     }
     record
+}
+
+/// The spheres of a start that lists more than a record's text holds.
+fn long_start(start: &Start) -> &[StartSphere] {
+    match start {
+        Start::List { spheres } if spheres.len() > 1000 => spheres,
+        _ => &[],
+    }
 }
 
 /// Every dataset by path: type, shape, and bytes in hexadecimal.
@@ -100,6 +109,20 @@ fn datasets(record: &RunRecord) -> Value {
         .collect();
     add("observations/rising".into(), "<u2", rising.shape(), bytes);
 
+    let start = long_start(&record.scene.start);
+    if !start.is_empty() {
+        let shape = [start.len(), 3];
+        let position = start.iter().flat_map(|it| &it.position);
+        add("start/position".into(), "<f8", &shape, f64s(position));
+        let velocity = start.iter().flat_map(|it| &it.velocity);
+        add("start/velocity".into(), "<f8", &shape, f64s(velocity));
+        let spin = start.iter().flat_map(|it| &it.spin);
+        add("start/spin".into(), "<f8", &shape, f64s(spin));
+        let radius = start
+            .iter()
+            .map(|it| it.radius.as_ref().unwrap_or(&f64::NAN));
+        add("start/radius".into(), "<f8", &shape[..1], f64s(radius));
+    }
     for (group, states) in [
         ("snapshots", &record.snapshots),
         ("trajectory", &record.trajectory),
@@ -129,7 +152,9 @@ fn h5py_reads_every_number() {
     // Symptom: h5py with HDF5 2.0 opened no dataset of more than 65,535 spheres or frames. Cause: extents of chunks
     // written in four bytes that it expects in three.
     let large = with_all(examples::record(70_000, 1, 70_000, 1));
-    for record in [example(), large] {
+    let mut long_start = example();
+    long_start.scene.start = examples::long_start(1500);
+    for record in [example(), large, long_start] {
         reads_every_number(&python, &record, folder.path());
     }
 }
@@ -137,10 +162,16 @@ fn h5py_reads_every_number() {
 fn reads_every_number(python: &str, record: &RunRecord, folder: &Path) {
     let path = folder.join("run.h5");
     write_record(record, &path).unwrap();
+    let start = long_start(&record.scene.start);
+    // What is more stands in datasets.
+    let mut scene = record.scene.clone();
+    if !start.is_empty() {
+        scene.start = Start::list(Vec::new());
+    }
     let expected = json!({
         "attributes": {
             "format": "phase run record",
-            "format_version": 1,
+            "format_version": if start.is_empty() { 1 } else { 2 },
             "program_version": record.program.version,
             "program_commit": record.program.commit,
             "identity": record.scene.identity(),
@@ -153,7 +184,7 @@ fn reads_every_number(python: &str, record: &RunRecord, folder: &Path) {
             "guard_detail": "overlap 1.51 r, limit 1.5 r",
             "cpu_seconds": 0.6,
         },
-        "scene": record.scene,
+        "scene": scene,
         "datasets": datasets(record),
     });
     let expectation = folder.join("expected.json");

@@ -54,7 +54,7 @@ pub(crate) fn cluster(spheres: Vec<StartSphere>, friction: Option<Friction>, dt:
     )
     .unwrap();
     scene.spheres.count = spheres.len();
-    scene.start = Start::List { spheres };
+    scene.start = Start::list(spheres);
     scene.friction = friction;
     scene.time.dt = dt;
     scene
@@ -194,9 +194,7 @@ impl State {
             spin: self.spin.get(i).copied().map_or([0.0; 3], triple),
             radius: Some(radius[i]),
         };
-        Start::List {
-            spheres: (0..radius.len()).map(sphere).collect(),
-        }
+        Start::list((0..radius.len()).map(sphere).collect())
     }
 
     /// Largest difference of positions, over `length`.

@@ -206,12 +206,10 @@ fn a_grain_that_bounces_off_a_corner_has_not_passed_it() {
     // Into the foot of the shipped silo's wall, with a wall that holds it.
     let mut scene = shipped("silo.toml");
     scene.spheres.count = 1;
-    scene.start = phase::scene::Start::List {
-        spheres: vec![phase::scene::StartSphere {
-            velocity: [-1.45, 0.0, -0.6],
-            ..phase::scene::StartSphere::at([-1.1, 0.0, 1.12])
-        }],
-    };
+    scene.start = phase::scene::Start::list(vec![phase::scene::StartSphere {
+        velocity: [-1.45, 0.0, -0.6],
+        ..phase::scene::StartSphere::at([-1.1, 0.0, 1.12])
+    }]);
     let record = record(&scene);
     assert_eq!(record.outcome, Outcome::Completed);
 }

@@ -100,9 +100,7 @@ fn resting(damping: f64, friction: Option<Friction>) -> Scene {
         spin: [0.0, 1e-3, 0.0],
         ..moving([0.0, 0.0, height], [0.0, 0.0, -1e-3])
     };
-    scene.start = phase::scene::Start::List {
-        spheres: vec![sphere],
-    };
+    scene.start = phase::scene::Start::list(vec![sphere]);
     scene.contact = Some(Contact::Linear {
         stiffness,
         damping,

@@ -4,7 +4,7 @@ use crate::bench::{LIMIT, RADIUS, at, collide, keeps_or_is_reported, moving, run
 use crate::scenes::{angular_momentum, cluster, momentum, scales};
 use phase::dem::Simulation;
 use phase::record::{Guard, Instability};
-use phase::scene::{Contact, Friction, Integrator, Radii, Scene, Start, StartSphere};
+use phase::scene::{Contact, Friction, Integrator, Radii, Scene, StartSphere};
 
 /// Largest speed after an elastic impact at the limit, over that before: the impact takes two steps,
 /// and it depends on where the first falls. Measured: 0.61 to 2.33.
@@ -138,7 +138,7 @@ fn restitution_near_zero_and_one_is_what_the_scene_says() {
 /// The same scene with all lengths so many times as large.
 fn enlarged(mut scene: Scene, factor: f64) -> Scene {
     scene.spheres.radius = Radii::One(factor * RADIUS);
-    if let Start::List { spheres } = &mut scene.start {
+    if let Some(spheres) = scene.start.list_mut() {
         for sphere in spheres {
             sphere.position = sphere.position.map(|part| factor * part);
         }

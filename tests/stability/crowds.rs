@@ -42,7 +42,7 @@ pub(crate) fn column(radii: &[f64], friction: Option<Friction>) -> Scene {
         }
     };
     let spheres = (0..radii.len()).map(place).collect();
-    scene.start = Start::List { spheres };
+    scene.start = Start::list(spheres);
     scene.spheres.count = radii.len();
     scene.tank = Some(Tank {
         floor: Some(0.0),
@@ -122,9 +122,7 @@ pub(crate) fn leaning(count: u32, friction: Friction) -> Scene {
         let height = RADIUS * (1.0 + 2.0 * f64::from(i));
         StartSphere::at([side * RADIUS, 0.0, height])
     };
-    scene.start = Start::List {
-        spheres: (0..count).map(place).collect(),
-    };
+    scene.start = Start::list((0..count).map(place).collect());
     scene.spheres.count = count as usize;
     scene.tank = Some(Tank {
         radius: Some(1.41 * RADIUS),
@@ -274,7 +272,7 @@ fn a_tank_filled_to_the_brim_holds() {
         let inside = |[x, y, _]: &[f64; 3]| libm::hypot(*x, *y) <= wall - RADIUS;
         let spheres: Vec<_> = places.filter(inside).map(StartSphere::at).collect();
         scene.spheres.count = spheres.len();
-        scene.start = Start::List { spheres };
+        scene.start = Start::list(spheres);
         let scene = crowded(&scene, integrator, LIMIT);
         let seen = run(&scene, 10_000, 100).unwrap();
         assert!(seen.most < 1.0 + 1e-9 && seen.overlap < 0.3, "{seen:?}");

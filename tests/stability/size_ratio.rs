@@ -30,9 +30,10 @@ fn neck(ratio: f64) -> Scene {
         density: 2500.0,
         shape: Shape::Sphere,
     };
-    let start = Start::List {
-        spheres: vec![moving([0.0, height * sine, height * cosine], [0.0; 3])],
-    };
+    let start = Start::list(vec![moving(
+        [0.0, height * sine, height * cosine],
+        [0.0; 3],
+    )]);
     let time = Time {
         safety_factor: None,
         dt: 1e-6,

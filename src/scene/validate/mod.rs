@@ -49,17 +49,11 @@ impl Scene {
     /// What is wrong with the kinds of values, and numbers out of their ranges.
     fn problems_of_values(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
-        let Start::List { spheres } = &self.start else {
+        let Some((without_them, spheres)) = self.apart_from_list() else {
             SCENE.check(&self.tree(), "", &mut problems);
             return problems;
         };
         // Listed spheres one by one: a tree of all would take a kilobyte for each.
-        let without_them = Self {
-            start: Start::List {
-                spheres: Vec::new(),
-            },
-            ..self.clone()
-        };
         SCENE.check(&without_them.tree(), "", &mut problems);
         for (k, sphere) in spheres.iter().enumerate() {
             let sphere = serde_json::to_value(sphere).expect("a sphere holds no map");

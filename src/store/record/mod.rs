@@ -4,6 +4,9 @@
 //! /             attributes: format, format_version, program_version, program_commit, identity,
 //!               seed, scene (JSON), scene_toml, outcome, cpu_seconds; of an unstable run also
 //!               guard, guard_step, guard_time, guard_sphere, guard_detail
+//! /start        of a start that lists more than 1000 spheres, which the texts leave out then:
+//!               position, velocity, spin                    n x 3
+//!               radius                                      n
 //! /spheres      radius, mass                                n
 //! /observations time and each scalar                        frames
 //!               profile                                     frames x bins
@@ -36,7 +39,12 @@ use std::path::Path;
 const FORMAT: &str = "phase run record";
 /// Raised with every change after which this program cannot read older records (a new
 /// observable, say) or older programs cannot read its own.
-const FORMAT_VERSION: u64 = 1;
+const FORMAT_VERSION: u64 = 2;
+/// The version of a record without `/start`, which programs read that know nothing of such a group.
+const VERSION_WITHOUT_START: u64 = 1;
+
+/// Most spheres that stand in the text of a scene, of which a reader makes several hundred bytes for each.
+const MOST_IN_TEXT: usize = 1000;
 
 /// What a record says of its run besides what was measured.
 #[derive(Clone, Debug, PartialEq)]

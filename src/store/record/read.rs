@@ -1,11 +1,12 @@
 //! From the bytes of an HDF5 file to a record.
 
-use super::{FORMAT, FORMAT_VERSION, RecordHeader, seal};
+use super::{FORMAT, FORMAT_VERSION, RecordHeader, VERSION_WITHOUT_START, seal};
 use crate::observe::{Observations, Snapshot};
 use crate::record::{Guard, Instability, Milestone, Outcome, Program, RunRecord};
+use crate::scene::{Scene, Start, StartSphere};
 use crate::store::StoreError;
 use hdf5_pure::{AttrValue, File, H5Element};
-use ndarray::{Array, Array1, Array3, Axis, Dimension};
+use ndarray::{Array, Array1, Array2, Array3, Axis, Dimension};
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -40,7 +41,7 @@ impl<'a> Reader<'a> {
             });
         }
         match self.whole("format_version")? {
-            FORMAT_VERSION => Ok(()),
+            VERSION_WITHOUT_START..=FORMAT_VERSION => Ok(()),
             found => Err(StoreError::Format {
                 path: self.path.to_owned(),
                 found,
@@ -52,8 +53,7 @@ impl<'a> Reader<'a> {
 
     pub(super) fn header(&self) -> Result<RecordHeader, StoreError> {
         Ok(RecordHeader {
-            scene: serde_json::from_str(self.text("scene")?)
-                .map_err(|error| self.damaged(format!("its scene: {error}")))?,
+            scene: self.scene()?,
             program: Program {
                 version: self.text("program_version")?.to_owned(),
                 commit: self.text("program_commit")?.to_owned(),
@@ -61,6 +61,38 @@ impl<'a> Reader<'a> {
             outcome: self.outcome()?,
             cpu_seconds: self.number("cpu_seconds")?,
         })
+    }
+
+    fn scene(&self) -> Result<Scene, StoreError> {
+        let mut scene: Scene = serde_json::from_str(self.text("scene")?)
+            .map_err(|error| self.damaged(format!("its scene: {error}")))?;
+        if self.file.group("start").is_ok() {
+            scene.start = self.start()?;
+        }
+        Ok(scene)
+    }
+
+    fn start(&self) -> Result<Start, StoreError> {
+        let radius: Vec<f64> = self.values("start/radius")?;
+        let vectors = |name: &str| -> Result<Vec<[f64; 3]>, StoreError> {
+            let path = format!("start/{name}");
+            let array: Array2<f64> = self.array(&path)?;
+            if array.dim() != (radius.len(), 3) {
+                return Err(self.damaged(format!("`{path}` does not match its radii")));
+            }
+            let rows = array.rows().into_iter();
+            Ok(rows.map(|row| [row[0], row[1], row[2]]).collect())
+        };
+        let (position, velocity) = (vectors("position")?, vectors("velocity")?);
+        let vectors = position.into_iter().zip(velocity).zip(vectors("spin")?);
+        let spheres = vectors.zip(&radius);
+        let sphere = |(((position, velocity), spin), radius): (_, &f64)| StartSphere {
+            position,
+            velocity,
+            spin,
+            radius: (!radius.is_nan()).then_some(*radius),
+        };
+        Ok(Start::list(spheres.map(sphere).collect()))
     }
 
     pub(super) fn record(&self) -> Result<RunRecord, StoreError> {

@@ -1,8 +1,9 @@
 //! From a record to the bytes of an HDF5 file.
 
-use super::{FORMAT, FORMAT_VERSION};
+use super::{FORMAT, FORMAT_VERSION, MOST_IN_TEXT, VERSION_WITHOUT_START};
 use crate::observe::{Observations, Snapshot};
 use crate::record::{Outcome, Program, RunRecord};
+use crate::scene::{Scene, StartSphere};
 use hdf5_pure::{AttrValue, FileBuilder, GroupBuilder, H5Element};
 use ndarray::Array2;
 
@@ -13,6 +14,8 @@ const DEFLATE_LEVEL: u32 = 1;
 const COMPRESS_FROM: usize = 4096;
 /// Largest chunk of a dataset (bytes): what a reader must unpack to see one frame, or a part of a large one.
 const CHUNK: usize = 1 << 20;
+/// Why a scene has no text that gives it back.
+const NOT_FINITE: &str = "its scene holds a number that is not finite; check the scene file";
 /// Most entries of a chunk along an axis: HDF5 2.0 refuses the extents of larger ones as they are written here,
 /// in four bytes where it would take three.
 const WIDEST: usize = u16::MAX as usize;
@@ -31,6 +34,11 @@ pub(super) fn build(
         file.set_attr("cpu_seconds", AttrValue::F64(cpu_seconds));
     }
     header(&mut file, record)?;
+    if let Some((_, spheres)) = long_start(&record.scene) {
+        let mut group = file.create_group("start");
+        start(&mut group, spheres)?;
+        file.add_group(group.finish());
+    }
     let mut group = file.create_group("spheres");
     spheres(&mut group, record);
     file.add_group(group.finish());
@@ -54,19 +62,34 @@ fn text(value: &str) -> AttrValue {
     AttrValue::VarLenString(value.to_owned())
 }
 
+/// The scene without the spheres that its start lists, and these, if they are too many for a text.
+fn long_start(scene: &Scene) -> Option<(Scene, &[StartSphere])> {
+    let apart = scene.apart_from_list();
+    apart.filter(|(_, spheres)| spheres.len() > MOST_IN_TEXT)
+}
+
 fn header(file: &mut FileBuilder, record: &RunRecord) -> Result<(), String> {
     let scene = &record.scene;
-    let json = serde_json::to_string(scene).map_err(|error| error.to_string())?;
-    if serde_json::from_str(&json).ok().as_ref() != Some(scene) {
-        return Err("its scene holds a number that is not finite; check the scene file".to_owned());
+    let long_start = long_start(scene);
+    let version = match &long_start {
+        Some(_) => FORMAT_VERSION,
+        None => VERSION_WITHOUT_START,
+    };
+    let in_text = long_start.as_ref().map_or(scene, |(rest, _)| rest);
+    let json = serde_json::to_string(in_text).map_err(|error| error.to_string())?;
+    if serde_json::from_str(&json).ok().as_ref() != Some(in_text) {
+        return Err(NOT_FINITE.to_owned());
     }
     file.set_attr("format", text(FORMAT));
-    file.set_attr("format_version", AttrValue::U64(FORMAT_VERSION));
+    file.set_attr("format_version", AttrValue::U64(version));
     file.set_attr("identity", text(&scene.identity()));
     file.set_attr("seed", AttrValue::U64(scene.seed));
     file.set_attr("scene", text(&json));
-    // For people only, so it may be missing: TOML has no whole numbers beyond 64 signed bits.
-    if let Ok(toml) = toml::to_string(scene) {
+    // For people only, so it may be missing: it is no file to run without the spheres, and TOML has no whole
+    // numbers beyond 64 signed bits.
+    if long_start.is_none()
+        && let Ok(toml) = toml::to_string(scene)
+    {
         file.set_attr("scene_toml", text(&toml));
     }
     if !record.milestones.is_empty() {
@@ -87,8 +110,39 @@ fn header(file: &mut FileBuilder, record: &RunRecord) -> Result<(), String> {
     Ok(())
 }
 
+fn start(group: &mut GroupBuilder, spheres: &[StartSphere]) -> Result<(), String> {
+    let finite = |sphere: &StartSphere| {
+        let vectors = [sphere.position, sphere.velocity, sphere.spin];
+        let mut numbers = vectors.as_flattened().iter().chain(&sphere.radius);
+        numbers.all(|number| number.is_finite())
+    };
+    if !spheres.iter().all(finite) {
+        return Err(NOT_FINITE.to_owned());
+    }
+    type Part = fn(&StartSphere) -> &[f64; 3];
+    let parts: [(Quantity<'_>, Part); 3] = [
+        (POSITION, |it| &it.position),
+        (VELOCITY, |it| &it.velocity),
+        (SPIN, |it| &it.spin),
+    ];
+    for (quantity, part) in parts {
+        let values: Vec<f64> = spheres.iter().flat_map(part).copied().collect();
+        dataset(group, quantity, &[spheres.len(), 3], &values);
+    }
+    let radius = |it: &StartSphere| it.radius.unwrap_or(f64::NAN);
+    let values: Vec<f64> = spheres.iter().map(radius).collect();
+    let description = "Radius of every sphere; not a number for that of the scene";
+    let quantity = Quantity("radius", "m", description);
+    dataset(group, quantity, &[spheres.len()], &values);
+    Ok(())
+}
+
 /// Name, unit and description of a dataset.
 struct Quantity<'a>(&'a str, &'a str, &'a str);
+
+const POSITION: Quantity<'_> = Quantity("position", "m", "Centres x, y, z");
+const VELOCITY: Quantity<'_> = Quantity("velocity", "m/s", "Velocities x, y, z");
+const SPIN: Quantity<'_> = Quantity("spin", "rad/s", "Spins x, y, z");
 
 fn dataset<T: H5Element>(
     group: &mut GroupBuilder,
@@ -188,13 +242,9 @@ fn snapshots(group: &mut GroupBuilder, snapshots: &[Snapshot]) -> Result<(), Str
 
     type Part = fn(&Snapshot) -> &Array2<f64>;
     let parts: [(Quantity<'_>, Part); 3] = [
-        (Quantity("position", "m", "Centres x, y, z"), |at| {
-            &at.position
-        }),
-        (Quantity("velocity", "m/s", "Velocities x, y, z"), |at| {
-            &at.velocity
-        }),
-        (Quantity("spin", "rad/s", "Spins x, y, z"), |at| &at.spin),
+        (POSITION, |at| &at.position),
+        (VELOCITY, |at| &at.velocity),
+        (SPIN, |at| &at.spin),
     ];
     let count = snapshots[0].position.nrows();
     let spins = snapshots[0].spin.nrows();
