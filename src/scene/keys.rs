@@ -1,10 +1,11 @@
 //! The numeric keys of a scene by their paths, so that a sweep can vary any of them.
 
-use super::Scene;
 use super::schema::SCENE;
+use super::{LIST_KEY, Scene};
 use crate::document::schema::Kind;
 use crate::document::{Problem, any_of, number, one_of, suggest};
 use serde_json::Value;
+use std::borrow::Cow;
 
 /// The key that only a scene with `dt = "auto"` has.
 const SAFETY_FACTOR_KEY: &str = "time.safety_factor";
@@ -22,7 +23,7 @@ impl Scene {
     /// the keys of `output`, which change nothing, and without entries of lists, which may be varied
     /// too (`spheres.radius[1].share`).
     pub fn numeric_keys(&self) -> Vec<String> {
-        let keys = self.all_numeric_keys().into_iter();
+        let keys = self.for_keys(&[]).all_numeric_keys().into_iter();
         keys.map(|key| key.path)
             .filter(|path| !path.contains('['))
             .collect()
@@ -44,11 +45,8 @@ impl Scene {
 
     /// The full path of a numeric key: `key` itself, or the one path that ends in it.
     pub(crate) fn resolve_key(&self, key: &str) -> Result<String, Problem> {
-        if self
-            .all_numeric_keys()
-            .iter()
-            .any(|known| known.path == key)
-        {
+        let keys = self.for_keys(&[key]).all_numeric_keys();
+        if keys.iter().any(|known| known.path == key) {
             return Ok(key.to_owned());
         }
         let paths = self.numeric_keys();
@@ -83,7 +81,7 @@ impl Scene {
         if let Kind::Table(tables) = SCENE
             && table != key
             && tables.iter().any(|known| known.name == table)
-            && self.tree().get(table).is_none()
+            && self.for_keys(&[]).tree().get(table).is_none()
         {
             return Problem::new("", format!("the scene has no [{table}] to vary `{key}` in"))
                 .help(format!("add [{table}] to the scene"));
@@ -105,8 +103,11 @@ impl Scene {
         &self,
         values: impl IntoIterator<Item = (&'a str, f64)>,
     ) -> Result<Self, Problem> {
-        let keys = self.all_numeric_keys();
-        let mut tree = self.tree();
+        let values: Vec<(&str, f64)> = values.into_iter().collect();
+        let paths: Vec<&str> = values.iter().map(|(path, _)| *path).collect();
+        let scene = self.for_keys(&paths);
+        let keys = scene.all_numeric_keys();
+        let mut tree = scene.tree();
         for (path, value) in values {
             let Some(key) = keys.iter().find(|key| key.path == path) else {
                 return Err(Problem::new(path, format!("the scene has no key `{path}`")));
@@ -121,8 +122,23 @@ impl Scene {
             };
             set(&mut tree, path, number);
         }
-        serde_json::from_value(tree)
-            .map_err(|error| Problem::new("", format!("not a scene: {error}")))
+        let mut varied: Self = serde_json::from_value(tree)
+            .map_err(|error| Problem::new("", format!("not a scene: {error}")))?;
+        if let Cow::Owned(_) = scene {
+            varied.start = self.start.clone();
+        }
+        Ok(varied)
+    }
+
+    /// The scene, without the spheres that its start lists if none of these keys is theirs: a tree of values takes
+    /// more than a kilobyte for each.
+    fn for_keys(&self, keys: &[&str]) -> Cow<'_, Self> {
+        match self.apart_from_list() {
+            Some((scene, _)) if !keys.iter().any(|key| key.starts_with(LIST_KEY)) => {
+                Cow::Owned(scene)
+            }
+            _ => Cow::Borrowed(self),
+        }
     }
 }
 
@@ -224,7 +240,9 @@ fn set(tree: &mut Value, path: &str, new: Value) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{Start, StartSphere};
     use std::path::Path;
+    use std::sync::Arc;
 
     fn scene() -> Scene {
         let text = r#"
@@ -250,6 +268,27 @@ mod tests {
             &changed.spheres.radius,
             crate::scene::Radii::Shares(shares) if shares[1].share == 5.0
         ));
+    }
+
+    /// Symptom: a sweep over a scene that lists many spheres held them once for each job. Cause: each job's scene was made
+    /// of a tree of values.
+    #[test]
+    fn listed_spheres_are_shared_unless_they_vary() {
+        let mut scene = scene();
+        scene.start = Start::list(vec![StartSphere::at([0.0; 3]); 3]);
+        let list = |scene: &Scene| match &scene.start {
+            Start::List { spheres } => Arc::clone(spheres),
+            other => panic!("{other:?}"),
+        };
+        let denser = scene.with_values([("spheres.density", 7.0)]).unwrap();
+        assert_eq!(denser.spheres.density, 7.0);
+        assert!(Arc::ptr_eq(&list(&denser), &list(&scene)));
+        let key = "start.spheres[1].position[2]";
+        assert_eq!(scene.resolve_key(key).unwrap(), key);
+        let moved = scene.with_values([("spheres.density", 7.0), (key, 0.5)]);
+        let moved = list(&moved.unwrap());
+        assert_eq!(moved[1], StartSphere::at([0.0, 0.0, 0.5]));
+        assert_eq!(moved[2], list(&scene)[2]);
     }
 
     #[test]

@@ -34,6 +34,7 @@ pub use output::{Guards, Output};
 pub use radius::{Radii, RadiusShare};
 pub use silo::{Door, FixedSphere, FixedSpheres, Geometry, Hopper, LengthUnit, Outlet, Rest};
 pub use spheres::{Shape, Spheres};
+pub(crate) use start::LIST_KEY;
 pub use start::{Start, StartSphere};
 pub use tank::Tank;
 pub use time::{Integrator, Time};

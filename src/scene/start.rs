@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+/// The key of the spheres that a start lists.
+pub(crate) const LIST_KEY: &str = "start.spheres";
+
 /// Where and how the spheres start.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
@@ -80,6 +83,12 @@ impl Scene {
             ..self.clone()
         };
         Some((without_them, spheres))
+    }
+
+    /// The scene without the spheres that its start lists.
+    pub(crate) fn without_list(&self) -> Self {
+        let apart = self.apart_from_list();
+        apart.map_or_else(|| self.clone(), |(without_list, _)| without_list)
     }
 }
 

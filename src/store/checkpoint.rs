@@ -3,8 +3,8 @@
 //! ```text
 //! signature   21 bytes, "phase checkpoint" between marks
 //! version     u32
-//! header      version and commit of the program, the scene's identity, the scene (JSON) without the
-//!             spheres that its start lists
+//! header      version and commit of the program, the scene (JSON) without the spheres that its start
+//!             lists, and a hash of these
 //! state       of the run at one frame
 //! checksum    32 bytes, the BLAKE3 hash of all before
 //! ```
@@ -19,7 +19,7 @@ use super::hashed::Hashed;
 use crate::document::differing_keys;
 use crate::record::Program;
 use crate::run::RunState;
-use crate::scene::{Neighbours, Scene};
+use crate::scene::{LIST_KEY, Neighbours, Scene};
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -97,10 +97,10 @@ pub enum CheckpointError {
 struct Header {
     program_version: String,
     program_commit: String,
-    /// Identity of the resolved scene.
-    identity: String,
-    /// The scene (JSON), [`without_list`]: a million spheres would make a long text.
+    /// The resolved scene (JSON) without the spheres that its start lists: a million make a long text.
     scene: String,
+    /// Hash of these, as [`hash_of_list`] makes it.
+    list: String,
 }
 
 /// Writes the checkpoint of a run of that scene, all or nothing.
@@ -125,9 +125,9 @@ fn encode(
     let header = Header {
         program_version: program.version.clone(),
         program_commit: program.commit.clone(),
-        identity: scene.identity(),
-        scene: serde_json::to_string(&without_list(scene))
+        scene: serde_json::to_string(&scene.without_list())
             .expect("a scene holds no map with odd keys"),
+        list: hash_of_list(scene),
     };
     let mut hashed = Hashed::new(file);
     let mut pieces = BufWriter::new(&mut hashed);
@@ -191,10 +191,13 @@ fn decode(bytes: &[u8], path: &Path, scene: &Scene) -> Result<RunState<'static>,
     }
     let saved: Scene =
         serde_json::from_str(&header.scene).map_err(|_| damaged("its scene cannot be read"))?;
-    let expected = without_names(&without_list(scene));
+    let expected = without_names(&scene.without_list());
     let mut keys = differing_keys(&without_names(&saved), &expected);
-    if keys.is_empty() && header.identity != scene.identity() {
-        keys.push("start.spheres".to_owned());
+    if header.list != hash_of_list(scene) {
+        keys.push(LIST_KEY.to_owned());
+    }
+    if keys.is_empty() && saved.identity() != expected.identity() {
+        keys.push("the sign of a zero".to_owned());
     }
     if !keys.is_empty() {
         return Err(CheckpointError::OtherScene { path: path(), keys });
@@ -206,10 +209,13 @@ fn decode(bytes: &[u8], path: &Path, scene: &Scene) -> Result<RunState<'static>,
     }
 }
 
-/// The scene without the spheres that its start lists.
-fn without_list(scene: &Scene) -> Scene {
-    let apart = scene.apart_from_list();
-    apart.map_or_else(|| scene.clone(), |(without_list, _)| without_list)
+/// A hash of the spheres that a start lists, as it lists them.
+fn hash_of_list(scene: &Scene) -> String {
+    let mut hasher = blake3::Hasher::new();
+    if let Some((_, spheres)) = scene.apart_from_list() {
+        serde_json::to_writer(&mut hasher, spheres).expect("a sphere holds no map");
+    }
+    hasher.finalize().to_hex().to_string()
 }
 
 /// The scene without what changes nothing in its record but itself.

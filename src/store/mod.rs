@@ -113,7 +113,7 @@ pub enum StoreError {
     /// The record has a form that this program does not know.
     #[error(
         "{} has record format {found} (written by phase {program}), but this program \
-         reads format {known}; use that version, or delete the record and run the sweep again",
+         reads formats up to {known}; use that version, or delete the record and run the sweep again",
         path.display()
     )]
     Format {

@@ -2,7 +2,7 @@
 
 use super::{Folder, Job, differing_keys, work};
 use crate::record::{Outcome, Program};
-use crate::scene::{Neighbours, Output, Scene};
+use crate::scene::{LIST_KEY, Neighbours, Output, Scene};
 use crate::store::{self, StoreError};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -126,7 +126,7 @@ fn standing(job: &Job, path: &Path) -> Standing {
         }
         Err(error) => return Standing::Damaged(error.to_string()),
     };
-    let keys = differing_keys(&motion(&record.scene), &motion(&job.scene));
+    let keys = differing_keys_of_motion(&record.scene, &job.scene);
     if !keys.is_empty() {
         Standing::Foreign(ForeignRecord {
             path: path.to_owned(),
@@ -143,12 +143,55 @@ fn standing(job: &Job, path: &Path) -> Standing {
     }
 }
 
-/// The scene without what never changes the motion.
-fn motion(scene: &Scene) -> Scene {
-    Scene {
+/// Keys in which two scenes differ that change the motion.
+fn differing_keys_of_motion(a: &Scene, b: &Scene) -> Vec<String> {
+    let motion = |scene: &Scene| Scene {
         title: None,
         neighbours: Neighbours::default(),
         output: Output::default(),
-        ..scene.clone()
+        ..scene.without_list()
+    };
+    let mut keys = differing_keys(&motion(a), &motion(b));
+    // Two lists compared as such: trees of values would take kilobytes for each sphere.
+    if matches!((a.apart_from_list(), b.apart_from_list()), (Some((_, a)), Some((_, b))) if a != b)
+    {
+        keys.push(LIST_KEY.to_owned());
+    }
+    keys
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Start;
+    use std::path::Path;
+
+    #[test]
+    fn keys_of_motion_include_the_spheres_of_a_list() {
+        let text = r#"
+            spheres = { count = 2, radius = 0.004, density = 1e3 }
+            start = { kind = "list", spheres = [{ position = [0, 0, 0] }, { position = [1, 0, 0] }] }
+            gravity = { acceleration = 9.8 }
+            time = { dt = 1e-4, duration = 1.0, frame_interval = 1e-3 }
+        "#;
+        let scene = crate::scene::from_str(text, Path::new("scene.toml")).unwrap();
+        let mut other = scene.clone();
+        other.title = Some("another".to_owned());
+        other.output.trajectory = true;
+        assert!(differing_keys_of_motion(&scene, &other).is_empty());
+        other.start.list_mut().unwrap()[1].spin[2] = 1e-9;
+        assert_eq!(differing_keys_of_motion(&scene, &other), ["start.spheres"]);
+        other.seed = 7;
+        assert_eq!(
+            differing_keys_of_motion(&scene, &other),
+            ["seed", "start.spheres"]
+        );
+        other.start = Start::File {
+            path: "start.csv".into(),
+        };
+        assert_eq!(
+            differing_keys_of_motion(&scene, &other),
+            ["seed", "start.kind", "start.path", "start.spheres"]
+        );
     }
 }

@@ -221,8 +221,31 @@ fn a_list_of_other_spheres_is_refused() {
     write_checkpoint(&path, &scene, &run.state().unwrap()).unwrap();
     assert!(read_checkpoint(&path, &scene).unwrap().is_some());
     scene.start.list_mut().unwrap()[3].velocity[1] += 1e-12;
+    let differ = |scene: &Scene| {
+        let error = read_checkpoint(&path, scene).unwrap_err().to_string();
+        error.split("they differ in ").nth(1).unwrap().to_owned()
+    };
+    assert_eq!(differ(&scene), "start.spheres");
+    scene.seed = 7;
+    assert_eq!(differ(&scene), "seed, start.spheres");
+}
+
+/// Symptom: a checkpoint of another run, differing in no key. Cause: to JSON's numbers 0 and -0 are equal, to the motion
+/// they need not be.
+#[test]
+fn zeros_of_another_sign_are_told() {
+    let mut scene = tank(None, Integrator::SymplecticEuler);
+    scene.gravity.as_mut().unwrap().acceleration = 0.0;
+    let place = Workplace::new();
+    let path = place.path("run.checkpoint");
+    let run = Run::new(&scene).unwrap();
+    write_checkpoint(&path, &scene, &run.state().unwrap()).unwrap();
+    scene.gravity.as_mut().unwrap().acceleration = -0.0;
     let error = read_checkpoint(&path, &scene).unwrap_err().to_string();
-    assert!(error.ends_with("they differ in start.spheres"), "{error}");
+    assert!(
+        error.ends_with("they differ in the sign of a zero"),
+        "{error}"
+    );
 }
 
 /// A disk that is full for a while must not end a run of hours; who stops it then is told.

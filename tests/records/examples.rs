@@ -91,8 +91,8 @@ pub(crate) fn record(frames: usize, bins: usize, spheres: usize, snapshots: usiz
     }
 }
 
-/// A start that lists so many spheres, every third of them of the scene's radius.
-pub(crate) fn long_start(count: usize) -> Start {
+/// Lets the scene list so many spheres, every third of them of the scene's radius.
+pub(crate) fn list_many(scene: &mut Scene, count: usize) {
     let mut noise = Noise(count as u64);
     let mut vector = || [noise.next(), -0.0, noise.next() - 0.5];
     let sphere = |i: usize| StartSphere {
@@ -101,7 +101,8 @@ pub(crate) fn long_start(count: usize) -> Start {
         spin: vector(),
         radius: (!i.is_multiple_of(3)).then_some(1.0 / i as f64),
     };
-    Start::list((0..count).map(sphere).collect())
+    scene.spheres.count = count;
+    scene.start = Start::list((0..count).map(sphere).collect());
 }
 
 /// How a run ends that a guard ended.

@@ -153,7 +153,7 @@ fn h5py_reads_every_number() {
     // written in four bytes that it expects in three.
     let large = with_all(examples::record(70_000, 1, 70_000, 1));
     let mut long_start = example();
-    long_start.scene.start = examples::long_start(1500);
+    examples::list_many(&mut long_start.scene, 1500);
     for record in [example(), large, long_start] {
         reads_every_number(&python, &record, folder.path());
     }

@@ -108,9 +108,17 @@ fn a_scene_with_many_spheres_reads_back() {
 fn a_long_list_of_spheres_stands_in_datasets() {
     for count in [1000, 1001, 20_000] {
         let mut record = examples::record(1, 1, 1, 1);
-        record.scene.start = examples::long_start(count);
+        examples::list_many(&mut record.scene, count);
         let (back, bytes) = through_file(&record).unwrap();
         assert_same(&back, &record);
+        record.scene.spheres.count += 1;
+        match through_file(&record) {
+            Ok(_) => assert!(count <= 1000),
+            Err(error) => {
+                let reason = "`start/radius` is not one row for each of";
+                assert!(error.to_string().contains(reason), "{error}");
+            }
+        }
         let in_text = bytes.windows(10).any(|text| text == b"\"position\"");
         assert_eq!(in_text, count <= 1000);
     }
@@ -171,14 +179,14 @@ fn what_does_not_fit_together_is_not_written() {
         ),
         (
             |record| {
-                record.scene.start = examples::long_start(1001);
+                examples::list_many(&mut record.scene, 1001);
                 record.scene.start.list_mut().unwrap()[1000].spin[2] = f64::NAN;
             },
             "its scene holds a number that is not finite; check the scene file",
         ),
         (
             |record| {
-                record.scene.start = examples::long_start(1001);
+                examples::list_many(&mut record.scene, 1001);
                 record.scene.start.list_mut().unwrap()[1000].radius = Some(f64::NAN);
             },
             "its scene holds a number that is not finite; check the scene file",

@@ -66,23 +66,29 @@ impl<'a> Reader<'a> {
     fn scene(&self) -> Result<Scene, StoreError> {
         let mut scene: Scene = serde_json::from_str(self.text("scene")?)
             .map_err(|error| self.damaged(format!("its scene: {error}")))?;
-        if self.file.group("start").is_ok() {
-            scene.start = self.start()?;
+        if self.whole("format_version")? > VERSION_WITHOUT_START {
+            scene.start = self.start(scene.spheres.count)?;
         }
         Ok(scene)
     }
 
-    fn start(&self) -> Result<Start, StoreError> {
-        let radius: Vec<f64> = self.values("start/radius")?;
-        let vectors = |name: &str| -> Result<Vec<[f64; 3]>, StoreError> {
-            let path = format!("start/{name}");
-            let array: Array2<f64> = self.array(&path)?;
-            if array.dim() != (radius.len(), 3) {
-                return Err(self.damaged(format!("`{path}` does not match its radii")));
+    fn start(&self, count: usize) -> Result<Start, StoreError> {
+        let other = |name| {
+            let reason = format!("`start/{name}` is not one row for each of {count} spheres");
+            self.damaged(reason)
+        };
+        let vectors = |name| -> Result<Vec<[f64; 3]>, StoreError> {
+            let array: Array2<f64> = self.array(&format!("start/{name}"))?;
+            if array.dim() != (count, 3) {
+                return Err(other(name));
             }
             let rows = array.rows().into_iter();
             Ok(rows.map(|row| [row[0], row[1], row[2]]).collect())
         };
+        let radius: Vec<f64> = self.values("start/radius")?;
+        if radius.len() != count {
+            return Err(other("radius"));
+        }
         let (position, velocity) = (vectors("position")?, vectors("velocity")?);
         let vectors = position.into_iter().zip(velocity).zip(vectors("spin")?);
         let spheres = vectors.zip(&radius);
