@@ -79,6 +79,7 @@ pub mod cost;
 mod cpu_time;
 pub mod dem;
 pub mod document;
+mod fonts;
 mod markup;
 pub mod notation;
 pub mod observe;

@@ -2,6 +2,7 @@
 
 use super::canvas::{self, PNG_SCALE, UNITS};
 use super::{PlotError, Source, text};
+use crate::fonts;
 use crate::markup::escape;
 use crate::record::{Program, RunRecord};
 use crate::render::Image;
@@ -142,7 +143,7 @@ impl Svg {
             ..usvg::Options::default()
         };
         let fonts = options.fontdb_mut();
-        for font in [dejavu::sans::regular(), dejavu::sans::oblique()] {
+        for font in [*fonts::REGULAR, *fonts::OBLIQUE] {
             fonts.load_font_source(usvg::fontdb::Source::Binary(Arc::new(font)));
         }
         let tree = usvg::Tree::from_str(&self.document, &options).map_err(|e| failed(&e))?;

@@ -3,6 +3,7 @@
 //! Markup: `$...$` is mathematics, its letters oblique; within it `_x` or `_{xyz}` is an upright
 //! subscript. A text with an odd number of `$` is taken literally.
 
+use crate::fonts;
 use plotters::style::{FontDesc, FontFamily, FontStyle, register_font};
 use std::sync::OnceLock;
 
@@ -82,8 +83,8 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
     static FONTS: OnceLock<()> = OnceLock::new();
     FONTS.get_or_init(|| {
         // Fonts that are part of the program are valid; were they not, the guess below serves.
-        register_font(FONT, FontStyle::Normal, dejavu::sans::regular()).unwrap_or_default();
-        register_font(FONT, FontStyle::Oblique, dejavu::sans::oblique()).unwrap_or_default();
+        register_font(FONT, FontStyle::Normal, *fonts::REGULAR).unwrap_or_default();
+        register_font(FONT, FontStyle::Oblique, *fonts::OBLIQUE).unwrap_or_default();
     });
     // Measured large, because plotters rounds widths to whole units.
     const MEASURE: f64 = 1000.0;

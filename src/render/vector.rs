@@ -1,6 +1,7 @@
 //! Words and simple shapes in a picture.
 
 use super::Image;
+use crate::fonts;
 use crate::markup::escape;
 use resvg::{tiny_skia, usvg};
 use std::sync::Arc;
@@ -28,9 +29,7 @@ fn draw(elements: &str, width: usize, height: usize) -> Option<tiny_skia::Pixmap
     };
     options
         .fontdb_mut()
-        .load_font_source(usvg::fontdb::Source::Binary(Arc::new(
-            dejavu::sans::regular(),
-        )));
+        .load_font_source(usvg::fontdb::Source::Binary(Arc::new(*fonts::REGULAR)));
     let tree = usvg::Tree::from_str(&document, &options).ok()?;
     let side = |length: usize| u32::try_from(length).ok();
     let mut pixels = tiny_skia::Pixmap::new(side(width)?, side(height)?)?;

@@ -39,10 +39,6 @@ impl Scene {
         keys
     }
 
-    pub(super) fn tree(&self) -> Value {
-        serde_json::to_value(self).expect("a scene holds no map with odd keys")
-    }
-
     /// The full path of a numeric key: `key` itself, or the one path that ends in it.
     pub(crate) fn resolve_key(&self, key: &str) -> Result<String, Problem> {
         let keys = self.for_keys(&[key]).all_numeric_keys();

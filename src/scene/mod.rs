@@ -21,6 +21,7 @@ mod start;
 mod step;
 mod tank;
 mod time;
+mod tree;
 mod validate;
 
 pub use contact::{Contact, ContactDrag, Friction};

@@ -189,8 +189,7 @@ fn decode(bytes: &[u8], path: &Path, scene: &Scene) -> Result<RunState<'static>,
         let (path, found) = (path(), program);
         return Err(CheckpointError::OtherProgram { path, found });
     }
-    let saved: Scene =
-        serde_json::from_str(&header.scene).map_err(|_| damaged("its scene cannot be read"))?;
+    let saved = Scene::from_json(&header.scene).map_err(|_| damaged("its scene cannot be read"))?;
     let expected = without_names(&scene.without_list());
     let mut keys = differing_keys(&without_names(&saved), &expected);
     if header.list != hash_of_list(scene) {

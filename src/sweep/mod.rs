@@ -51,6 +51,7 @@ pub struct Sweep {
     /// Free text, the title of figures.
     pub title: Option<String>,
     /// The scene that every job starts from, before its axes' values are put in.
+    #[serde(deserialize_with = "Scene::by_tree")]
     pub scene: Scene,
     /// Up to four axes. The first varies slowest.
     pub axes: Vec<Axis>,

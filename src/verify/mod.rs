@@ -39,6 +39,8 @@ use crate::record::Instability;
 use crate::scene::Integrator;
 use bench::Bench;
 use serde::Deserialize;
+use serde::de::Error as _;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
@@ -290,9 +292,18 @@ pub fn parse(text: &str) -> Result<Vec<Case>, toml::de::Error> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct Table {
-        case: Vec<Case>,
+        case: Vec<Value>,
     }
-    toml::from_str::<Table>(text).map(|table| table.case)
+    let rows = toml::from_str::<Table>(text)?.case;
+    rows.into_iter()
+        .enumerate()
+        .map(|(row, case)| {
+            // By way of a tree, as scenes, so that what reads the families is compiled once.
+            serde_json::from_value(case).map_err(|error| {
+                toml::de::Error::custom(format!("case {} of the table: {error}", row + 1))
+            })
+        })
+        .collect()
 }
 
 /// Simulates a case with an integrator and compares.

@@ -64,7 +64,7 @@ impl<'a> Reader<'a> {
     }
 
     fn scene(&self) -> Result<Scene, StoreError> {
-        let mut scene: Scene = serde_json::from_str(self.text("scene")?)
+        let mut scene = Scene::from_json(self.text("scene")?)
             .map_err(|error| self.damaged(format!("its scene: {error}")))?;
         if self.whole("format_version")? > VERSION_WITHOUT_START {
             scene.start = self.start(scene.spheres.count)?;

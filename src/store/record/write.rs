@@ -77,7 +77,7 @@ fn header(file: &mut FileBuilder, record: &RunRecord) -> Result<(), String> {
     };
     let in_text = long_start.as_ref().map_or(scene, |(rest, _)| rest);
     let json = serde_json::to_string(in_text).map_err(|error| error.to_string())?;
-    if serde_json::from_str(&json).ok().as_ref() != Some(in_text) {
+    if Scene::from_json(&json).ok().as_ref() != Some(in_text) {
         return Err(NOT_FINITE.to_owned());
     }
     file.set_attr("format", text(FORMAT));
