@@ -100,6 +100,7 @@ fn an_unknown_parameter_is_refused() {
                tolerance = { absolute = 1.0 }\n\
                setup = { family = \"cradle\", colour = 1 }";
     let error = verify::parse(row).unwrap_err().to_string();
+    assert!(error.contains("case 1"), "{error}");
     assert!(error.contains("colour"), "{error}");
 }
 
