@@ -14,6 +14,8 @@ pub fn differing_keys<T: Serialize>(a: &T, b: &T) -> Vec<String> {
 
 fn compare(path: &str, a: &Value, b: &Value, keys: &mut Vec<String>) {
     let (Value::Object(a), Value::Object(b)) = (a, b) else {
+        // As texts: numbers that are equal, 0 and -0, need not give the same bits.
+        let [a, b] = [a, b].map(ToString::to_string);
         if a != b {
             keys.push(path.to_owned());
         }
@@ -48,6 +50,12 @@ mod tests {
         let b = json!({"spheres": {"count": 5, "radius": 0.004}, "seed": 2});
         assert_eq!(differing_keys(&a, &b), ["seed", "spheres.count", "swirl"]);
         assert!(differing_keys(&a, &a).is_empty());
+    }
+
+    #[test]
+    fn zeros_of_another_sign_differ() {
+        let [a, b] = [0.0, -0.0].map(|zero| json!({"x": zero, "list": [1.0, zero], "same": 1.0}));
+        assert_eq!(differing_keys(&a, &b), ["list", "x"]);
     }
 
     #[test]

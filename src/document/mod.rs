@@ -1,6 +1,7 @@
 //! What scene files and sweep files have in common: TOML text whose every key knows its place, a
 //! description of the keys that may be there, and errors that point into the text.
 
+mod check;
 mod difference;
 mod load_error;
 mod problem;

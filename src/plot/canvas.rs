@@ -4,7 +4,8 @@
 //! belong although plotters counts in whole units. Straight edges are put on the pixels of the
 //! PNG, which has [`PNG_SCALE`] of them per CSS pixel: no hairlines between cells, no blur.
 
-use super::text::{FONT, SUBSCRIPT_SIZE, runs};
+use super::text::{SUBSCRIPT_SIZE, runs};
+use crate::fonts::FAMILY;
 use crate::markup::escape;
 use crate::render::Image;
 use base64::Engine;
@@ -251,7 +252,7 @@ pub(super) fn document(size: (u32, u32), head: &str, body: &str) -> String {
     let (width, height) = size;
     let pixels = |units: u32| f64::from(units) / f64::from(UNITS);
     format!(
-        r##"<svg xmlns="http://www.w3.org/2000/svg" role="img" width="{}" height="{}" viewBox="0 0 {width} {height}" font-family="'{FONT}', Verdana, sans-serif">
+        r##"<svg xmlns="http://www.w3.org/2000/svg" role="img" width="{}" height="{}" viewBox="0 0 {width} {height}" font-family="'{FAMILY}', Verdana, sans-serif">
 {head}<style>rect, .straight {{ shape-rendering: crispEdges }}</style>
 <rect width="{width}" height="{height}" fill="#ffffff"/>
 {body}</svg>

@@ -2,7 +2,7 @@
 
 use super::canvas::{Canvas, UNITS};
 use super::palette;
-use super::text::FONT;
+use crate::fonts;
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, DrawingAreaErrorKind};
 use plotters::element::{Circle, PathElement, Rectangle};
@@ -43,7 +43,11 @@ pub(super) fn frame() -> ShapeStyle {
 
 /// Black letters of a size, anchored.
 pub(super) fn letters(size: i32, horizontal: HPos, vertical: VPos) -> TextStyle<'static> {
-    let font = FontDesc::new(FontFamily::Name(FONT), f64::from(size), FontStyle::Normal);
+    let font = FontDesc::new(
+        FontFamily::Name(fonts::FAMILY),
+        f64::from(size),
+        FontStyle::Normal,
+    );
     TextStyle::from(font).pos(Pos::new(horizontal, vertical))
 }
 

@@ -8,7 +8,6 @@ use crate::record::{Program, RunRecord};
 use crate::render::Image;
 use crate::scene::Scene;
 use resvg::{tiny_skia, usvg};
-use std::sync::Arc;
 
 /// Largest side of a PNG (pixels); a larger figure is scaled down.
 const LARGEST_SIDE: f32 = 5000.0;
@@ -138,15 +137,8 @@ impl Svg {
     /// [`PlotError::Png`] when the figure is too large to be drawn.
     pub fn to_png_bytes(&self) -> Result<Vec<u8>, PlotError> {
         let failed = |error: &dyn std::fmt::Display| PlotError::Png(error.to_string());
-        let mut options = usvg::Options {
-            font_family: text::FONT.to_owned(),
-            ..usvg::Options::default()
-        };
-        let fonts = options.fontdb_mut();
-        for font in [*fonts::REGULAR, *fonts::OBLIQUE] {
-            fonts.load_font_source(usvg::fontdb::Source::Binary(Arc::new(font)));
-        }
-        let tree = usvg::Tree::from_str(&self.document, &options).map_err(|e| failed(&e))?;
+        let tree = usvg::Tree::from_str(&self.document, &fonts::svg_options())
+            .map_err(|error| failed(&error))?;
         let size = tree.size();
         let scale = PNG_SCALE.min(LARGEST_SIDE / size.width().max(size.height()));
         let side = |length: f32| (length * scale).round() as u32;

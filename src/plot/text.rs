@@ -7,9 +7,6 @@ use crate::fonts;
 use plotters::style::{FontDesc, FontFamily, FontStyle, register_font};
 use std::sync::OnceLock;
 
-/// The font that is part of the program.
-pub(super) const FONT: &str = "DejaVu Sans";
-
 /// Size of a subscript over that of its line.
 pub(super) const SUBSCRIPT_SIZE: f64 = 0.72;
 
@@ -83,8 +80,8 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
     static FONTS: OnceLock<()> = OnceLock::new();
     FONTS.get_or_init(|| {
         // Fonts that are part of the program are valid; were they not, the guess below serves.
-        register_font(FONT, FontStyle::Normal, *fonts::REGULAR).unwrap_or_default();
-        register_font(FONT, FontStyle::Oblique, *fonts::OBLIQUE).unwrap_or_default();
+        register_font(fonts::FAMILY, FontStyle::Normal, *fonts::REGULAR).unwrap_or_default();
+        register_font(fonts::FAMILY, FontStyle::Oblique, *fonts::OBLIQUE).unwrap_or_default();
     });
     // Measured large, because plotters rounds widths to whole units.
     const MEASURE: f64 = 1000.0;
@@ -96,7 +93,11 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
             } else {
                 FontStyle::Normal
             };
-            let font = FontDesc::new(FontFamily::Name(FONT), MEASURE * LINE_OVER_EM, style);
+            let font = FontDesc::new(
+                FontFamily::Name(fonts::FAMILY),
+                MEASURE * LINE_OVER_EM,
+                style,
+            );
             let em = font
                 .layout_box(&run.text)
                 .map(|((left, _), (right, _))| f64::from(right - left) / MEASURE)

@@ -4,7 +4,6 @@ use super::Image;
 use crate::fonts;
 use crate::markup::escape;
 use resvg::{tiny_skia, usvg};
-use std::sync::Arc;
 
 /// SVG elements, with letters that are part of the program, in a white picture of that size. What is
 /// too large to be drawn stays white.
@@ -23,14 +22,7 @@ fn draw(elements: &str, width: usize, height: usize) -> Option<tiny_skia::Pixmap
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\">\
          {elements}</svg>"
     );
-    let mut options = usvg::Options {
-        font_family: "DejaVu Sans".to_owned(),
-        ..usvg::Options::default()
-    };
-    options
-        .fontdb_mut()
-        .load_font_source(usvg::fontdb::Source::Binary(Arc::new(*fonts::REGULAR)));
-    let tree = usvg::Tree::from_str(&document, &options).ok()?;
+    let tree = usvg::Tree::from_str(&document, &fonts::svg_options()).ok()?;
     let side = |length: usize| u32::try_from(length).ok();
     let mut pixels = tiny_skia::Pixmap::new(side(width)?, side(height)?)?;
     pixels.fill(tiny_skia::Color::WHITE);

@@ -243,7 +243,7 @@ fn zeros_of_another_sign_are_told() {
     scene.gravity.as_mut().unwrap().acceleration = -0.0;
     let error = read_checkpoint(&path, &scene).unwrap_err().to_string();
     assert!(
-        error.ends_with("they differ in the sign of a zero"),
+        error.ends_with("they differ in gravity.acceleration"),
         "{error}"
     );
 }

@@ -33,8 +33,9 @@ pub(super) fn build(
         file.set_attr("program_commit", text(&program.commit));
         file.set_attr("cpu_seconds", AttrValue::F64(cpu_seconds));
     }
-    header(&mut file, record)?;
-    if let Some((_, spheres)) = long_start(&record.scene) {
+    let long_start = long_start(&record.scene);
+    header(&mut file, record, long_start.as_ref().map(|(rest, _)| rest))?;
+    if let Some((_, spheres)) = long_start {
         let mut group = file.create_group("start");
         start(&mut group, spheres)?;
         file.add_group(group.finish());
@@ -68,14 +69,14 @@ fn long_start(scene: &Scene) -> Option<(Scene, &[StartSphere])> {
     apart.filter(|(_, spheres)| spheres.len() > MOST_IN_TEXT)
 }
 
-fn header(file: &mut FileBuilder, record: &RunRecord) -> Result<(), String> {
+/// The attributes; `rest` is the scene without its start's spheres, if these are too many for a text.
+fn header(file: &mut FileBuilder, record: &RunRecord, rest: Option<&Scene>) -> Result<(), String> {
     let scene = &record.scene;
-    let long_start = long_start(scene);
-    let version = match &long_start {
+    let version = match rest {
         Some(_) => FORMAT_VERSION,
         None => VERSION_WITHOUT_START,
     };
-    let in_text = long_start.as_ref().map_or(scene, |(rest, _)| rest);
+    let in_text = rest.unwrap_or(scene);
     let json = serde_json::to_string(in_text).map_err(|error| error.to_string())?;
     if Scene::from_json(&json).ok().as_ref() != Some(in_text) {
         return Err(NOT_FINITE.to_owned());
@@ -87,7 +88,7 @@ fn header(file: &mut FileBuilder, record: &RunRecord) -> Result<(), String> {
     file.set_attr("scene", text(&json));
     // For people only, so it may be missing: it is no file to run without the spheres, and TOML has no whole
     // numbers beyond 64 signed bits.
-    if long_start.is_none()
+    if rest.is_none()
         && let Ok(toml) = toml::to_string(scene)
     {
         file.set_attr("scene_toml", text(&toml));
