@@ -20,7 +20,7 @@ fn main() {
 
 /// A scene of this repository.
 fn scene(path: &str) -> Scene {
-    phase::scene::load(Path::new(path)).unwrap()
+    phase::scene::Scene::load(Path::new(path)).unwrap()
 }
 
 /// As many pairs as the engine takes at once.

@@ -17,7 +17,7 @@ fn top(z: &[f64]) -> f64 {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let file = std::env::args_os().nth(1).map(PathBuf::from);
-    let scene = scene::load(&file.unwrap_or("sweeps/scenes/theoretical.toml".into()))?;
+    let scene = scene::Scene::load(&file.unwrap_or("sweeps/scenes/theoretical.toml".into()))?;
 
     let mut simulation = Simulation::new(&scene)?;
     let mut observer = Observer::new(&scene, &simulation.particles().radius);

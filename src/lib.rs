@@ -91,6 +91,7 @@ pub mod replay;
 pub mod resume;
 pub mod run;
 pub mod scene;
+pub mod simulation;
 pub mod stability;
 pub mod statistics;
 pub mod store;

@@ -2,7 +2,7 @@
 
 use crate::observe::{Observations, Snapshot};
 use crate::scene::Scene;
-use serde::{Deserialize, Serialize};
+pub use crate::simulation::{Guard, Instability, Milestone, MilestoneKind};
 
 /// Everything kept of one run.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,101 +106,4 @@ pub enum Outcome {
     Completed,
     /// A guard ended it.
     Unstable(Instability),
-}
-
-/// Something that happened once in a run.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Milestone {
-    /// What it was.
-    pub kind: MilestoneKind,
-    /// When (s).
-    pub time: f64,
-}
-
-/// What may happen once in a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum MilestoneKind {
-    /// The last sphere came in.
-    Filled,
-    /// The spheres came to rest; the time is that from which they were.
-    AtRest,
-    /// The door opened.
-    DoorOpened,
-    /// The last sphere left.
-    Emptied,
-}
-
-impl MilestoneKind {
-    /// All kinds.
-    pub const ALL: [Self; 4] = [Self::Filled, Self::AtRest, Self::DoorOpened, Self::Emptied];
-
-    /// Name, as in records and reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Filled => "filled",
-            Self::AtRest => "at rest",
-            Self::DoorOpened => "door opened",
-            Self::Emptied => "emptied",
-        }
-    }
-}
-
-/// What broke, when and where.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{guard} guard at step {step} (t = {time:.6} s), sphere {sphere}: {detail}")]
-pub struct Instability {
-    /// Which guard.
-    pub guard: Guard,
-    /// Step at which it was found, counted from 1.
-    pub step: u64,
-    /// Time of that step (s).
-    pub time: f64,
-    /// Index of the sphere, from 0.
-    pub sphere: usize,
-    /// The value that broke the limit, and the limit.
-    pub detail: String,
-}
-
-/// A numerical guard.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Guard {
-    /// A position or velocity is not a number, or a spin beyond all numbers.
-    NotANumber,
-    /// A centre is out of bounds.
-    OutOfBounds,
-    /// Two spheres, or a sphere and a wall, overlap too far.
-    Overlap,
-    /// A sphere moved too far in one step.
-    Displacement,
-    /// A disc passed between two fixed ones where there is no way through.
-    WallPassed,
-}
-
-impl Guard {
-    /// All guards.
-    pub const ALL: [Self; 5] = [
-        Self::NotANumber,
-        Self::OutOfBounds,
-        Self::Overlap,
-        Self::Displacement,
-        Self::WallPassed,
-    ];
-
-    /// Name, as in records and tables.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::NotANumber => "not-a-number",
-            Self::OutOfBounds => "out-of-bounds",
-            Self::Overlap => "overlap",
-            Self::Displacement => "displacement",
-            Self::WallPassed => "wall-passed",
-        }
-    }
-}
-
-impl std::fmt::Display for Guard {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        formatter.write_str(self.name())
-    }
 }

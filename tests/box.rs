@@ -5,12 +5,12 @@
 mod support;
 
 use phase::dem::Simulation;
-use phase::scene::{Scene, from_str};
+use phase::scene::Scene;
 use std::path::Path;
 use support::Workplace;
 
 fn scene(text: &str) -> Scene {
-    from_str(text, Path::new("box.toml")).unwrap_or_else(|error| panic!("{error}"))
+    Scene::from_toml(text, Path::new("box.toml")).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A sphere of 10 mm without losses in a box of 100 mm by 60 mm, with that velocity (m/s).
@@ -253,7 +253,8 @@ fn laws_that_do_not_go_together_are_refused() {
             "silbert contact only",
         ),
     ] {
-        let refused = from_str(&text(contact, friction), Path::new("box.toml")).unwrap_err();
+        let refused =
+            Scene::from_toml(&text(contact, friction), Path::new("box.toml")).unwrap_err();
         assert!(refused.to_string().contains(says), "{refused}");
     }
 }
@@ -263,7 +264,7 @@ fn laws_that_do_not_go_together_are_refused() {
 fn the_shipped_boxes_can_be_started() {
     for (name, count, [x, y]) in [("box", 200, [2.5, 1.5]), ("box-55000", 55_000, [24.5, 3.5])] {
         let path = format!("sweeps/scenes/{name}.toml");
-        let scene = phase::scene::load(Path::new(&path)).unwrap();
+        let scene = phase::scene::Scene::load(Path::new(&path)).unwrap();
         let mut simulation = Simulation::new(&scene).unwrap();
         assert_eq!(simulation.particles().len(), count);
         let places = &simulation.particles().position;

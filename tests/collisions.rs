@@ -38,7 +38,7 @@ fn file(name: &str) -> PathBuf {
 }
 
 fn load(name: &str) -> Scene {
-    scene::load(&file(name)).unwrap_or_else(|error| panic!("error: {error}"))
+    scene::Scene::load(&file(name)).unwrap_or_else(|error| panic!("error: {error}"))
 }
 
 fn with(scene: &Scene, friction: impl Into<Option<Friction>>) -> Scene {

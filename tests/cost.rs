@@ -18,7 +18,7 @@ use support::{TinySweep, Workplace, silo_file};
 const LONG: Duration = Duration::from_secs(600);
 
 fn realistic(duration: f64) -> Scene {
-    let mut scene = phase::scene::load(Path::new("sweeps/scenes/realistic.toml")).unwrap();
+    let mut scene = phase::scene::Scene::load(Path::new("sweeps/scenes/realistic.toml")).unwrap();
     scene.time.duration = duration;
     scene
 }

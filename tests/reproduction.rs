@@ -34,7 +34,7 @@ fn published() -> LabelTable {
 
 /// A run of a shipped scene with another radius (m), Omega (rad/s) and seed.
 fn run_of(scene: &str, radius: f64, omega: f64, seed: u64) -> RunRecord {
-    let mut scene = scene::load(&shipped(&format!("sweeps/scenes/{scene}.toml"))).unwrap();
+    let mut scene = scene::Scene::load(&shipped(&format!("sweeps/scenes/{scene}.toml"))).unwrap();
     scene.spheres.radius = Radii::One(radius);
     scene.swirl.as_mut().unwrap().omega = omega;
     scene.seed = seed;

@@ -37,7 +37,7 @@ fn refusal(path: &Path) -> LoadError {
     } else if is_study(path) {
         stability::load(path).err()
     } else {
-        scene::load(path).err()
+        scene::Scene::load(path).err()
     };
     refused.unwrap_or_else(|| panic!("{} is accepted", path.display()))
 }
@@ -69,7 +69,7 @@ fn every_good_file_loads() {
         } else if is_study(&path) {
             stability::load(&path).map(|_| ())
         } else {
-            scene::load(&path).map(|_| ())
+            scene::Scene::load(&path).map(|_| ())
         };
         if let Err(error) = loaded {
             panic!("error: {error}");
@@ -82,7 +82,7 @@ fn load_sweep(path: impl AsRef<Path>) -> Sweep {
 }
 
 fn load_scene(path: impl AsRef<Path>) -> Scene {
-    scene::load(path.as_ref()).unwrap_or_else(|error| panic!("error: {error}"))
+    scene::Scene::load(path.as_ref()).unwrap_or_else(|error| panic!("error: {error}"))
 }
 
 #[test]
@@ -253,7 +253,8 @@ fn scenes_survive_json_and_toml_exactly() {
         let json = serde_json::to_string(&scene).unwrap();
         assert_eq!(serde_json::from_str::<Scene>(&json).unwrap(), scene);
         let text = toml::to_string(&scene).unwrap();
-        let back = scene::from_str(&text, path).unwrap_or_else(|error| panic!("error: {error}"));
+        let back =
+            scene::Scene::from_toml(&text, path).unwrap_or_else(|error| panic!("error: {error}"));
         assert_eq!(back, scene);
         assert_eq!(back.identity(), scene.identity());
     }
@@ -359,7 +360,7 @@ fn tank(count: usize, radius: f64, tank: f64, height: f64) -> Result<Scene, Load
         start = {{ kind = 'random', z_min = 0, z_max = {height} }}
         time = {{ dt = 1e-3, duration = 1, frame_interval = 1e-2 }}"
     );
-    scene::from_str(&text, Path::new("tank.toml"))
+    scene::Scene::from_toml(&text, Path::new("tank.toml"))
 }
 
 #[test]
@@ -405,7 +406,7 @@ proptest! {
         let refused = if is_sweep(&path) {
             sweep::from_str(&text, &path).err()
         } else {
-            scene::from_str(&text, &path).err()
+            scene::Scene::from_toml(&text, &path).err()
         };
         if let Some(error) = refused {
             prop_assert!(!error.to_string().is_empty());

@@ -16,7 +16,7 @@ use std::path::Path;
 use support::{TinySweep, Workplace, scene_file, silo_file};
 
 fn load(text: &str) -> Result<Scene, LoadError> {
-    scene::from_str(text, Path::new("scene.toml"))
+    scene::Scene::from_toml(text, Path::new("scene.toml"))
 }
 
 fn load_sweep(text: &str) -> Sweep {
@@ -145,7 +145,7 @@ fn a_run_says_how_its_step_stands_to_its_limit() {
     place.write("auto.toml", &with_step(&scene_file(), "\"auto\""));
     let answer = place.phase(&["run", "auto.toml", "--json"]).code(0);
     let told: serde_json::Value = serde_json::from_str(&answer.stdout).unwrap();
-    let scene = scene::load(&place.path("auto.toml")).unwrap();
+    let scene = scene::Scene::load(&place.path("auto.toml")).unwrap();
     let decisive = limits(&scene)[0];
     assert_eq!(told["dt"], scene.time.dt);
     assert_eq!(told["limit"], decisive.name);
@@ -198,7 +198,7 @@ fn a_step_near_its_limit_is_warned_of() {
 fn check_says_that_the_step_was_chosen_and_from_what() {
     let place = Workplace::new();
     place.write("auto.toml", &with_step(&scene_file(), "\"auto\""));
-    let scene = scene::load(&place.path("auto.toml")).unwrap();
+    let scene = scene::Scene::load(&place.path("auto.toml")).unwrap();
     let chosen = format!(
         "{:e} s, chosen (\"auto\") from the least limit: {}",
         scene.time.dt,

@@ -9,13 +9,13 @@ use std::path::Path;
 /// Reads a scene file.
 pub(super) fn load_scene(file: &Path) -> Result<Scene, Failure> {
     refuse_sweep(file)?;
-    phase::scene::load(file).map_err(Failure::refused)
+    phase::scene::Scene::load(file).map_err(Failure::refused)
 }
 
 /// Reads the file of a scene that is to be varied.
 pub(super) fn load_base_scene(file: &Path) -> Result<Scene, Failure> {
     refuse_sweep(file)?;
-    phase::scene::load_base(file).map_err(Failure::refused)
+    phase::scene::Scene::load_base(file).map_err(Failure::refused)
 }
 
 fn refuse_sweep(file: &Path) -> Result<(), Failure> {
@@ -52,7 +52,7 @@ pub(super) fn load_scene_or_sweep(file: &Path) -> Result<(Sweep, bool), Failure>
     let is_sweep = is_sweep(file);
     let sweep = match is_sweep {
         true => phase::sweep::load(file).map_err(Failure::refused)?,
-        false => sweep_of_one(phase::scene::load_base(file).map_err(Failure::refused)?),
+        false => sweep_of_one(phase::scene::Scene::load_base(file).map_err(Failure::refused)?),
     };
     Ok((sweep, is_sweep))
 }

@@ -4,10 +4,13 @@
 //! that what else the machine does hits all of them alike. Ratios mean something on any machine,
 //! times only on this one.
 
+mod forecast;
 pub mod neighbours;
+mod representatives;
 mod run;
 mod sweep;
 
 pub use crate::dem::Part;
+pub use forecast::{Forecast, ForecastError, Leaves, forecast};
 pub use run::{CostError, RunCost};
 pub use sweep::{SweepCost, Tried};

@@ -1,7 +1,8 @@
 //! What a sweep costs, from a few of its jobs.
 
+use super::representatives::representatives;
 use super::{CostError, Part, RunCost};
-use crate::sweep::{Job, representatives};
+use crate::sweep::Job;
 use std::time::Duration;
 
 /// What a sweep, or a single scene, costs.

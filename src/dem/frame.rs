@@ -4,7 +4,7 @@ use super::Simulation;
 use super::order;
 use super::particles::Particles;
 use super::vector::Vector;
-use crate::observe::{FRAME_BLOCK, Flow, Frame, FrameView, Ledger};
+use crate::simulation::{FRAME_BLOCK, Flow, Frame, FrameView, Ledger};
 
 /// Spheres of a block of a sorted scene.
 const SOME: usize = 1024;

@@ -2,8 +2,8 @@
 
 use super::particles::Particles;
 use super::vector::Vector;
-use crate::record::{Guard, Instability};
 use crate::scene::{Scene, Tank};
+use crate::simulation::{Guard, Instability};
 
 /// Limits beyond which a run is ended.
 #[derive(Clone, Debug)]

@@ -7,6 +7,7 @@
 mod barrier;
 mod block;
 mod bodies;
+mod check;
 pub mod contact;
 mod effects;
 mod frame;
@@ -29,8 +30,8 @@ pub mod vector;
 pub mod walls;
 
 pub use barrier::WeakestWall;
+pub(crate) use check::SAFETY_FACTOR;
 pub use particles::Particles;
-pub use process::Counts;
 pub(crate) use profile::Profile;
 pub use profile::{Part, Seconds};
 pub use simulation::{BuildError, Simulation};

@@ -7,15 +7,15 @@ use super::laws::engine;
 use super::neighbours::VerletList;
 use super::order;
 use super::particles::{Particles, Sphere};
-use super::process::{Counts, Feed, Process};
+use super::process::{Feed, Process};
 use super::profile::Profile;
 use super::start::{self, StartError};
 use super::system::{Engine, Parts};
 use super::vector::Vector;
 use super::walls::TankWall;
 use crate::cpu_time;
-use crate::record::{Instability, Milestone};
 use crate::scene::{Neighbours, Scene, Start};
+use crate::simulation::{Counts, Instability, Milestone};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 /// Why a scene cannot be run.

@@ -29,7 +29,7 @@ pub enum StartError {
     )]
     NoTank,
     /// A file of radii or positions has not been read yet.
-    #[error("{0} is still the name of a file; load the scene with scene::load")]
+    #[error("{0} is still the name of a file; load the scene with Scene::load")]
     NotLoaded(&'static str),
     /// Numbers of spheres differ.
     #[error("{what} holds {found} spheres, spheres.count is {count}")]

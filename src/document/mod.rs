@@ -7,12 +7,14 @@ mod load_error;
 mod problem;
 pub(crate) mod schema;
 mod spelling;
+pub(crate) mod text;
 mod tree;
 
 pub use difference::differing_keys;
 pub use load_error::{Finding, LoadError, Spot};
 pub use problem::Problem;
 pub(crate) use spelling::{any_of, number, one_of, quoted, suggest};
+pub use text::advice;
 
 use serde_json::Value;
 use std::collections::BTreeMap;

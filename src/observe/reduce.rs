@@ -3,7 +3,7 @@
 //! Sphere i goes to partial result i modulo `LANES`; the partial results are put together at the
 //! end. The order is part of the result: another one would round differently.
 
-pub(super) const LANES: usize = 4;
+use crate::simulation::FRAME_BLOCK as LANES;
 
 /// A sum over spheres that come block by block.
 #[derive(Clone, Copy, Debug, Default)]

@@ -247,7 +247,7 @@ mod tests {
             start = { kind = "random", z_min = 0.0, z_max = 0.3 }
             time = { dt = 1e-4, duration = 1.0, frame_interval = 1e-3 }
         "#;
-        crate::scene::from_str(text, Path::new("scene.toml")).unwrap()
+        crate::scene::Scene::from_toml(text, Path::new("scene.toml")).unwrap()
     }
 
     #[test]

@@ -7,10 +7,10 @@
 
 mod contact;
 mod drag;
+mod files;
 mod forces;
 mod identity;
 mod keys;
-mod load;
 mod neighbours;
 mod output;
 mod radius;
@@ -18,7 +18,6 @@ pub(crate) mod schema;
 mod silo;
 mod spheres;
 mod start;
-mod step;
 mod tank;
 mod time;
 mod tree;
@@ -28,8 +27,6 @@ pub use contact::{Contact, ContactDrag, Friction};
 pub use drag::{Drag, DragForm, DragLaw};
 pub use forces::{Gravity, SpinDamping, Swirl, Updraught};
 pub(crate) use keys::leaf;
-pub(crate) use load::{Reading, base_of_tree, load_base_with};
-pub use load::{from_str, load, load_base};
 pub use neighbours::Neighbours;
 pub use output::{Guards, Output};
 pub use radius::{Radii, RadiusShare};
@@ -39,6 +36,7 @@ pub(crate) use start::LIST_KEY;
 pub use start::{Start, StartSphere};
 pub use tank::Tank;
 pub use time::{Integrator, Time};
+pub(crate) use validate::{plural, rounded};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

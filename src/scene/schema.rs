@@ -9,7 +9,7 @@ use crate::document::schema::{Kind, Range, needed, optional};
 pub(crate) const LENGTHS: [f64; 2] = [1e-9, 1e9];
 
 /// In the place of a time step: one that follows from the scene.
-pub(super) const AUTO: &str = "auto";
+pub(crate) const AUTO: &str = "auto";
 
 // Wider than any experiment, narrow enough that masses, energies and numbers of steps made of them
 // neither vanish nor overflow.

@@ -3,7 +3,8 @@
 use super::schema::STUDY;
 use super::{Study, fit_frames, output};
 use crate::document::{Document, LoadError, Problem};
-use crate::scene::{Integrator, Reading, Scene};
+use crate::run::Reading;
+use crate::scene::{Integrator, Scene};
 use crate::sweep::{
     Axis, AxisEntry, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes,
     grid, points,

@@ -5,11 +5,12 @@
 //! [`OrderParameters`], of a silo those of [`SiloEvidence`] and [`SiloOrder`]. What is not known is
 //! empty. Numbers are written with as many digits as it takes to read back the same bits.
 
-use super::{StoreError, text, write_atomic};
+use super::{StoreError, write_atomic};
 use crate::classify::{
     Evidence, Family, Label, Measures, OrderParameters, SiloEvidence, SiloMeasures, SiloOrder,
     TankMeasures, Verdict,
 };
+use crate::document::text;
 use crate::sweep::{LabelRow, LabelTable};
 use csv::StringRecord;
 use serde::Serialize;
@@ -85,7 +86,7 @@ pub fn write_points(table: &LabelTable, path: &Path) -> Result<(), StoreError> {
 /// # Errors
 /// [`StoreError::Read`], or [`StoreError::Text`] with the line at fault.
 pub fn read_labels(path: &Path) -> Result<LabelTable, StoreError> {
-    let content = text::read(path)?;
+    let content = text::read(path).map_err(|error| StoreError::reading(path, error))?;
     let mut reader = csv::Reader::from_reader(content.as_bytes());
     let header = reader.headers().map_err(|error| malformed(path, &error))?;
     let (family, axes) = read_header(header).map_err(|reason| StoreError::text(path, 1, reason))?;

@@ -7,17 +7,14 @@ mod checkpoint;
 mod dump;
 mod export;
 mod failures;
-mod geometry;
 mod hashed;
 mod labels;
 mod lock;
-mod radii;
 mod record;
 mod rows;
 mod stability;
-mod start;
-mod text;
 
+pub use crate::document::advice;
 pub use atomic::{remove_leftovers, write_atomic};
 pub use checkpoint::{CHECKPOINT_SIGNATURE, CheckpointError, read_checkpoint, write_checkpoint};
 pub use dump::{DumpName, read_dump, write_dump};
@@ -26,17 +23,14 @@ pub use export::{
     write_observations, write_page, write_spheres, write_svg, write_vtk, write_xyz,
 };
 pub use failures::{read_failures, write_failures};
-pub use geometry::read_geometry;
 pub use labels::{read_labels, write_labels, write_points};
 pub use lock::Lock;
-pub use radii::read_radii;
 pub use record::{
     HDF5_SIGNATURE, RecordHeader, content_digest, motion_digest, read_record, read_record_header,
     write_record, write_record_and_drop_states,
 };
 pub use rows::write_rows;
 pub use stability::{read_makers, read_stability, write_makers, write_stability};
-pub use start::read_start;
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -183,20 +177,5 @@ impl StoreError {
             line,
             reason: reason.to_string(),
         }
-    }
-}
-
-/// What to do about an error of the system, where that is not obvious from its text.
-/// Begins with a semicolon, or is empty.
-pub fn advice(error: &io::Error) -> &'static str {
-    match error.kind() {
-        io::ErrorKind::NotFound => "; check the path",
-        io::ErrorKind::PermissionDenied => "; check the permissions of the file and its folder",
-        io::ErrorKind::InvalidData => "; save the file as UTF-8 text",
-        io::ErrorKind::IsADirectory => "; give a file, not a folder",
-        io::ErrorKind::NotADirectory => "; a part of the path is a file, not a folder",
-        io::ErrorKind::AlreadyExists => "; a file of that name is in the way",
-        io::ErrorKind::ReadOnlyFilesystem => "; choose a place that can be written to",
-        _ => "",
     }
 }

@@ -6,7 +6,8 @@ use super::schema::SWEEP;
 use super::{Axis, PlotSettings, Sweep};
 use crate::classify::{Family, Sieves};
 use crate::document::{Document, LoadError, Problem, one_of, suggest};
-use crate::scene::{self, LARGEST_SEED, Reading, Scene};
+use crate::run::{self, Reading};
+use crate::scene::{LARGEST_SEED, Scene};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
@@ -111,7 +112,7 @@ pub(crate) fn base_scene(
     reading: Reading,
 ) -> Result<Scene, LoadError> {
     let Some(path) = scene.as_str() else {
-        return scene::base_of_tree(scene, document.folder(), reading).map_err(|problems| {
+        return run::base_of_tree(scene, document.folder(), reading).map_err(|problems| {
             let within = |problem: Problem| problem.within("scene");
             document.refuse(&problems.into_iter().map(within).collect::<Vec<_>>())
         });
@@ -123,7 +124,7 @@ pub(crate) fn base_scene(
         let help = "name the scene that it names";
         return Err(document.refuse(&[Problem::new("scene", message).help(help)]));
     }
-    match scene::load_base_with(&file, reading) {
+    match run::load_base_with(&file, reading) {
         Err(error @ LoadError::Read { .. }) => {
             let help = "the path is relative to the folder of this file";
             Err(document.refuse(&[Problem::new("scene", error.to_string()).help(help)]))

@@ -174,7 +174,7 @@ mod tests {
             gravity = { acceleration = 9.8 }
             time = { dt = 1e-4, duration = 1.0, frame_interval = 1e-3 }
         "#;
-        let scene = crate::scene::from_str(text, Path::new("scene.toml")).unwrap();
+        let scene = crate::scene::Scene::from_toml(text, Path::new("scene.toml")).unwrap();
         let mut other = scene.clone();
         other.title = Some("another".to_owned());
         other.output.trajectory = true;

@@ -240,7 +240,7 @@ fn a_record_that_cannot_be_written_leaves_the_checkpoint() {
         .complains("stays: the same command with --resume goes on from there (run.checkpoint)");
     fs::remove_dir(place.path("run.h5")).unwrap();
     resume(&place, &[]).code(0).complains("going on at ");
-    let expected = whole(&phase::scene::load(&place.path("scene.toml")).unwrap());
+    let expected = whole(&phase::scene::Scene::load(&place.path("scene.toml")).unwrap());
     let found = digest(&place.path("run.h5"));
     assert_eq!(found, content_digest(&expected).unwrap());
 }

@@ -17,7 +17,7 @@ fn free(spheres: &str, contact: &str, friction: &str) -> Scene {
         time = {{ dt = 1e-3, duration = 1.0, frame_interval = 0.1, integrator = "velocity-verlet" }}
         "#
     );
-    phase::scene::from_str(&text, std::path::Path::new("free.toml"))
+    phase::scene::Scene::from_toml(&text, std::path::Path::new("free.toml"))
         .unwrap_or_else(|error| panic!("{error}"))
 }
 

@@ -32,11 +32,12 @@ fn hopper(changes: &[(&str, &str)]) -> Scene {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, to);
     }
-    scene::from_str(&text, Path::new("hopper.toml")).unwrap_or_else(|error| panic!("{error}"))
+    scene::Scene::from_toml(&text, Path::new("hopper.toml"))
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A scene that is shipped.
 fn shipped(name: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sweeps/scenes");
-    scene::load(&folder.join(name)).unwrap_or_else(|error| panic!("{error}"))
+    scene::Scene::load(&folder.join(name)).unwrap_or_else(|error| panic!("{error}"))
 }

@@ -4,9 +4,10 @@ use super::{Arguments, ForecastAnswer, describe_grid, effects, line, print_forec
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::format;
+use phase::cost::Leaves;
 use phase::scene::Integrator;
 use phase::stability::{self, Study, Theory};
-use phase::sweep::{Axis, Job, Leaves};
+use phase::sweep::{Axis, Job};
 use serde::Serialize;
 use std::path::Path;
 

@@ -5,8 +5,8 @@
 //! cross the line between theirs.
 
 use crate::dem::particles::Particles;
-use crate::record::{Guard, Instability};
 use crate::scene::{FixedSphere, FixedSpheres, Scene, Shape};
+use crate::simulation::{Guard, Instability};
 
 /// A point of the plane, x and z (m).
 pub(super) type Point = [f64; 2];

@@ -16,8 +16,8 @@ use self::leak::LeakWatch;
 use self::rest::RestWatch;
 use super::particles::Particles;
 use super::system::Engine;
-use crate::record::{Instability, Milestone, MilestoneKind};
 use crate::scene::Scene;
+use crate::simulation::{Counts, Instability, Milestone, MilestoneKind};
 
 /// Time between two looks at the spheres (s): while a grain falls a few of its diameters.
 const INTERVAL: f64 = 0.01;
@@ -39,39 +39,6 @@ pub(super) struct Process {
     discharged: usize,
     spilled: usize,
     ended: bool,
-}
-
-/// How many spheres came and went.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Counts {
-    /// Spheres of the scene.
-    pub all: usize,
-    /// Spheres that came in.
-    pub released: usize,
-    /// Spheres that left, as they should: not while a door was closed.
-    pub discharged: usize,
-    /// Spheres that left while the door was still closed: over the rim, or never in the silo.
-    pub spilled: usize,
-    /// Whether a door is still to open.
-    pub is_closed: bool,
-    /// Whether spheres can leave.
-    pub can_leave: bool,
-}
-
-impl Counts {
-    /// Spheres that left, one way or the other.
-    pub fn gone(&self) -> usize {
-        self.discharged + self.spilled
-    }
-
-    /// The share of all ways in and, where spheres can leave, out that spheres went.
-    pub fn share(&self) -> f64 {
-        let (done, ways) = match self.can_leave {
-            true => (self.released + self.gone(), 2 * self.all),
-            false => (self.released, self.all),
-        };
-        done as f64 / ways.max(1) as f64
-    }
 }
 
 /// A closed door.

@@ -3,7 +3,7 @@
 use super::leak::Point;
 use super::{LeakWatch, Process};
 use crate::dem::state::StateError;
-use crate::record::Milestone;
+use crate::simulation::Milestone;
 use serde::{Deserialize, Serialize};
 
 /// What of a process changes while it runs.

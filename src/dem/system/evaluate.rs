@@ -12,7 +12,7 @@ use crate::dem::friction::TangentialLaw;
 use crate::dem::particles::Particles;
 use crate::dem::profile::{self, Part};
 use crate::dem::walls::TankWall;
-use crate::record::Instability;
+use crate::simulation::Instability;
 use std::ops::Range;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {

@@ -11,8 +11,8 @@ use crate::dem::friction::TangentialLaw;
 use crate::dem::particles::Particles;
 use crate::dem::profile::{self, Part};
 use crate::dem::vector::Vector;
-use crate::record::Instability;
 use crate::scene::Integrator;
+use crate::simulation::Instability;
 use std::ops::Range;
 
 /// Velocities and spins before forces foretell them.

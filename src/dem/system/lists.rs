@@ -11,7 +11,7 @@ use crate::dem::neighbours::NearPair;
 use crate::dem::particles::Particles;
 use crate::dem::profile::Part;
 use crate::dem::threads::both;
-use crate::record::Instability;
+use crate::simulation::Instability;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Looks for near pairs anew, in a list that holds until they must be looked for again.

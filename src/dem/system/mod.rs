@@ -43,8 +43,8 @@ use super::particles::{Particles, Sphere, retain};
 use super::profile::{self, Part, Profile};
 use super::state::StateError;
 use super::walls::TankWall;
-use crate::record::Instability;
 use crate::scene::{Integrator, Neighbours};
+use crate::simulation::Instability;
 use fearless_simd::Level;
 
 /// What the rest of the program needs of a system, whatever its laws.

@@ -6,7 +6,7 @@ use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::neighbours::NearPair;
 use crate::dem::order;
 use crate::dem::profile::Part;
-use crate::record::Instability;
+use crate::simulation::Instability;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Whether it is time to look at the order of the spheres.

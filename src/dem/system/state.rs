@@ -11,7 +11,7 @@ use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::order;
 use crate::dem::particles::Particles;
 use crate::dem::state::StateError;
-use crate::record::Instability;
+use crate::simulation::Instability;
 use serde::de::DeserializeOwned;
 use serde::ser::SerializeSeq;
 use serde::{Deserialize, Serialize, Serializer};

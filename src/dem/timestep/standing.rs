@@ -67,7 +67,7 @@ impl Standing {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::from_str;
+    use crate::scene::Scene;
     use std::path::Path;
 
     fn limit(name: &'static str, decisive: bool) -> Limit {
@@ -115,7 +115,7 @@ mod tests {
             spin_damping = {{ coefficient = 1e-8 }}
             time = {{ dt = {dt:e}, duration = 1, frame_interval = 1e-3 }}"
         );
-        from_str(&text, Path::new("scene.toml")).unwrap_or_else(|error| panic!("{error}"))
+        Scene::from_toml(&text, Path::new("scene.toml")).unwrap_or_else(|error| panic!("{error}"))
     }
 
     const HERTZ: &str =

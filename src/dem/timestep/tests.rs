@@ -1,5 +1,5 @@
 use super::*;
-use crate::scene::{Shape, from_str};
+use crate::scene::{Scene, Shape};
 use std::path::Path;
 
 fn close(found: f64, expected: f64, tolerance: f64) {
@@ -74,7 +74,7 @@ fn pair(tables: &str) -> Scene {
         duration = 1
         frame_interval = 1e-3"
     );
-    from_str(&text, Path::new("pair.toml")).unwrap_or_else(|error| panic!("{error}"))
+    Scene::from_toml(&text, Path::new("pair.toml")).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn hertz(dissipation: &str) -> String {
@@ -143,7 +143,7 @@ fn spheres_that_overlap_at_the_start_limit_the_step() {
             start = {{ kind = 'list', spheres = [{{ position = [0, 0, 1] }}, {{ position = {second} }}] }}
             time = {{ dt = 1e-7, duration = 1, frame_interval = 1e-3 }}"
         );
-        from_str(&text, Path::new("pair.toml")).unwrap_or_else(|error| panic!("{error}"))
+        Scene::from_toml(&text, Path::new("pair.toml")).unwrap_or_else(|error| panic!("{error}"))
     };
     let apart = placed("[0.1, 0, 1]", "");
     assert_eq!(largest_stable(&apart), None);
@@ -171,7 +171,7 @@ fn the_smallest_sphere_decides() {
             gravity = {{ acceleration = 9.8 }}
             time = {{ dt = 1e-6, duration = 1, frame_interval = 1e-3 }}"
         );
-        from_str(&text, Path::new("scene.toml")).unwrap_or_else(|error| panic!("{error}"))
+        Scene::from_toml(&text, Path::new("scene.toml")).unwrap_or_else(|error| panic!("{error}"))
     };
     let mixed = scene("[{ radius = 0.002, share = 1 }, { radius = 0.004, share = 1 }]");
     for alone in limits(&scene("0.002")) {

@@ -15,39 +15,8 @@ use crate::document::{Problem, number};
 const MOST_SPHERES: usize = 100_000_000;
 
 impl Scene {
-    /// Everything that is wrong with this scene; a scene without problems can be run.
-    ///
-    /// Radii and starts that are still the names of files are not looked into.
-    pub fn problems(&self) -> Vec<Problem> {
-        let mut problems = self.problems_but_of_limit();
-        if problems.is_empty() {
-            self.check_time_step(&mut problems);
-        }
-        problems
-    }
-
-    /// What is wrong with this scene, but that its time step may be above the limit: nothing of it keeps
-    /// the scene from being run.
-    pub(crate) fn problems_but_of_limit(&self) -> Vec<Problem> {
-        let mut problems = self.problems_of_values();
-        if problems.is_empty() {
-            self.check_all_but_step(&mut problems);
-            self.check_whole_steps(&mut problems);
-        }
-        problems
-    }
-
-    /// What is wrong with this scene whatever its time step.
-    pub(super) fn problems_but_of_step(&self) -> Vec<Problem> {
-        let mut problems = self.problems_of_values();
-        if problems.is_empty() {
-            self.check_all_but_step(&mut problems);
-        }
-        problems
-    }
-
     /// What is wrong with the kinds of values, and numbers out of their ranges.
-    fn problems_of_values(&self) -> Vec<Problem> {
+    pub(crate) fn problems_of_values(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
         let Some((without_them, spheres)) = self.apart_from_list() else {
             SCENE.check(&self.tree(), "", &mut problems);
@@ -62,8 +31,12 @@ impl Scene {
         problems
     }
 
-    /// Takes numbers in their ranges for granted.
-    fn check_all_but_step(&self, problems: &mut Vec<Problem>) {
+    /// Finds keys that do not go together. Numbers must be in their ranges. Radii and starts that
+    /// are still the names of files are not looked into.
+    ///
+    /// What the engine has to tell is not among it: whether the time step is stable, and whether a
+    /// random start finds room.
+    pub(crate) fn check_relations(&self, problems: &mut Vec<Problem>) {
         self.check_laws(problems);
         self.check_spheres(problems);
         self.check_tank(problems);
@@ -241,11 +214,12 @@ impl Scene {
     }
 }
 
-fn plural(count: usize, one: &str, many: &str) -> String {
+/// A count and its noun.
+pub(crate) fn plural(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }
 
 /// To six significant digits, for messages.
-fn rounded(value: f64) -> String {
+pub(crate) fn rounded(value: f64) -> String {
     number(format!("{value:.5e}").parse().unwrap_or(value))
 }

@@ -27,7 +27,7 @@ impl Scene {
     }
 
     /// The first key of the walls that leave the largest sphere no room, and its value (m).
-    pub(super) fn misfit(&self) -> Option<(&'static str, f64)> {
+    pub(crate) fn misfit(&self) -> Option<(&'static str, f64)> {
         let Tank {
             radius,
             width,

@@ -1,7 +1,6 @@
-//! Whether the times of a scene go together, and the step is stable.
+//! Whether the times of a scene go together.
 
 use super::rounded;
-use crate::dem::timestep;
 use crate::document::{Problem, number};
 use crate::scene::{Output, Scene, Start};
 
@@ -43,7 +42,7 @@ impl Scene {
     }
 
     /// What happens at steps must not fall between them.
-    pub(super) fn check_whole_steps(&self, problems: &mut Vec<Problem>) {
+    pub(crate) fn check_whole_steps(&self, problems: &mut Vec<Problem>) {
         let (dt, safety_factor) = (self.time.dt, self.time.safety_factor);
         if safety_factor.is_some() {
             let message = "`time.safety_factor` goes with `dt = \"auto\"` only";
@@ -59,39 +58,12 @@ impl Scene {
     }
 
     /// The times (s) that must be whole numbers of steps, by their keys.
-    pub(in crate::scene) fn intervals_of_steps(&self) -> Vec<(&'static str, f64)> {
+    pub(crate) fn intervals_of_steps(&self) -> Vec<(&'static str, f64)> {
         let mut intervals = vec![("time.frame_interval", self.time.frame_interval)];
         if let Start::Feed { interval, .. } = self.start {
             intervals.push(("start.interval", interval));
         }
         intervals
-    }
-
-    pub(super) fn check_time_step(&self, problems: &mut Vec<Problem>) {
-        let Some(limit) = timestep::largest_stable(self) else {
-            return;
-        };
-        let dt = self.time.dt;
-        if dt <= limit.seconds {
-            return;
-        }
-        let message = format!(
-            "`time.dt` = {} s is {:.3} times the {} limit of {:.3e} s, above which the motion is \
-             unstable: {}; impacts at up to {:.3} m/s",
-            number(dt),
-            dt / limit.seconds,
-            limit.name,
-            limit.seconds,
-            limit.explanation,
-            timestep::fastest_impact(self),
-        );
-        // A round number of steps per frame, and some accuracy besides stability.
-        let steps = round_up(2.0 * self.time.frame_interval / limit.seconds);
-        let help = format!(
-            "use `dt = {}` or less: {steps} steps per frame, at most half the limit",
-            rounded(self.time.frame_interval / steps)
-        );
-        problems.push(Problem::new("time.dt", message).help(help));
     }
 }
 
@@ -116,17 +88,4 @@ pub(super) fn not_multiple(path: &str, time: f64, unit_path: &str, unit: f64) ->
         below => format!("{} s or {above} s", rounded(below * unit)),
     };
     Problem::new(path, message).help(format!("use {multiples}"))
-}
-
-/// The next of 1, 2, 5, 10, 20, 50 and so on.
-fn round_up(value: f64) -> f64 {
-    let mut decade = 1.0;
-    while 10.0 * decade < value {
-        decade *= 10.0;
-    }
-    let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * decade);
-    steps
-        .into_iter()
-        .find(|step| *step >= value)
-        .unwrap_or(value)
 }

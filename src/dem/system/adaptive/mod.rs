@@ -16,7 +16,7 @@ use crate::dem::friction::{Grip, TangentialLaw};
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;
-use crate::record::Instability;
+use crate::simulation::Instability;
 
 /// How often a step is tried, each time with more room. One that needs more is on its way to a guard.
 const ATTEMPTS: u32 = 20;

@@ -1,7 +1,8 @@
 //! The silo's own text file (Remmers, 2009): the numbers of wall and door spheres, then x, height
 //! and radius of each.
 
-use super::{StoreError, text};
+use super::FileError;
+use crate::document::text;
 use crate::scene::schema::LENGTHS;
 use crate::scene::{FixedSphere, FixedSpheres, LengthUnit};
 use std::path::Path;
@@ -13,10 +14,10 @@ const MOST_SPHERES: u64 = 10_000_000;
 /// start with `#` are skipped.
 ///
 /// # Errors
-/// [`StoreError::Read`], or [`StoreError::Text`] with the line that is wrong.
-pub fn read_geometry(path: &Path, unit: LengthUnit) -> Result<FixedSpheres, StoreError> {
-    let content = text::read(path)?;
-    let wrong = |line, reason: String| StoreError::text(path, line, reason);
+/// [`FileError::Read`], or [`FileError::Line`] with the line that is wrong.
+pub(super) fn read_geometry(path: &Path, unit: LengthUnit) -> Result<FixedSpheres, FileError> {
+    let content = text::read(path).map_err(|error| FileError::reading(path, error))?;
+    let wrong = |line, reason: String| FileError::line(path, line, reason);
     let mut lines = text::lines(&content);
     let Some((first, header)) = lines.next() else {
         let reason = "the file is empty; its first line holds the numbers of wall and door spheres, \

@@ -1,8 +1,8 @@
-//! The time step that follows from a scene: `dt = "auto"`.
+//! The time step: whether it is stable, and the one that follows from a scene (`dt = "auto"`).
 
-use super::Scene;
 use crate::dem::timestep;
 use crate::document::{Problem, number};
+use crate::scene::{Scene, rounded};
 
 /// The step over the least limit, if the file does not say it.
 ///
@@ -10,7 +10,7 @@ use crate::document::{Problem, number};
 /// Simulation Time" in its help). A fifth of the limit of
 /// twelve contacts, t_c / (2.015 sqrt(6)) with the duration t_c of a Hertz contact, resolves the
 /// shortest contact with about 25 steps; with a linear contact, t_c = pi / w, it is 19.
-pub(super) const SAFETY_FACTOR: f64 = 0.2;
+pub(crate) const SAFETY_FACTOR: f64 = 0.2;
 
 /// Steps per frame that can be counted exactly.
 const MOST_STEPS: f64 = 9e15;
@@ -23,26 +23,35 @@ const MOST_PARTS: u32 = 1000;
 const ROUNDING: f64 = 1e-9;
 
 impl Scene {
-    /// The scene that is run, checked. Where `time.safety_factor` is there, the time step is chosen:
-    /// the largest that is at most that factor times every limit of [`timestep::limits`] and of which
-    /// the intervals of frames and of the feed are whole multiples. What comes back has a number for
-    /// its step and no safety factor.
-    ///
-    /// # Errors
-    /// [`Scene::problems`] of what comes back; and if a step is to be chosen, but nothing limits it, or
-    /// no step divides both intervals.
-    pub fn with_chosen_step(mut self) -> Result<Self, Vec<Problem>> {
-        if let Some(safety_factor) = self.time.safety_factor {
-            accept(self.problems_but_of_step())?;
-            let step = self.chosen_step(safety_factor);
-            self.time.dt = step.map_err(|problem| vec![problem])?;
-            self.time.safety_factor = None;
+    pub(super) fn check_time_step(&self, problems: &mut Vec<Problem>) {
+        let Some(limit) = timestep::largest_stable(self) else {
+            return;
+        };
+        let dt = self.time.dt;
+        if dt <= limit.seconds {
+            return;
         }
-        accept(self.problems())?;
-        Ok(self)
+        let message = format!(
+            "`time.dt` = {} s is {:.3} times the {} limit of {:.3e} s, above which the motion is \
+             unstable: {}; impacts at up to {:.3} m/s",
+            number(dt),
+            dt / limit.seconds,
+            limit.name,
+            limit.seconds,
+            limit.explanation,
+            timestep::fastest_impact(self),
+        );
+        // A round number of steps per frame, and some accuracy besides stability.
+        let steps = round_up(2.0 * self.time.frame_interval / limit.seconds);
+        let help = format!(
+            "use `dt = {}` or less: {steps} steps per frame, at most half the limit",
+            rounded(self.time.frame_interval / steps)
+        );
+        problems.push(Problem::new("time.dt", message).help(help));
     }
 
-    fn chosen_step(&self, safety_factor: f64) -> Result<f64, Problem> {
+    /// The largest step that divides all intervals and keeps `safety_factor` of every limit (s).
+    pub(super) fn chosen_step(&self, safety_factor: f64) -> Result<f64, Problem> {
         let refuse = |message: String, help: &str| {
             let help = format!("{help}, or give `dt` as a number");
             Problem::new("time.dt", message).help(help)
@@ -95,11 +104,15 @@ impl Scene {
     }
 }
 
-/// Nothing if there are no problems, else the problems.
-fn accept(problems: Vec<Problem>) -> Result<(), Vec<Problem>> {
-    if problems.is_empty() {
-        Ok(())
-    } else {
-        Err(problems)
+/// The next of 1, 2, 5, 10, 20, 50 and so on.
+fn round_up(value: f64) -> f64 {
+    let mut decade = 1.0;
+    while 10.0 * decade < value {
+        decade *= 10.0;
     }
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|step| step * decade);
+    steps
+        .into_iter()
+        .find(|step| *step >= value)
+        .unwrap_or(value)
 }

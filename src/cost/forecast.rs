@@ -1,12 +1,12 @@
 //! What a sweep will cost, from a short trial of a few of its jobs.
 
-use super::representatives::Representative;
-use super::{Job, representatives, work};
-use crate::cost::{CostError, Part, RunCost};
+use super::representatives::{Representative, representatives};
+use super::{CostError, Part, RunCost};
 use crate::record::RunRecord;
 use crate::run::{self, RunError};
 use crate::scene::Scene;
 use crate::store::{self, StoreError};
+use crate::sweep::{Job, work};
 use std::ops::ControlFlow;
 use std::time::Duration;
 

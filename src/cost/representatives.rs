@@ -1,22 +1,22 @@
-//! The few jobs from which is told what all cost.
+//! The few jobs of a grid that are tried to forecast the cost of all.
 
-use super::{Job, work};
 use crate::scene::Integrator;
+use crate::sweep::{Job, work};
 
 /// A job that stands for those nearest to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Representative<'a> {
+pub(super) struct Representative<'a> {
     /// The job.
-    pub(crate) job: &'a Job,
+    pub(super) job: &'a Job,
     /// Number of jobs that it stands for, itself among them.
-    pub(crate) jobs: usize,
+    pub(super) jobs: usize,
     /// Their sphere-steps.
-    pub(crate) sphere_steps: u64,
+    pub(super) sphere_steps: u64,
 }
 
 /// The jobs at the corners and in the middle of the grid, of the first seed and each integrator. The others, of all seeds,
 /// are shared out among them: each to the nearest, counted in steps of the grid over its width.
-pub(crate) fn representatives(jobs: &[Job]) -> Vec<Representative<'_>> {
+pub(super) fn representatives(jobs: &[Job]) -> Vec<Representative<'_>> {
     let (Some(first), Some(last)) = (jobs.first(), jobs.last()) else {
         return Vec::new();
     };

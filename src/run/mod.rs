@@ -1,10 +1,15 @@
 //! One run: from a scene to its record.
 
+mod load;
+
+pub(crate) use load::{Reading, base_of_tree, load_base_with};
+
 use crate::cpu_time;
-use crate::dem::{BuildError, Counts, Profile, Simulation, SimulationState, StateError};
+use crate::dem::{BuildError, Profile, Simulation, SimulationState, StateError};
 use crate::observe::{Frame, Observer, Snapshot};
 use crate::record::{Outcome, Program, RunRecord};
 use crate::scene::Scene;
+use crate::simulation::Counts;
 use rayon::ThreadPoolBuildError;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;

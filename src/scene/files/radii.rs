@@ -1,21 +1,22 @@
 //! A file of radii: one per line.
 
-use super::{StoreError, text};
+use super::FileError;
+use crate::document::text;
 use std::path::Path;
 
 /// Reads radii (m), one per line. Blank lines and lines that start with `#` are skipped.
 ///
 /// # Errors
-/// [`StoreError::Read`], or [`StoreError::Text`] with the line that is not a radius.
-pub fn read_radii(path: &Path) -> Result<Vec<f64>, StoreError> {
-    let content = text::read(path)?;
+/// [`FileError::Read`], or [`FileError::Line`] with the line that is not a radius.
+pub(super) fn read_radii(path: &Path) -> Result<Vec<f64>, FileError> {
+    let content = text::read(path).map_err(|error| FileError::reading(path, error))?;
     let radii = text::lines(&content)
         .map(|(line, field)| {
-            text::radius(field).map_err(|reason| StoreError::text(path, line, reason))
+            text::radius(field).map_err(|reason| FileError::line(path, line, reason))
         })
         .collect::<Result<Vec<_>, _>>()?;
     if radii.is_empty() {
-        return Err(StoreError::text(
+        return Err(FileError::line(
             path,
             1,
             "the file is empty; give one radius (in metres) per line",

@@ -1,11 +1,12 @@
 //! The state of a simulation at one frame, as an observer sees it.
 
 use super::Snapshot;
-use super::reduce::LANES;
 use ndarray::Array2;
 
-/// The spheres of a frame, block by block in the order of the scene. A [`FrameView`] shows itself, as one block
-/// of all; spheres that stand in memory in another order never need to be in that of the scene all at once.
+/// The spheres of a frame, block by block in the order of the scene.
+///
+/// A [`FrameView`] shows itself as one block. A model that stores its spheres in another order puts
+/// one block at a time into the order of the scene, so no second copy of all spheres is needed.
 pub trait Frame {
     /// Number of spheres.
     fn count(&self) -> usize;
@@ -14,13 +15,15 @@ pub trait Frame {
     fn show(&self, look: &mut dyn FnMut(&FrameView<'_>));
 }
 
-/// Sums go round so many partial ones: if blocks before the last held no multiple of it, bits would depend on where
-/// they end.
-pub const FRAME_BLOCK: usize = LANES;
+/// Blocks of a frame are multiples of this number of spheres. Sums over spheres have this many
+/// partial sums, so their bits do not depend on where a block ends.
+pub const FRAME_BLOCK: usize = 4;
 
-/// The state of a simulation at one frame, borrowed from the engine. Every slice holds one entry
-/// per sphere that moves; a sphere keeps its index throughout a run, unless spheres come and go. Or a block of
-/// the spheres of a [`Frame`]: what is not of single spheres is then still that of the whole frame.
+/// The state of a simulation at one frame, or of one block of its spheres, borrowed from the model.
+///
+/// Every slice holds one entry per sphere that moves. A sphere keeps its index throughout a run,
+/// unless spheres come and go. Fields that do not belong to single spheres describe the whole
+/// frame, in a block too.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameView<'a> {
     /// Coordinates x, y and z of the centres (m).

@@ -1,6 +1,7 @@
 //! A file of spheres to start from: a CSV table with a header line.
 
-use super::{StoreError, text};
+use super::FileError;
+use crate::document::text;
 use crate::scene::StartSphere;
 use std::path::Path;
 
@@ -16,23 +17,23 @@ const RADIUS: usize = 9;
 /// lines and lines that start with `#` are skipped.
 ///
 /// # Errors
-/// [`StoreError::Read`], or [`StoreError::Text`] with the line at fault.
-pub fn read_start(path: &Path) -> Result<Vec<StartSphere>, StoreError> {
-    let content = text::read(path)?;
+/// [`FileError::Read`], or [`FileError::Line`] with the line at fault.
+pub(super) fn read_start(path: &Path) -> Result<Vec<StartSphere>, FileError> {
+    let content = text::read(path).map_err(|error| FileError::reading(path, error))?;
     let mut lines = text::lines(&content);
     let Some((line, names)) = lines.next() else {
         let reason = "the file is empty; its first line names the columns, such as x,y,z";
-        return Err(StoreError::text(path, 1, reason));
+        return Err(FileError::line(path, 1, reason));
     };
-    let columns = header(names).map_err(|reason| StoreError::text(path, line, reason))?;
+    let columns = header(names).map_err(|reason| FileError::line(path, line, reason))?;
     let spheres = lines
         .map(|(line, row)| {
-            sphere(&columns, row).map_err(|reason| StoreError::text(path, line, reason))
+            sphere(&columns, row).map_err(|reason| FileError::line(path, line, reason))
         })
         .collect::<Result<Vec<_>, _>>()?;
     if spheres.is_empty() {
         let reason = "no sphere follows the header line; give one sphere per line";
-        return Err(StoreError::text(path, line, reason));
+        return Err(FileError::line(path, line, reason));
     }
     Ok(spheres)
 }

@@ -1,0 +1,75 @@
+//! What is wrong with a scene, as far as the engine has to tell: the time step and the start.
+
+mod start;
+mod step;
+
+pub(crate) use step::SAFETY_FACTOR;
+
+use crate::document::Problem;
+use crate::scene::Scene;
+
+impl Scene {
+    /// Everything that is wrong with this scene; a scene without problems can be run.
+    ///
+    /// Radii and starts that are still the names of files are not looked into.
+    pub fn problems(&self) -> Vec<Problem> {
+        let mut problems = self.problems_but_of_limit();
+        if problems.is_empty() {
+            self.check_time_step(&mut problems);
+        }
+        problems
+    }
+
+    /// What is wrong with this scene besides a time step above its limit. A scene without these
+    /// problems can be run, stable or not.
+    pub(crate) fn problems_but_of_limit(&self) -> Vec<Problem> {
+        let mut problems = self.problems_of_values();
+        if problems.is_empty() {
+            self.check_all_but_step(&mut problems);
+            self.check_whole_steps(&mut problems);
+        }
+        problems
+    }
+
+    /// What is wrong with this scene whatever its time step.
+    fn problems_but_of_step(&self) -> Vec<Problem> {
+        let mut problems = self.problems_of_values();
+        if problems.is_empty() {
+            self.check_all_but_step(&mut problems);
+        }
+        problems
+    }
+
+    fn check_all_but_step(&self, problems: &mut Vec<Problem>) {
+        self.check_relations(problems);
+        self.check_room(problems);
+    }
+
+    /// The scene that is run, checked. Where `time.safety_factor` is there, the time step is chosen:
+    /// the largest that is at most that factor times every limit of [`timestep::limits`] and of which
+    /// the intervals of frames and of the feed are whole multiples. What comes back has a number for
+    /// its step and no safety factor.
+    ///
+    /// # Errors
+    /// [`Scene::problems`] of what comes back; and if a step is to be chosen, but nothing limits it, or
+    /// no step divides both intervals.
+    pub fn with_chosen_step(mut self) -> Result<Self, Vec<Problem>> {
+        if let Some(safety_factor) = self.time.safety_factor {
+            accept(self.problems_but_of_step())?;
+            let step = self.chosen_step(safety_factor);
+            self.time.dt = step.map_err(|problem| vec![problem])?;
+            self.time.safety_factor = None;
+        }
+        accept(self.problems())?;
+        Ok(self)
+    }
+}
+
+/// Nothing if there are no problems, else the problems.
+fn accept(problems: Vec<Problem>) -> Result<(), Vec<Problem>> {
+    if problems.is_empty() {
+        Ok(())
+    } else {
+        Err(problems)
+    }
+}

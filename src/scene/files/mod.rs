@@ -1,0 +1,86 @@
+//! The files that a scene names: radii, fixed spheres, spheres to start from.
+
+mod geometry;
+mod radii;
+mod start;
+
+use super::{Geometry, Radii, Scene, Start};
+use crate::document::{Problem, advice};
+use geometry::read_geometry;
+use radii::read_radii;
+use start::read_start;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why a file that a scene names cannot be read.
+#[derive(Debug, thiserror::Error)]
+enum FileError {
+    /// The file cannot be opened or read.
+    #[error("cannot read {}: {source}{}", path.display(), advice(source))]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A line says something it must not.
+    #[error("{}:{line}: {reason}", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: u64,
+        /// What is wrong and what is expected.
+        reason: String,
+    },
+}
+
+impl FileError {
+    fn reading(path: &Path, source: io::Error) -> Self {
+        Self::Read {
+            path: path.to_owned(),
+            source,
+        }
+    }
+
+    fn line(path: &Path, line: u64, reason: impl ToString) -> Self {
+        Self::Line {
+            path: path.to_owned(),
+            line,
+            reason: reason.to_string(),
+        }
+    }
+}
+
+impl Scene {
+    /// Puts the contents of the files that the scene names, relative to `folder`, in the place of
+    /// their names.
+    pub(crate) fn read_files(&mut self, folder: &Path, problems: &mut Vec<Problem>) {
+        let mut refuse = |key: &str, error: FileError| {
+            problems.push(Problem::new(key, error.to_string()));
+        };
+        if let Radii::File { file } = &self.spheres.radius {
+            match read_radii(&folder.join(file)) {
+                Ok(radii) => self.spheres.radius = Radii::Each(radii),
+                Err(error) => refuse("spheres.radius.file", error),
+            }
+        }
+        if let Some(Geometry::File { path, unit }) = &self.geometry {
+            match read_geometry(&folder.join(path), *unit) {
+                Ok(spheres) => {
+                    self.geometry = Some(Geometry::List {
+                        walls: spheres.walls,
+                        door: spheres.door,
+                    });
+                }
+                Err(error) => refuse("geometry.path", error),
+            }
+        }
+        if let Start::File { path } = &self.start {
+            match read_start(&folder.join(path)) {
+                Ok(spheres) => self.start = Start::list(spheres),
+                Err(error) => refuse("start.path", error),
+            }
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! What the program knows of a running model, whichever it is.
+
+mod counts;
+mod frame;
+mod guard;
+mod milestone;
+mod snapshot;
+
+pub use counts::Counts;
+pub use frame::{FRAME_BLOCK, Flow, Frame, FrameView, Ledger};
+pub use guard::{Guard, Instability};
+pub use milestone::{Milestone, MilestoneKind};
+pub use snapshot::Snapshot;
