@@ -45,6 +45,7 @@ pub(super) fn quiet(frames: usize) -> RunRecord {
         observations,
         snapshots: Vec::new(),
         trajectory: Vec::new(),
+        work: 0,
         cpu_seconds: 0.0,
     }
 }

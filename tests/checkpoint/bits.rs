@@ -218,7 +218,7 @@ fn a_list_of_other_spheres_is_refused() {
     let place = Workplace::new();
     let path = place.path("run.checkpoint");
     let run = Run::new(&scene).unwrap();
-    write_checkpoint(&path, &scene, &run.state().unwrap()).unwrap();
+    write_checkpoint(&path, &run).unwrap();
     assert!(read_checkpoint(&path, &scene).unwrap().is_some());
     scene.start.list_mut().unwrap()[3].velocity[1] += 1e-12;
     let differ = |scene: &Scene| {
@@ -239,7 +239,7 @@ fn zeros_of_another_sign_are_told() {
     let place = Workplace::new();
     let path = place.path("run.checkpoint");
     let run = Run::new(&scene).unwrap();
-    write_checkpoint(&path, &scene, &run.state().unwrap()).unwrap();
+    write_checkpoint(&path, &run).unwrap();
     scene.gravity.as_mut().unwrap().acceleration = -0.0;
     let error = read_checkpoint(&path, &scene).unwrap_err().to_string();
     assert!(

@@ -216,6 +216,7 @@ pub(crate) fn record(radius: f64, omega: f64) -> RunRecord {
             position,
         }],
         trajectory: Vec::new(),
+        work: 0,
         cpu_seconds: 0.0,
     }
 }

@@ -87,6 +87,7 @@ pub(crate) fn record(frames: usize, bins: usize, spheres: usize, snapshots: usiz
         snapshots: (0..snapshots).map(&mut snapshot).collect(),
         trajectory: Vec::new(),
         observations,
+        work: 123_456,
         cpu_seconds: 0.6,
     }
 }

@@ -171,7 +171,7 @@ fn reads_every_number(python: &str, record: &RunRecord, folder: &Path) {
     let expected = json!({
         "attributes": {
             "format": "phase run record",
-            "format_version": if start.is_empty() { 1 } else { 2 },
+            "format_version": 3,
             "program_version": record.program.version,
             "program_commit": record.program.commit,
             "identity": record.scene.identity(),

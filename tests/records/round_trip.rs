@@ -263,6 +263,7 @@ prop_compose! {
         seed in any::<u64>(),
         dt in prop::num::f64::NORMAL,
         version in "\\PC{1,12}",
+        work in 0_u64..1 << 50,
         cpu_seconds in 0.0..1e9f64,
     ) -> RunRecord {
         let mut scene = examples::scene();
@@ -278,6 +279,7 @@ prop_compose! {
             observations,
             snapshots,
             trajectory,
+            work,
             cpu_seconds,
         }
     }

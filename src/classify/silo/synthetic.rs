@@ -68,6 +68,7 @@ pub(super) fn draining_until(end: f64, grains: usize, pause: f64) -> RunRecord {
         },
         snapshots: vec![square_lattice(REST)],
         trajectory: Vec::new(),
+        work: 0,
         cpu_seconds: 0.0,
     }
 }

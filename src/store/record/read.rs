@@ -1,6 +1,6 @@
 //! From the bytes of an HDF5 file to a record.
 
-use super::{FORMAT, FORMAT_VERSION, RecordHeader, VERSION_WITHOUT_START, seal};
+use super::{FORMAT, FORMAT_VERSION, RecordHeader, seal};
 use crate::observe::{Observations, Snapshot};
 use crate::record::{Guard, Instability, Milestone, Outcome, Program, RunRecord};
 use crate::scene::{Scene, Start, StartSphere};
@@ -41,7 +41,7 @@ impl<'a> Reader<'a> {
             });
         }
         match self.whole("format_version")? {
-            VERSION_WITHOUT_START..=FORMAT_VERSION => Ok(()),
+            FORMAT_VERSION => Ok(()),
             found => Err(StoreError::Format {
                 path: self.path.to_owned(),
                 found,
@@ -59,6 +59,7 @@ impl<'a> Reader<'a> {
                 commit: self.text("program_commit")?.to_owned(),
             },
             outcome: self.outcome()?,
+            work: self.whole("work")?,
             cpu_seconds: self.number("cpu_seconds")?,
         })
     }
@@ -66,7 +67,8 @@ impl<'a> Reader<'a> {
     fn scene(&self) -> Result<Scene, StoreError> {
         let mut scene = Scene::from_json(self.text("scene")?)
             .map_err(|error| self.damaged(format!("its scene: {error}")))?;
-        if self.whole("format_version")? > VERSION_WITHOUT_START {
+        // A long list stands in datasets instead of the text.
+        if matches!(&scene.start, Start::List { spheres } if spheres.is_empty()) {
             scene.start = self.start(scene.spheres.count)?;
         }
         Ok(scene)
@@ -106,6 +108,7 @@ impl<'a> Reader<'a> {
             scene,
             program,
             outcome,
+            work,
             cpu_seconds,
         } = self.header()?;
         Ok(RunRecord {
@@ -118,6 +121,7 @@ impl<'a> Reader<'a> {
             observations: self.observations()?,
             snapshots: self.snapshots("snapshots")?,
             trajectory: self.snapshots("trajectory")?,
+            work,
             cpu_seconds,
         })
     }
