@@ -6,6 +6,7 @@
 
 use crate::record::RunRecord;
 use crate::run::{Progress, Run};
+use crate::simulation::StateError;
 use crate::store::{self, CheckpointError, StoreError};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -63,6 +64,10 @@ impl Checkpoints {
         };
         match run.restore(checkpoint.state()) {
             Ok(()) => Ok(true),
+            Err(StateError::OTHER_FORM) => Err(CheckpointError::Damaged {
+                path: self.path.clone(),
+                reason: StateError::OTHER_FORM.0,
+            }),
             Err(error) => Err(CheckpointError::Unfit {
                 path: self.path.clone(),
                 reason: error.to_string(),

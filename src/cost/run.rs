@@ -4,7 +4,7 @@ use crate::cpu_time;
 use crate::record::RunRecord;
 use crate::run::{self, Run};
 use crate::scene::Scene;
-use crate::simulation::{BuildError, PartOfStep, Profile};
+use crate::simulation::{BuildError, Model, PartOfStep, Profile};
 use crate::store::{self, StoreError};
 use std::time::{Duration, Instant};
 
@@ -71,10 +71,21 @@ impl RunCost {
     /// # Errors
     /// If the scene cannot be built, or no record written to a temporary folder.
     pub fn measure(scene: &Scene, budget: Duration) -> Result<Self, CostError> {
-        let model = run::model_of(scene);
+        Self::measure_model(run::model_of(scene), scene, budget)
+    }
+
+    /// The same with a model of the caller's.
+    ///
+    /// # Errors
+    /// Those of [`measure`](Self::measure).
+    pub fn measure_model(
+        model: &dyn Model,
+        scene: &Scene,
+        budget: Duration,
+    ) -> Result<Self, CostError> {
         let clock = Instant::now();
         let mut meter = Meter::new();
-        let mut run = Run::new(scene)?;
+        let mut run = Run::with_simulation(scene, model.build(scene)?);
         let start = meter.lap();
         run.keep_profile();
         // The profile finds out what one reading of the clock takes, which is no part of the run.
@@ -92,7 +103,7 @@ impl RunCost {
         }
         let elapsed = clock.elapsed().as_secs_f64();
         let mut parts = parts_of_steps(model.parts_of(scene), run.profile(), advancing);
-        let work = run.profile().map_or(run.work(), Profile::sphere_steps);
+        let work = run.profile().map_or(run.work(), Profile::work);
         let whole = run.ended();
         let record = run.finish();
         let folder = tempfile::tempdir()?;

@@ -70,7 +70,7 @@ impl crate::simulation::Simulation for Simulation {
     fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
         match postcard::take_from_bytes(state) {
             Ok((state, [])) => self.restore(state),
-            _ => Err(StateError("its content has another form")),
+            _ => Err(StateError::OTHER_FORM),
         }
     }
 

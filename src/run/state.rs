@@ -9,9 +9,6 @@ use crate::record::Outcome;
 use crate::simulation::StateError;
 use std::io;
 
-/// What cannot be read as a state of a run.
-const OTHER_FORM: StateError = StateError("its content has another form");
-
 impl Run {
     /// Whether a guard ended the run. There is nothing to go on from then.
     pub fn is_unstable(&self) -> bool {
@@ -40,7 +37,7 @@ impl Run {
     pub fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
         let own: (u64, f64, Results);
         let simulation;
-        (own, simulation) = postcard::take_from_bytes(state).map_err(|_| OTHER_FORM)?;
+        (own, simulation) = postcard::take_from_bytes(state).map_err(|_| StateError::OTHER_FORM)?;
         self.simulation.restore(simulation)?;
         (self.frame, self.cpu_seconds_before, self.results) = own;
         self.started = cpu_time::of_this_thread();
@@ -53,6 +50,6 @@ impl Run {
 /// # Errors
 /// If it is no state of a run.
 pub fn frame_of_state(state: &[u8]) -> Result<u64, StateError> {
-    let (frame, _) = postcard::take_from_bytes(state).map_err(|_| OTHER_FORM)?;
+    let (frame, _) = postcard::take_from_bytes(state).map_err(|_| StateError::OTHER_FORM)?;
     Ok(frame)
 }

@@ -119,3 +119,8 @@ impl BuildError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the state does not fit the scene: {0}")]
 pub struct StateError(pub &'static str);
+
+impl StateError {
+    /// What cannot be read as a state at all.
+    pub const OTHER_FORM: Self = Self("its content has another form");
+}

@@ -33,7 +33,7 @@ pub struct Profile {
     entered: f64,
     /// Time in the engine so far (s), readings included.
     inside: f64,
-    sphere_steps: u64,
+    work: u64,
 }
 
 /// Readings by which a profile finds what one takes.
@@ -56,7 +56,7 @@ impl Profile {
             readings: 0,
             entered: 0.0,
             inside: 0.0,
-            sphere_steps: 0,
+            work: 0,
         }
     }
 
@@ -70,9 +70,9 @@ impl Profile {
         self.readings as f64 * self.reading
     }
 
-    /// Steps done, each times the spheres that moved in it.
-    pub fn sphere_steps(&self) -> u64 {
-        self.sphere_steps
+    /// Work done in the steps so far: each counts its spheres once.
+    pub fn work(&self) -> u64 {
+        self.work
     }
 
     /// The time in the engine, divided into its parts.
@@ -107,7 +107,7 @@ impl Profile {
     /// Begins a step that moves so many spheres, and looks at it or not.
     #[inline(never)]
     pub fn begin(&mut self, step: u64, spheres: usize) {
-        self.sphere_steps += spheres as u64;
+        self.work += spheres as u64;
         // The clock is read a dozen times for 128 spheres, half a microsecond each, in a step of some 50 ns per
         // sphere: with one step of 16 at most that adds some percent to it.
         let period = (8192 / spheres.max(1) as u64).clamp(16, 256);

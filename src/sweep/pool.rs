@@ -84,8 +84,8 @@ pub enum PoolError {
     Folder(#[from] FolderError),
 }
 
-/// Makes the run of a job.
-type Begin<'a> = &'a (dyn Fn(&Job) -> Result<Run, BuildError> + Sync);
+/// Makes the run of a job, at its start.
+pub type Begin<'a> = &'a (dyn Fn(&Job) -> Result<Run, BuildError> + Sync);
 
 impl Pool<'_> {
     /// Runs what is pending in the plan, and stores each record as soon as it is there.
@@ -97,10 +97,14 @@ impl Pool<'_> {
     /// Before anything is run, if a record of another scene is in the way or the folder
     /// cannot be written.
     pub fn run(&self, plan: &Plan) -> Result<Report, PoolError> {
-        self.run_with(plan, &|job| self.begin(job))
+        self.run_with(plan, &|job| Run::new(&job.scene))
     }
 
-    fn run_with(&self, plan: &Plan, begin: Begin<'_>) -> Result<Report, PoolError> {
+    /// The same with runs that `begin` makes. Those with a good checkpoint go on from it.
+    ///
+    /// # Errors
+    /// Those of [`run`](Self::run).
+    pub fn run_with(&self, plan: &Plan, begin: Begin<'_>) -> Result<Report, PoolError> {
         plan.check()?;
         self.folder.remove_leftovers()?;
         self.folder.write_sweep(self.sweep)?;
@@ -147,7 +151,7 @@ impl Pool<'_> {
             (self.watch)(Event::Failed(job, &failure));
             Ending::Failed(failure)
         };
-        let run = || begin(job).map(|run| self.drive(job, run));
+        let run = || begin(job).map(|run| self.drive(job, self.resumed(job, run)));
         let (record, resumed) = match catch_unwind(AssertUnwindSafe(run)) {
             Ok(Ok((resume::Ending::Finished(record), resumed))) => (record, resumed),
             Ok(Ok((resume::Ending::Lost(error), _))) => {
@@ -176,8 +180,7 @@ impl Pool<'_> {
     }
 
     /// The run of a job: at its checkpoint, if there is a good one and it may be used.
-    fn begin(&self, job: &Job) -> Result<Run, BuildError> {
-        let mut run = Run::new(&job.scene)?;
+    fn resumed(&self, job: &Job, mut run: Run) -> Run {
         if self.resume {
             match self.checkpoints(job).restore(&mut run) {
                 Ok(true) => (self.watch)(Event::Resumed(job, job.work_at(&run.progress()))),
@@ -185,7 +188,7 @@ impl Pool<'_> {
                 Err(error) => (self.watch)(Event::CheckpointRefused(job, &error)),
             }
         }
-        Ok(run)
+        run
     }
 
     /// Advances a run to its end and tells of it; and whether it went on from a checkpoint.

@@ -50,17 +50,13 @@ fn a_killed_sweep_goes_on_in_the_middle_of_a_job() {
     let status = place.phase(&["status", "results", "--json"]).code(0);
     let status: serde_json::Value = serde_json::from_str(&status.stdout).unwrap();
     let under_way = &status["folders"][0]["under_way"];
-    let (step, steps) = (
-        under_way[0]["step"].as_u64(),
-        under_way[0]["steps"].as_u64(),
-    );
-    let (step, steps) = (step.unwrap(), steps.unwrap());
-    assert!(0 < step && step < steps, "{step} of {steps}");
+    let [frame, frames] = ["frame", "frames"].map(|key| under_way[0][key].as_u64().unwrap());
+    assert!(0 < frame && frame < frames, "{frame} of {frames}");
     place
         .phase(&["status", "results"])
         .code(0)
         .says("under way  omega = ")
-        .says(&format!("checkpoint at step {step} of {steps}, "));
+        .says(&format!("checkpoint at frame {frame} of {frames}, "));
     let answer = place
         .phase(&[
             "sweep",
