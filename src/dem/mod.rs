@@ -31,7 +31,7 @@ pub mod vector;
 pub mod walls;
 mod work;
 
-pub use barrier::WeakestWall;
+pub use barrier::{WallFailure, WeakestWall};
 pub(crate) use check::SAFETY_FACTOR;
 pub use model::Dem;
 pub use particles::Particles;

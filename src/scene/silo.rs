@@ -157,11 +157,12 @@ impl Hopper {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rest {
-    /// Translational kinetic energy of all grains together (J) below which they may be at rest.
+    /// Kinetic energy of all grains together (J), translation and rotation, below which they may be
+    /// at rest. Every single grain must be below its equal share.
     pub kinetic_energy: f64,
-    /// Time for which it must stay below that (s). A grain at the top of its bounce is slow for an
-    /// instant, but not for long: g times this should be far above the speed of one grain with that
-    /// energy.
+    /// Time for which they must stay below that (s). A grain at the top of its bounce is slow for
+    /// an instant, but not for long: g times this should be far above the speed of a grain with its
+    /// share of the energy.
     #[serde(default = "default_hold")]
     pub hold: f64,
 }
