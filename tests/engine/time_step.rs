@@ -164,14 +164,31 @@ fn a_step_near_its_limit_is_warned_of() {
     let steps = (scene.time.frame_interval / (0.8 * decisive)).ceil();
     let near = format!("{}", scene.time.frame_interval / steps);
     place.write("near.toml", &with_step(&scene_file(), &near));
+    place
+        .phase(&["check", "near.toml"])
+        .code(0)
+        .complains("warning: the time step is 0.")
+        .complains("times the limit of")
+        .complains("times the advised limit of")
+        .complains("(twelve contacts): a sphere that many others squeeze may gain energy");
+    let run = place.phase(&["run", "near.toml"]).code(0);
+    let lines = run
+        .stderr
+        .lines()
+        .filter(|line| line.contains("the time step is"));
+    let [line] = lines.collect::<Vec<_>>()[..] else {
+        panic!("{run:?}");
+    };
+    assert!(line.contains(" of the limit ("), "{line}");
+    assert!(
+        line.contains(" of the advised limit (twelve contacts)"),
+        "{line}"
+    );
+    assert!(
+        line.ends_with("; `phase check` says what follows"),
+        "{line}"
+    );
     for command in ["run", "check"] {
-        place
-            .phase(&[command, "near.toml"])
-            .code(0)
-            .complains("warning: the time step is 0.")
-            .complains("times the limit of")
-            .complains("times the advised limit of")
-            .complains("(twelve contacts): a sphere that many others squeeze may gain energy");
         let quiet = place.phase(&["--quiet", command, "near.toml"]).code(0);
         assert_eq!(quiet.stderr, "");
     }
@@ -187,7 +204,7 @@ fn a_step_near_its_limit_is_warned_of() {
             near.parse::<f64>().unwrap()
         ))
         .complains(", the nearest to its limit: 0.")
-        .complains("warning: the time step is 0.");
+        .complains("the time step is coarse: 0.");
 }
 
 #[test]
