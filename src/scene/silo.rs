@@ -158,7 +158,8 @@ impl Hopper {
 #[serde(deny_unknown_fields)]
 pub struct Rest {
     /// Kinetic energy of all grains together (J), translation and rotation, below which they may be
-    /// at rest. Every single grain must be below its equal share.
+    /// at rest. No single grain may have more than a hundredth of it, or of fewer than a hundred
+    /// grains more than its equal share.
     pub kinetic_energy: f64,
     /// Time for which they must stay below that (s). A grain at the top of its bounce is slow for
     /// an instant, but not for long: g times this should be far above the speed of a grain with its

@@ -3,14 +3,19 @@
 use crate::dem::particles::Particles;
 use crate::scene::Rest;
 
-/// Watches the kinetic energy of every sphere.
+/// Largest part of the limit for all spheres that one of them may have at rest, in scenes of so many
+/// spheres or more. In smaller scenes it is an equal share.
+const PARTS: usize = 100;
+
+/// Watches the kinetic energy of all spheres and of every single one.
 ///
-/// The limit of the scene is for all of its spheres together, so each of them may have an equal
-/// share. A total alone says nothing of single spheres: a few that still flow are lost in the sum.
+/// A total alone says nothing of single spheres: a few that still flow are lost in the sum.
 pub(super) struct RestWatch {
-    /// Largest kinetic energy of one sphere at rest (J), that of its spin included.
-    share: f64,
-    /// Steps for which all spheres must stay below it.
+    /// Largest kinetic energy of all spheres at rest together (J), spins included.
+    all: f64,
+    /// Largest kinetic energy of one sphere at rest (J), its spin included.
+    one: f64,
+    /// Steps for which all spheres must stay below these.
     hold: u64,
     /// Step since which they have.
     pub(super) since: Option<u64>,
@@ -20,7 +25,8 @@ impl RestWatch {
     /// A watch over a scene of `count` spheres, those included that are not in yet.
     pub(super) fn new(rest: &Rest, count: usize, dt: f64) -> Self {
         Self {
-            share: rest.kinetic_energy / count as f64,
+            all: rest.kinetic_energy,
+            one: rest.kinetic_energy / count.clamp(1, PARTS) as f64,
             hold: (rest.hold / dt).ceil() as u64,
             since: None,
         }
@@ -34,13 +40,21 @@ impl RestWatch {
     /// Looks at the spheres. The step since which they have been slow, if they are at rest by now;
     /// never before all are `in`.
     pub(super) fn since(&mut self, particles: &Particles, all_in: bool, step: u64) -> Option<u64> {
-        let mut moving = particles.fixed..particles.len();
-        if !(all_in && moving.all(|sphere| kinetic_energy(particles, sphere) < self.share)) {
+        if !(all_in && self.are_slow(particles)) {
             self.since = None;
             return None;
         }
         let since = *self.since.get_or_insert(step);
         (step - since >= self.hold).then_some(since)
+    }
+
+    fn are_slow(&self, particles: &Particles) -> bool {
+        let mut sum = 0.0;
+        (particles.fixed..particles.len()).all(|sphere| {
+            let energy = kinetic_energy(particles, sphere);
+            sum += energy;
+            energy < self.one
+        }) && sum < self.all
     }
 }
 
