@@ -261,7 +261,7 @@ struct Answer<'a> {
     /// What was to happen and did not.
     unmet: Vec<String>,
     /// Time (s) and every scalar observable of the last frame, in the units of the record.
-    last_frame: BTreeMap<&'static str, f64>,
+    last_frame: BTreeMap<&'a str, f64>,
     /// Time (s) of the checkpoint that the run went on from; none if it began at its start.
     resumed_from: Option<f64>,
     /// Whether a job that was run again gave the bits of the sweep's record; none without one.
@@ -279,7 +279,7 @@ struct Broken {
 }
 
 impl<'a> Answer<'a> {
-    fn new(record: &RunRecord, seconds: f64, path: &'a Path) -> Self {
+    fn new(record: &'a RunRecord, seconds: f64, path: &'a Path) -> Self {
         let observations = &record.observations;
         let mut last_frame = BTreeMap::new();
         last_frame.extend(observations.time.last().map(|time| ("time", *time)));

@@ -139,7 +139,7 @@ impl Run {
         let mut run = Self {
             scene: scene.clone(),
             results: Results {
-                observer: Observer::new(scene, simulation.radius()),
+                observer: Observer::new(scene, simulation.radius()).with_own(simulation.columns()),
                 snapshots: Vec::new(),
                 trajectory: Vec::new(),
             },
@@ -264,9 +264,11 @@ impl Run {
     pub(crate) fn look(&mut self) {
         let (broken, ended) = (self.is_unstable(), self.ended());
         let time = self.simulation.time();
+        let own = self.simulation.values();
         let results = &mut self.results;
         self.simulation.look(&mut |frame| {
             if !broken {
+                results.observer.observe_own(&own);
                 results.observer.observe(time, frame);
             }
             // That of the end is taken last of all.

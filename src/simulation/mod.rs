@@ -1,5 +1,6 @@
 //! What the program knows of a running model, whichever it is.
 
+mod column;
 mod counts;
 mod frame;
 mod guard;
@@ -8,6 +9,7 @@ mod model;
 mod profile;
 mod snapshot;
 
+pub use column::Column;
 pub use counts::Counts;
 pub use frame::{FRAME_BLOCK, Flow, Frame, FrameView, Ledger};
 pub use guard::{Guard, Instability};

@@ -1,6 +1,6 @@
 //! The door between the program and its models.
 
-use super::{Counts, Frame, Instability, Milestone, PartOfStep, Profile};
+use super::{Column, Counts, Frame, Instability, Milestone, PartOfStep, Profile};
 use crate::scene::Scene;
 use rayon::ThreadPoolBuildError;
 use std::error::Error;
@@ -52,6 +52,16 @@ pub trait Simulation {
 
     /// Shows the present frame. Looking never changes the motion.
     fn look(&mut self, look: &mut dyn FnMut(&dyn Frame));
+
+    /// Scalars that the model itself declares, besides those that are observed on the spheres.
+    fn columns(&self) -> &[Column] {
+        &[]
+    }
+
+    /// Their present values, in the same order.
+    fn values(&mut self) -> Vec<f64> {
+        Vec::new()
+    }
 
     /// Writes the state between two frames: with the scene, all that the simulation goes on from.
     /// Saving never changes the motion.

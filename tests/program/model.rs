@@ -7,8 +7,8 @@ use phase::resume::{Checkpoints, Ending};
 use phase::run::Run;
 use phase::scene::Scene;
 use phase::simulation::{
-    BuildError, Frame, FrameView, Guard, Instability, Model, PartOfStep, Profile, Simulation,
-    StateError,
+    BuildError, Column, Frame, FrameView, Guard, Instability, Model, PartOfStep, Profile,
+    Simulation, StateError,
 };
 use phase::store::{content_digest, read_record};
 use phase::sweep::{Folder, Plan, Pool};
@@ -137,6 +137,22 @@ impl Simulation for Weights {
         });
     }
 
+    fn columns(&self) -> &[Column] {
+        &[Column {
+            name: "stretch",
+            unit: "m",
+            description: "Largest stretch of a spring",
+        }]
+    }
+
+    fn values(&mut self) -> Vec<f64> {
+        vec![
+            self.height
+                .iter()
+                .fold(0.0, |most: f64, it| most.max(it.abs())),
+        ]
+    }
+
     fn save(&self, to: &mut dyn Write) -> std::io::Result<()> {
         to.write_all(&self.step.to_le_bytes())?;
         let numbers = self.height.iter().chain(&self.speed);
@@ -190,6 +206,24 @@ fn a_run_observes_and_records_it() {
     assert_eq!(record.observations.frames(), 21);
     assert_eq!(record.work, 3 * 200);
     // cos(sqrt(9.8) t) of 3 m at .2 s, with the error of the first order of the steps.
+    // What the scene does not call for is not observed, and what the model declares is.
+    let names: Vec<_> = record
+        .observations
+        .scalars()
+        .iter()
+        .map(|it| it.name)
+        .collect();
+    let of_spheres = [
+        "kinetic",
+        "rotational",
+        "gravitational",
+        "height_mean",
+        "height_max",
+    ];
+    assert_eq!(
+        names,
+        [&of_spheres[..], &["speed_mean", "stretch"]].concat()
+    );
     let top = f64::from(record.observations.height_max[20]);
     assert!(
         (top - 3.0 * libm::cos(9.8_f64.sqrt() * 0.2)).abs() < 0.02,

@@ -2,7 +2,7 @@
 
 use super::examples;
 use ndarray::{Array2, Array3};
-use phase::observe::{Observations, Snapshot};
+use phase::observe::{Observations, OwnSeries, Snapshot};
 use phase::record::{Outcome, Program, RunRecord};
 use phase::store::{StoreError, content_digest, read_record, read_record_header, write_record};
 use proptest::prelude::*;
@@ -239,12 +239,17 @@ fn any_observations() -> impl Strategy<Value = Observations> {
                 rising: Array3::from_shape_vec((frames, radii, speeds), rising).unwrap(),
                 ..Observations::default()
             };
-            let names: Vec<_> = observations.scalars().iter().map(|s| s.name).collect();
-            for (turn, name) in names.into_iter().enumerate() {
+            for (turn, column) in Observations::COLUMNS.iter().step_by(2).enumerate() {
                 let mut series = values[..frames].to_vec();
                 series.rotate_left(if frames == 0 { 0 } else { turn % frames });
-                *observations.scalar_mut(name).unwrap() = series;
+                *observations.scalar_mut(column.name).unwrap() = series;
             }
+            observations.own = vec![OwnSeries {
+                name: "spots".to_owned(),
+                unit: "1".to_owned(),
+                description: "Something that a model declares for itself".to_owned(),
+                values: values[..frames].to_vec(),
+            }];
             observations
         })
 }
