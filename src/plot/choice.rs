@@ -2,9 +2,9 @@
 
 use super::{PlotError, Source, grid};
 use crate::classify::Label;
+use crate::classify::{LabelRow, Point};
 use crate::notation::notation;
 use crate::record::RunRecord;
-use crate::sweep::{LabelRow, Point};
 
 /// A run of the table of labels, chosen to be shown.
 #[derive(Clone, Copy)]
