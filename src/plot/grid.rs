@@ -1,7 +1,6 @@
 //! The grid of a figure: which axes it shows where, and the point in every cell.
 
 use super::{PlotError, Source};
-use crate::notation::notation;
 use crate::scene::Scene;
 use crate::sweep::{Axis, LabelTable, Point, Sweep};
 
@@ -40,11 +39,8 @@ impl GridAxis {
         values.extend(more);
         values.sort_by(f64::total_cmp);
         values.dedup();
-        let (symbol, unit) = match notation(&axis.key) {
-            Some(notation) => (
-                format!("${}$", notation.symbol),
-                notation.unit_in(scene).to_owned(),
-            ),
+        let (symbol, unit) = match scene.notation(&axis.key) {
+            Some(notation) => (format!("${}$", notation.symbol), notation.unit.to_owned()),
             None => {
                 let share = share_of(axis, scene);
                 (share.unwrap_or_else(|| axis.name.clone()), String::new())

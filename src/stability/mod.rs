@@ -7,17 +7,16 @@
 mod label;
 mod load;
 mod run;
-pub(crate) mod schema;
 
 pub use label::{Label, energy_gain};
-pub(crate) use load::StudyFile;
+pub(crate) use load::STUDY;
 pub use load::{from_str, load};
 pub use run::{Event, Report, Row, Trials, TrialsError};
 
 use crate::dem::timestep::{Limit, limits};
 use crate::document::{Problem, number};
 use crate::scene::{Integrator, Output, Scene, Time};
-use crate::sweep::{Axis, Job, PointError, grid, points, scene_with};
+use crate::sweep::{Axis, Job, PointError, PointScenes, grid, points};
 
 /// A study of stability, fully resolved.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,7 +64,7 @@ impl Study {
     /// What is wrong with it, a time step above the limit excepted.
     pub fn scene_at(&self, values: &[f64], integrator: Integrator) -> Result<Scene, PointError> {
         let fail = |problems| PointError::new(&self.axes, values, problems);
-        let mut scene = scene_with(&self.scene, &self.axes, values)?;
+        let mut scene = PointScenes::new(&self.scene, &self.axes)?.unchecked(values)?;
         scene.time.integrator = integrator;
         scene.output = output();
         if scene.time.safety_factor.is_some() {

@@ -10,7 +10,6 @@ mod labels;
 mod load;
 mod plan;
 mod pool;
-pub(crate) mod schema;
 mod select;
 mod spacing;
 mod status;
@@ -23,11 +22,11 @@ pub use dumps::find_dumps;
 pub use failure::{Failure, describe};
 pub use folder::{Folder, FolderError};
 pub use job::{Job, PointError};
-pub(crate) use job::{grid, points, scene_with};
+pub(crate) use job::{PointScenes, grid, points};
 pub use label::{Labelling, changes, irreplaceable};
 pub use labels::{LabelRow, LabelTable, Point};
 pub(crate) use load::{
-    SweepFile, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes,
+    SWEEP, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes, or_path,
 };
 pub use load::{from_str, load};
 pub use plan::{Done, ForeignRecord, Plan, Standing};
