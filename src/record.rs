@@ -25,6 +25,8 @@ pub struct RunRecord {
     pub snapshots: Vec<Snapshot>,
     /// All spheres at every frame, if the scene's output asks for it; else empty.
     pub trajectory: Vec<Snapshot>,
+    /// Work of the run, in the unit of its model; 0 if it is not known.
+    pub work: u64,
     /// Processor time of the run (s). Differs from run to run.
     pub cpu_seconds: f64,
 }

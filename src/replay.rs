@@ -2,7 +2,6 @@
 
 use crate::observe::{FrameView, Observer};
 use crate::record::{Guard, Instability, Outcome, Program, RunRecord};
-use crate::run;
 use crate::scene::{Radii, Scene, Spheres, Start};
 use ndarray::{Array3, ArrayView2, Axis};
 
@@ -59,8 +58,8 @@ pub enum ReplayError {
 /// If the dump cannot be a run of this scene.
 pub fn replay(dump: &Array3<f64>, scene: &Scene) -> Result<RunRecord, ReplayError> {
     let (found, count, _) = dump.dim();
-    let (steps, frames) = run::frames(scene);
-    let expected = frames as usize + 1;
+    let steps = scene.time.steps_per_frame();
+    let expected = scene.time.frames() as usize + 1;
     if found != expected && found + 1 != expected {
         return Err(ReplayError::Frames { found, expected });
     }
@@ -119,6 +118,7 @@ pub fn replay(dump: &Array3<f64>, scene: &Scene) -> Result<RunRecord, ReplayErro
         observations,
         snapshots: Vec::new(),
         trajectory: Vec::new(),
+        work: 0,
         cpu_seconds: 0.0,
     })
 }
@@ -160,7 +160,7 @@ fn outcome(dump: &Array3<f64>, scene: &Scene) -> Outcome {
         return Outcome::Completed;
     }
     let frame = frames.position(|frame| broken(&frame)).unwrap_or_default();
-    let steps = frame as u64 * run::frames(scene).0;
+    let steps = frame as u64 * scene.time.steps_per_frame();
     Outcome::Unstable(Instability {
         guard: if odd(&dump.index_axis(Axis(0), frame)) {
             Guard::NotANumber

@@ -6,6 +6,7 @@
 
 use crate::record::RunRecord;
 use crate::run::{Progress, Run};
+use crate::simulation::StateError;
 use crate::store::{self, CheckpointError, StoreError};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -58,11 +59,15 @@ impl Checkpoints {
     /// # Errors
     /// If nothing can go on from the file; file and run stay as they were.
     pub fn restore(&self, run: &mut Run) -> Result<bool, CheckpointError> {
-        let Some(state) = store::read_checkpoint(&self.path, run.scene())? else {
+        let Some(checkpoint) = store::read_checkpoint(&self.path, run.scene())? else {
             return Ok(false);
         };
-        match run.restore(state) {
+        match run.restore(checkpoint.state()) {
             Ok(()) => Ok(true),
+            Err(StateError::OTHER_FORM) => Err(CheckpointError::Damaged {
+                path: self.path.clone(),
+                reason: StateError::OTHER_FORM.0,
+            }),
             Err(error) => Err(CheckpointError::Unfit {
                 path: self.path.clone(),
                 reason: error.to_string(),
@@ -109,18 +114,12 @@ impl Checkpoints {
     }
 
     fn write(&self, run: &Run) -> Result<(), StoreError> {
-        match run.state() {
-            Some(state) => {
-                // Its folder may have been removed while the run went on. What fails here fails again in
-                // writing, which says so.
-                if let Some(folder) = self.path.parent() {
-                    let _ = fs::create_dir_all(folder);
-                }
-                store::write_checkpoint(&self.path, run.scene(), &state)
-            }
-            // A guard ended the run: there is nothing to go on with.
-            None => Ok(()),
+        // Its folder may have been removed while the run went on. What fails here fails again in
+        // writing, which says so.
+        if let Some(folder) = self.path.parent() {
+            let _ = fs::create_dir_all(folder);
         }
+        store::write_checkpoint(&self.path, run)
     }
 
     /// Removes the file, if there is one.

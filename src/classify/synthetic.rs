@@ -31,8 +31,7 @@ pub(super) fn quiet(frames: usize) -> RunRecord {
         rising: Array3::zeros((frames, 3, 3)),
         ..Observations::default()
     };
-    let names: Vec<_> = observations.scalars().iter().map(|it| it.name).collect();
-    for name in names {
+    for name in COLUMNS {
         *observations.scalar_mut(name).unwrap() = vec![0.0; frames];
     }
     RunRecord {
@@ -45,9 +44,25 @@ pub(super) fn quiet(frames: usize) -> RunRecord {
         observations,
         snapshots: Vec::new(),
         trajectory: Vec::new(),
+        work: 0,
         cpu_seconds: 0.0,
     }
 }
+
+/// What is observed in a tank.
+const COLUMNS: [&str; 11] = [
+    "kinetic",
+    "rotational",
+    "gravitational",
+    "elastic",
+    "height_mean",
+    "height_max",
+    "hole_radius",
+    "speed_mean",
+    "air_speed_mean",
+    "rotation",
+    "fluctuation",
+];
 
 impl Verdict {
     /// The measures of what must be a tank.

@@ -81,7 +81,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         forecast = Some(found);
     }
     let scene = &sweep.scene;
-    let (steps_per_frame, frames) = phase::run::frames(scene);
+    let (steps_per_frame, frames) = (scene.time.steps_per_frame(), scene.time.frames());
     console.answer(&Answer {
         file: &arguments.file,
         kind: kind::name(is_sweep),
@@ -173,7 +173,7 @@ fn effects(scene: &Scene) -> Vec<&'static str> {
 }
 
 fn describe_time(scene: &Scene) -> String {
-    let (steps, frames) = phase::run::frames(scene);
+    let (steps, frames) = (scene.time.steps_per_frame(), scene.time.frames());
     format!(
         "{} s in {frames} frames of {steps} steps of {} s",
         scene.time.duration, scene.time.dt
@@ -308,7 +308,7 @@ impl ForecastAnswer {
     fn new(forecast: &Forecast, workers: usize) -> Self {
         let Forecast {
             tried,
-            sphere_steps,
+            work,
             rate,
             seconds,
             memory,
@@ -317,7 +317,7 @@ impl ForecastAnswer {
         Self {
             tried,
             workers,
-            sphere_steps,
+            sphere_steps: work,
             rate,
             seconds,
             memory,

@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::{format, job, kind};
-use phase::cost::{Part, SweepCost, Tried};
+use phase::cost::{PartCost, SweepCost, Tried};
 use phase::record::Outcome;
 use phase::sweep::{Axis, describe};
 use serde::Serialize;
@@ -50,7 +50,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     console.result(format_args!(
         "{about} {} of processor time for {}",
         format::duration(cost.total()),
-        format::sphere_steps(cost.sphere_steps() as f64)
+        format::sphere_steps(cost.work() as f64)
     ))?;
     console.answer(&Answer::new(
         arguments,
@@ -75,7 +75,7 @@ fn describe_tried(tried: &Tried<'_>, axes: &[Axis], jobs: usize) -> String {
     let what = format!(
         "{}, {} in {extent}",
         format::count(cost.frames as usize, "frame"),
-        format::sphere_steps(cost.sphere_steps as f64)
+        format::sphere_steps(cost.work as f64)
     );
     if jobs == 1 {
         return what;
@@ -83,7 +83,7 @@ fn describe_tried(tried: &Tried<'_>, axes: &[Axis], jobs: usize) -> String {
     format!(
         "{}: {what}; {:.1} ns per sphere and step, stands for {}",
         describe(axes, &tried.job.values, tried.job.seed),
-        1e9 * cost.total() / cost.sphere_steps.max(1) as f64,
+        1e9 * cost.total() / cost.work.max(1) as f64,
         format::count(tried.jobs, "job")
     )
 }
@@ -107,7 +107,7 @@ fn print_parts(cost: &SweepCost<'_>, console: &Console) -> Result<(), Failure> {
     console.result(format_args!(
         "  {:<20} {:>18.2} {:>6.1} %",
         "total",
-        1e9 * cost.total() / cost.sphere_steps().max(1) as f64,
+        1e9 * cost.total() / cost.work().max(1) as f64,
         100.0
     ))
 }
@@ -153,13 +153,14 @@ struct TriedAnswer {
 
 fn rows(cost: &SweepCost<'_>) -> Vec<Row> {
     let total = cost.total();
-    let row = |&part: &Part| Row {
-        part: part.name(),
-        present: cost.has(part),
-        nanoseconds: 1e9 * cost.per_sphere_step(part),
-        share: cost.seconds(part) / total,
+    let work = cost.work().max(1) as f64;
+    let row = |part: &PartCost| Row {
+        part: part.name,
+        present: part.is_present,
+        nanoseconds: 1e9 * part.seconds / work,
+        share: part.seconds / total,
     };
-    Part::ALL.iter().map(row).collect()
+    cost.parts().iter().map(row).collect()
 }
 
 impl<'a> Answer<'a> {
@@ -177,16 +178,16 @@ impl<'a> Answer<'a> {
             whole: tried.cost.whole,
             unstable: matches!(tried.cost.record.outcome, Outcome::Unstable(_)),
             frames: tried.cost.frames,
-            sphere_steps: tried.cost.sphere_steps,
+            sphere_steps: tried.cost.work,
             cpu_seconds: tried.cost.total(),
         });
         Self {
             file: &arguments.file,
             kind: kind::name(is_sweep),
             jobs,
-            sphere_steps: cost.sphere_steps(),
+            sphere_steps: cost.work(),
             cpu_seconds: cost.total(),
-            nanoseconds: 1e9 * cost.total() / cost.sphere_steps().max(1) as f64,
+            nanoseconds: 1e9 * cost.total() / cost.work().max(1) as f64,
             parts: rows(cost),
             tried: tried.collect(),
         }

@@ -13,10 +13,9 @@ use phase::dem::timestep::Standing;
 use phase::document::Problem;
 use phase::record::{Milestone, MilestoneKind, Outcome, RunRecord};
 use phase::resume::{Checkpoints, DEFAULT_INTERVAL};
-use phase::run;
+use phase::run::frame_of_state;
 use phase::scene::{Scene, Start};
 use phase::store::{self, Lock};
-use phase::sweep::work;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -192,11 +191,11 @@ fn write(
     };
     written.map_err(|error| {
         let left = match store::read_checkpoint(checkpoints.path(), &record.scene) {
-            Ok(Some(state)) => format!(
+            Ok(Some(checkpoint)) => format!(
                 "the checkpoint of frame {} of {} stays: the same command with --resume goes on from \
                  there ({})",
-                state.frame(),
-                run::frames(&record.scene).1,
+                frame_of_state(checkpoint.state()).unwrap_or_default(),
+                record.scene.time.frames(),
                 checkpoints.path().display()
             ),
             _ => "the run had left no checkpoint yet, and must be made again".to_owned(),
@@ -262,7 +261,7 @@ struct Answer<'a> {
     /// What was to happen and did not.
     unmet: Vec<String>,
     /// Time (s) and every scalar observable of the last frame, in the units of the record.
-    last_frame: BTreeMap<&'static str, f64>,
+    last_frame: BTreeMap<&'a str, f64>,
     /// Time (s) of the checkpoint that the run went on from; none if it began at its start.
     resumed_from: Option<f64>,
     /// Whether a job that was run again gave the bits of the sweep's record; none without one.
@@ -280,7 +279,7 @@ struct Broken {
 }
 
 impl<'a> Answer<'a> {
-    fn new(record: &RunRecord, seconds: f64, path: &'a Path) -> Self {
+    fn new(record: &'a RunRecord, seconds: f64, path: &'a Path) -> Self {
         let observations = &record.observations;
         let mut last_frame = BTreeMap::new();
         last_frame.extend(observations.time.last().map(|time| ("time", *time)));
@@ -306,7 +305,7 @@ impl<'a> Answer<'a> {
             }),
             seconds,
             cpu_seconds: record.cpu_seconds,
-            sphere_steps: work::sphere_steps_of(record),
+            sphere_steps: record.work,
             frames: observations.frames(),
             dt: record.scene.time.dt,
             dt_over_limit: standing.map(|it| it.ratio),
@@ -353,7 +352,7 @@ fn unmet(record: &RunRecord) -> Vec<String> {
 /// How the run ended, and the state of its last frame.
 fn summary(record: &RunRecord, seconds: f64) -> String {
     let observations = &record.observations;
-    let steps = work::sphere_steps_of(record) as f64;
+    let steps = record.work as f64;
     let mut text = match &record.outcome {
         Outcome::Completed => "completed".to_owned(),
         Outcome::Unstable(instability) => format!("unstable: {instability}"),

@@ -189,7 +189,7 @@ impl Tried {
 }
 
 fn steps(job: &Job) -> u64 {
-    work::sphere_steps(&job.scene)
+    job.work()
 }
 
 /// Runs what is left of a study; and how long that took (s).
@@ -222,7 +222,7 @@ fn run(trials: &Trials<'_>, known: Vec<Row>, console: &Console) -> Result<(Repor
         Event::Finished(job, row) => {
             let last = row.broken.map(|(_, step, _)| step);
             let run = last.map_or(steps(job), |step| {
-                work::sphere_steps_until(&job.scene, step)
+                (job.scene.spheres.count as u64).saturating_mul(step)
             });
             progress.advance(run);
             progress.detail(format_args!("{}: {}", row.label.name(), name(job)));

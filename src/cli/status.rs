@@ -85,8 +85,8 @@ struct UnderWayAnswer {
     id: String,
     point: BTreeMap<String, f64>,
     seed: u64,
-    step: u64,
-    steps: u64,
+    frame: u64,
+    frames: u64,
 }
 
 impl UnderWayAnswer {
@@ -95,8 +95,8 @@ impl UnderWayAnswer {
             id: run.id.clone(),
             point: job::point(axes, &run.values),
             seed: run.seed,
-            step: run.step,
-            steps: run.steps,
+            frame: run.frame,
+            frames: run.frames,
         };
         runs.iter().map(answer).collect()
     }
@@ -155,12 +155,12 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
     };
     for run in under_way {
         text += &format!(
-            "\n  under way  {} (job {}): checkpoint at step {} of {}, {}",
+            "\n  under way  {} (job {}): checkpoint at frame {} of {}, {}",
             describe(axes, &run.values, run.seed),
             run.id,
-            run.step,
-            run.steps,
-            format::percent(run.step as usize, run.steps as usize)
+            run.frame,
+            run.frames,
+            format::percent(run.frame as usize, run.frames as usize)
         );
     }
     for failure in failures {

@@ -256,7 +256,7 @@ impl Answer {
             workers: run.workers,
             seconds: run.seconds,
             cpu_seconds: run.report.cpu_seconds,
-            sphere_steps: run.report.sphere_steps,
+            sphere_steps: run.report.work,
             labels: None,
             files: Vec::new(),
         }
@@ -266,7 +266,7 @@ impl Answer {
 /// Runs what is to be run of a plan and watches it.
 fn run(plan: &Plan, pool: Pool<'_>, console: &Console) -> Result<Run, Failure> {
     let (sweep, workers) = (pool.sweep, pool.workers);
-    let steps = |job: &Job| work::sphere_steps(&job.scene);
+    let steps = Job::work;
     let progress = Progress::new(
         console,
         Work {
@@ -307,9 +307,9 @@ fn run(plan: &Plan, pool: Pool<'_>, console: &Console) -> Result<Run, Failure> {
         Event::Advanced(_, steps) => progress.advance(steps),
         Event::Finished(job, record) => {
             note_unstable(job, &record.outcome);
-            let frames = (record.observations.frames() as u64).saturating_sub(1);
-            let last = frames * phase::run::frames(&job.scene).0;
-            let run = work::sphere_steps_until(&job.scene, last);
+            let frame = (record.observations.frames() as u64).saturating_sub(1);
+            let share = frame as f64 / job.scene.time.frames().max(1) as f64;
+            let run = (share * steps(job) as f64) as u64;
             progress.detail(format_args!(
                 "done: {} (job {}), {} of CPU",
                 name(job),
@@ -359,7 +359,7 @@ impl Run {
             resumed,
             failures,
             left,
-            sphere_steps,
+            work,
             cpu_seconds,
             ..
         } = &self.report;
@@ -383,9 +383,9 @@ impl Run {
         if *finished > 0 {
             text += &format!(
                 "\n{} in {} of CPU time: {} per CPU second",
-                format::sphere_steps(*sphere_steps as f64),
+                format::sphere_steps(*work as f64),
                 format::duration(*cpu_seconds),
-                format::sphere_steps(*sphere_steps as f64 / cpu_seconds.max(1e-9)),
+                format::sphere_steps(*work as f64 / cpu_seconds.max(1e-9)),
             );
         }
         console.result(text)?;

@@ -1,7 +1,7 @@
 //! How time steps stand to their limits, as commands tell it.
 
 use super::console::Console;
-use phase::dem::timestep::{self, Standing};
+use phase::dem::timestep::{self, Limit, Standing};
 use phase::scene::Scene;
 use phase::sweep::{Axis, Job, Sweep, describe};
 use std::collections::BTreeSet;
@@ -37,17 +37,16 @@ pub(super) fn tightest_limits(jobs: &[Job]) -> Vec<Tightest<'_>> {
     tightest
 }
 
-/// Says how the step of a scene stands to the limit above which it is refused, and warns.
+/// Says how the step of a scene stands to the limit above which it is refused, and whether it is
+/// coarse. What follows from a coarse step is left to `check`.
 pub(super) fn tell_of_scene(scene: &Scene, console: &Console) {
     let standings = Standing::all(scene);
     let decisive = standings.first().filter(|it| it.limit.decisive);
     console.note(describe_step(scene, decisive, ""));
-    for standing in &standings {
-        warn(standing, "", console);
-    }
+    note_coarse(standings.iter(), console);
 }
 
-/// Says it of the point of a sweep that is nearest its limit, and warns where points come too near.
+/// Says it of the point of a sweep that is nearest its limit.
 pub(super) fn tell_of_jobs(jobs: &[Job], axes: &[Axis], console: &Console) {
     let tightest = tightest_limits(jobs);
     match tightest.first().filter(|it| it.standing.limit.decisive) {
@@ -59,7 +58,23 @@ pub(super) fn tell_of_jobs(jobs: &[Job], axes: &[Axis], console: &Console) {
         None => console
             .note("time step: nothing in these scenes sets a limit beyond which it is refused"),
     }
-    warn_of_jobs(&tightest, axes, console);
+    note_coarse(tightest.iter().map(|it| &it.standing), console);
+}
+
+/// Says in one line to which limits the step comes too near, if there are any.
+fn note_coarse<'a>(standings: impl Iterator<Item = &'a Standing>, console: &Console) {
+    let coarse = standings.filter(|standing| standing.consequence().is_some());
+    let coarse = coarse.map(|Standing { limit, ratio }| {
+        let kind = kind_of(limit);
+        format!("{ratio:.2} of the {kind} ({})", limit.name)
+    });
+    let coarse: Vec<String> = coarse.collect();
+    if !coarse.is_empty() {
+        console.note(format_args!(
+            "the time step is coarse: {}; `phase check` says what follows",
+            coarse.join(", ")
+        ));
+    }
 }
 
 /// Warns of every limit that a point of a sweep comes too near.
@@ -105,15 +120,18 @@ fn warn(standing: &Standing, at: &str, console: &Console) {
         return;
     };
     let Standing { limit, ratio } = standing;
-    let kind = if limit.decisive {
-        "limit"
-    } else {
-        "advised limit"
-    };
+    let kind = kind_of(limit);
     console.warning(format_args!(
         "the time step is {ratio:.2} times the {kind} of {:.2e} s ({}){at}: {consequence}",
         limit.seconds, limit.name
     ));
+}
+
+fn kind_of(limit: &Limit) -> &'static str {
+    match limit.decisive {
+        true => "limit",
+        false => "advised limit",
+    }
 }
 
 /// The steps that were chosen where the scene says `dt = "auto"`, and from which limits.

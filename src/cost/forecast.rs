@@ -1,7 +1,7 @@
 //! What a sweep will cost, from a short trial of a few of its jobs.
 
 use super::representatives::{Representative, representatives};
-use super::{CostError, Part, RunCost};
+use super::{CostError, RECORD, RunCost, START};
 use crate::record::RunRecord;
 use crate::run::{self, RunError};
 use crate::scene::Scene;
@@ -15,9 +15,9 @@ use std::time::Duration;
 pub struct Forecast {
     /// Number of jobs that were tried.
     pub tried: usize,
-    /// Sphere-steps of all jobs.
-    pub sphere_steps: u64,
-    /// Sphere-steps per second of one worker while all work.
+    /// Work of all jobs, in the unit of their model.
+    pub work: u64,
+    /// Work per second of one worker while all work.
     pub rate: f64,
     /// Time (s).
     pub seconds: f64,
@@ -68,7 +68,7 @@ pub enum ForecastError {
 
 /// Cost of one job, as tried.
 struct Trial {
-    /// Seconds per sphere-step.
+    /// Seconds per unit of work.
     step: f64,
     /// Seconds that come once for every job: start and record.
     once: f64,
@@ -101,18 +101,17 @@ pub fn forecast(
     let mean = |value: fn(&Trial) -> f64| {
         sum(&|trial, chosen| value(trial) * chosen.jobs as f64) / jobs.len().max(1) as f64
     };
-    let sphere_steps = chosen.iter().map(|it| it.sphere_steps).sum();
+    let work = chosen.iter().map(|it| it.work).sum();
     // Times add up, not rates.
-    let seconds = sum(&|trial, chosen| {
-        trial.step * chosen.sphere_steps as f64 + trial.once * chosen.jobs as f64
-    });
-    let rate = sphere_steps as f64 / seconds;
+    let seconds =
+        sum(&|trial, chosen| trial.step * chosen.work as f64 + trial.once * chosen.jobs as f64);
+    let rate = work as f64 / seconds;
     let at_once = workers.min(jobs.len()).max(1) as f64;
     Ok(Forecast {
         tried: chosen.len(),
-        sphere_steps,
+        work,
         rate,
-        seconds: sphere_steps as f64 / rate / at_once,
+        seconds: work as f64 / rate / at_once,
         memory: PROGRAM_MEMORY + at_once * mean(|trial| trial.memory),
         disk: (leaves == Leaves::Records).then(|| jobs.len() as f64 * mean(|trial| trial.disk)),
     })
@@ -133,18 +132,18 @@ fn try_job(job: &Job, budget: Duration, leaves: Leaves) -> Result<Trial, Forecas
         (Leaves::Nothing, _) => 0.0,
         (Leaves::Records, true) => size_of_record(&cost.record)?,
         (Leaves::Records, false) => {
-            let all_frames = run::frames(&job.scene).1;
+            let all_frames = job.scene.time.frames();
             size_of_whole_run(job, (cost.frames / 2).max(20).min(all_frames))?
         }
     };
-    let start = cost.seconds(Part::Start);
+    let start = cost.seconds(START);
     // The record is written by the same worker.
     let record = match leaves {
-        Leaves::Records => cost.seconds(Part::Record),
+        Leaves::Records => cost.seconds(RECORD),
         Leaves::Nothing => 0.0,
     };
     Ok(Trial {
-        step: (cost.elapsed - start).max(0.0) / cost.sphere_steps.max(1) as f64,
+        step: (cost.elapsed - start).max(0.0) / cost.work.max(1) as f64,
         once: start + record,
         disk,
         // The record in memory and as the bytes of its file, neither compressed.
@@ -194,7 +193,7 @@ fn size_of_whole_run(job: &Job, frames: u64) -> Result<f64, ForecastError> {
     let (size, observed) = size_without_states(frames)?;
     let (half_size, half_observed) = size_without_states((frames / 2).max(1))?;
     let per_frame = (size - half_size) / (observed - half_observed).max(1.0);
-    let all_frames = run::frames(&job.scene).1 as f64;
+    let all_frames = job.scene.time.frames() as f64;
     Ok(size + per_frame.max(0.0) * (all_frames - observed).max(0.0) + states(&job.scene))
 }
 

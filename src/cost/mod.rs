@@ -10,7 +10,6 @@ mod representatives;
 mod run;
 mod sweep;
 
-pub use crate::dem::Part;
 pub use forecast::{Forecast, ForecastError, Leaves, forecast};
-pub use run::{CostError, RunCost};
+pub use run::{CostError, OBSERVERS, PartCost, RECORD, RunCost, START};
 pub use sweep::{SweepCost, Tried};

@@ -1,7 +1,7 @@
 //! The few jobs of a grid that are tried to forecast the cost of all.
 
 use crate::scene::Integrator;
-use crate::sweep::{Job, work};
+use crate::sweep::Job;
 
 /// A job that stands for those nearest to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,8 +10,8 @@ pub(super) struct Representative<'a> {
     pub(super) job: &'a Job,
     /// Number of jobs that it stands for, itself among them.
     pub(super) jobs: usize,
-    /// Their sphere-steps.
-    pub(super) sphere_steps: u64,
+    /// Their work.
+    pub(super) work: u64,
 }
 
 /// The jobs at the corners and in the middle of the grid, of the first seed and each integrator. The others, of all seeds,
@@ -47,7 +47,7 @@ pub(super) fn representatives(jobs: &[Job]) -> Vec<Representative<'_>> {
         .map(|job| Representative {
             job,
             jobs: 0,
-            sphere_steps: 0,
+            work: 0,
         })
         .collect();
     for job in jobs {
@@ -58,7 +58,7 @@ pub(super) fn representatives(jobs: &[Job]) -> Vec<Representative<'_>> {
             .min_by(|(_, a), (_, b)| a.total_cmp(b));
         if let Some((nearest, _)) = nearest {
             standing[nearest].jobs += 1;
-            standing[nearest].sphere_steps += work::sphere_steps(&job.scene);
+            standing[nearest].work += job.work();
         }
     }
     standing
@@ -138,7 +138,7 @@ mod tests {
     fn every_job_is_stood_for_once() {
         let jobs = grid(9, 3);
         let chosen = representatives(&jobs);
-        let steps: u64 = chosen.iter().map(|it| it.sphere_steps).sum();
+        let steps: u64 = chosen.iter().map(|it| it.work).sum();
         assert_eq!(steps, 9 * 9 * 3 * 3 * 1000);
         assert_eq!(chosen.iter().map(|it| it.jobs).sum::<usize>(), 9 * 9 * 3);
         // The middle has those less than four steps away, 1 + 4 + 8 + 12 points; at four steps corners

@@ -1,7 +1,7 @@
 //! What a sweep costs, from a few of its jobs.
 
 use super::representatives::representatives;
-use super::{CostError, Part, RunCost};
+use super::{CostError, PartCost, RunCost};
 use crate::sweep::Job;
 use std::time::Duration;
 
@@ -19,19 +19,18 @@ pub struct Tried<'a> {
     pub job: &'a Job,
     /// Number of jobs that it stands for, itself among them.
     pub jobs: usize,
-    /// Their sphere-steps.
-    pub sphere_steps: u64,
+    /// Their work.
+    pub work: u64,
     /// What it costs.
     pub cost: RunCost,
 }
 
 impl Tried<'_> {
     /// Processor time of a part of all jobs that it stands for (s).
-    pub fn seconds(&self, part: Part) -> f64 {
-        let runs = match part {
-            // Once for every job, however far it comes.
-            Part::Start | Part::Record => self.jobs as f64,
-            _ => self.sphere_steps as f64 / self.cost.all_sphere_steps.max(1) as f64,
+    fn seconds(&self, part: &PartCost) -> f64 {
+        let runs = match part.is_once {
+            true => self.jobs as f64,
+            false => self.work as f64 / self.cost.all_work.max(1) as f64,
         };
         self.cost.all_seconds(part) * runs
     }
@@ -52,9 +51,9 @@ impl<'a> SweepCost<'a> {
                 job: it.job,
                 jobs: it.jobs,
                 // A silo that emptied has told how much less it takes.
-                sphere_steps: match jobs.len() {
-                    1 => cost.all_sphere_steps,
-                    _ => it.sphere_steps,
+                work: match jobs.len() {
+                    1 => cost.all_work,
+                    _ => it.work,
                 },
                 cost,
             })
@@ -64,28 +63,27 @@ impl<'a> SweepCost<'a> {
         })
     }
 
-    /// Processor time of a part of all jobs (s).
-    pub fn seconds(&self, part: Part) -> f64 {
-        self.tried.iter().map(|tried| tried.seconds(part)).sum()
+    /// What each part of all jobs costs.
+    pub fn parts(&self) -> Vec<PartCost> {
+        let first = self.tried.first().map_or(&[][..], |it| &it.cost.parts);
+        let of_all = |(index, part): (usize, &PartCost)| {
+            let all = self.tried.iter().map(|it| (it, &it.cost.parts[index]));
+            PartCost {
+                is_present: all.clone().any(|(_, part)| part.is_present),
+                seconds: all.map(|(tried, part)| tried.seconds(part)).sum(),
+                ..*part
+            }
+        };
+        first.iter().enumerate().map(of_all).collect()
     }
 
     /// Processor time of all jobs (s).
     pub fn total(&self) -> f64 {
-        Part::ALL.iter().map(|&part| self.seconds(part)).sum()
+        self.parts().iter().map(|part| part.seconds).sum()
     }
 
-    /// Sphere-steps of all jobs; where spheres come and go, the most that they may take.
-    pub fn sphere_steps(&self) -> u64 {
-        self.tried.iter().map(|tried| tried.sphere_steps).sum()
-    }
-
-    /// Whether any job has that part.
-    pub fn has(&self, part: Part) -> bool {
-        self.tried.iter().any(|it| part.is_in(&it.job.scene))
-    }
-
-    /// Processor time of a part per sphere and step (s).
-    pub fn per_sphere_step(&self, part: Part) -> f64 {
-        self.seconds(part) / self.sphere_steps().max(1) as f64
+    /// Work of all jobs; where spheres come and go, the most that it may be.
+    pub fn work(&self) -> u64 {
+        self.tried.iter().map(|tried| tried.work).sum()
     }
 }

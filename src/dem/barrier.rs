@@ -1,31 +1,41 @@
-//! How fast a disc must be to squeeze through a wall of fixed ones.
+//! How fast a disc must be to squeeze through a wall of fixed ones, or too deep into it.
 
 use super::contact::{Hertz, Linear, NormalLaw, Silbert};
 use super::process::wall_pairs;
 use super::timestep;
 use crate::scene::{Contact, FixedSphere, Geometry, Scene, Shape};
 
-/// The weakest place of a scene's walls, for the disc that passes it most easily.
+/// The weakest place of a scene's walls, for the disc that they hold least.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WeakestWall {
-    /// Speed above which a disc passes (m/s).
+    /// Speed above which the walls do not hold a disc (m/s).
     pub speed: f64,
     /// Radius of that disc (m).
     pub radius: f64,
-    /// The fixed ones between which it passes.
-    pub between: [FixedSphere; 2],
+    /// The fixed discs at that place: one, or two side by side.
+    pub fixed: [FixedSphere; 2],
+    /// What happens there.
+    pub failure: WallFailure,
+}
+
+/// What happens at a wall that does not hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WallFailure {
+    /// The disc passes between the two fixed ones.
+    Passed,
+    /// The disc presses into the first fixed one until the overlap guard ends the run.
+    OverlapGuard,
 }
 
 impl WeakestWall {
     /// The weakest place of the walls of discs of a scene, its door included. None without any, or
     /// without a contact law.
     ///
-    /// A disc that passes between two fixed ones, midway between their surfaces, overlaps them and
-    /// perhaps others. What these contacts store there it must bring along as kinetic energy. The
-    /// damping, which makes it a little harder, and discs that push from behind, which make it
-    /// easier, are left out.
+    /// At the place where a wall fails, the disc overlaps fixed ones. What these contacts store
+    /// there it must bring along as kinetic energy. The damping, which makes it a little harder,
+    /// and discs that push from behind, which make it easier, are left out.
     pub fn of_scene(scene: &Scene) -> Option<Self> {
-        let contact = scene.contact.as_ref()?;
+        scene.contact.as_ref()?;
         let fixed = scene.geometry.as_ref().map(Geometry::spheres)?;
         if scene.spheres.shape != Shape::Disc {
             return None;
@@ -33,43 +43,72 @@ impl WeakestWall {
         let with_door = [&fixed.walls[..], &fixed.door[..]].concat();
         let (smallest, largest) = scene.radius_range();
         let pairs = wall_pairs(&with_door, 2.0 * smallest);
-        let places = pairs.iter().flat_map(|&between| {
-            [smallest, largest].map(|radius| Self {
-                speed: passing_speed(scene, contact, radius, between, &with_door),
-                radius,
-                between,
+        let alone = with_door.iter().map(|&one| [one, one]);
+        let places = pairs.iter().copied().chain(alone).flat_map(|fixed| {
+            [smallest, largest].into_iter().flat_map(move |radius| {
+                let passed = [(WallFailure::Passed, gap(fixed))];
+                let too_deep = deepest(scene, radius, fixed);
+                let too_deep = too_deep.map(|place| (WallFailure::OverlapGuard, place));
+                let is_pair = fixed[0] != fixed[1];
+                let passed = passed.into_iter().filter(move |_| is_pair);
+                passed.chain(too_deep).map(move |it| (it, radius, fixed))
             })
+        });
+        let places = places.map(|((failure, place), radius, fixed)| Self {
+            speed: speed_to(scene, radius, place, &with_door),
+            radius,
+            fixed,
+            failure,
         });
         places.min_by(|a, b| a.speed.total_cmp(&b.speed))
     }
 }
 
-/// The speed (m/s) at which a disc has the energy that its contacts with all `fixed` ones store
-/// where it passes between two of them.
-fn passing_speed(
-    scene: &Scene,
-    contact: &Contact,
-    radius: f64,
-    between: [FixedSphere; 2],
-    fixed: &[FixedSphere],
-) -> f64 {
-    let distance = |a: [f64; 3], b: [f64; 3]| libm::hypot(b[0] - a[0], b[2] - a[2]);
-    let [one, other] = between;
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    libm::hypot(b[0] - a[0], b[2] - a[2])
+}
+
+/// The place midway between the surfaces of two fixed discs (m).
+fn gap([one, other]: [FixedSphere; 2]) -> [f64; 3] {
     let apart = distance(one.position, other.position);
     let share = 0.5 * (apart + one.radius - other.radius) / apart;
-    let place = std::array::from_fn(|axis| {
-        (1.0 - share) * one.position[axis] + share * other.position[axis]
-    });
+    std::array::from_fn(|axis| (1.0 - share) * one.position[axis] + share * other.position[axis])
+}
+
+/// The place (m) at which a disc that comes straight at the wall overlaps the first fixed disc as
+/// far as the overlap guard allows. None where it is beyond that disc's centre: the guard is never
+/// broken on the way there.
+fn deepest(scene: &Scene, radius: f64, [one, other]: [FixedSphere; 2]) -> Option<[f64; 3]> {
+    let overlap = scene.guards.overlap * radius.min(one.radius);
+    let above = radius + one.radius - overlap;
+    let apart = distance(one.position, other.position);
+    let normal = match apart > 0.0 {
+        true => [
+            (other.position[2] - one.position[2]) / apart,
+            (one.position[0] - other.position[0]) / apart,
+        ],
+        false => [0.0, 1.0],
+    };
+    let [x, y, z] = one.position;
+    (above > 0.0).then(|| [x + above * normal[0], y, z + above * normal[1]])
+}
+
+/// The speed (m/s) at which a disc has the energy that its contacts with all `fixed` ones store at
+/// a place.
+fn speed_to(scene: &Scene, radius: f64, place: [f64; 3], fixed: &[FixedSphere]) -> f64 {
     let contacts = fixed.iter().filter_map(|fixed| {
         let overlap = radius + fixed.radius - distance(fixed.position, place);
         let effective_radius = radius * fixed.radius / (radius + fixed.radius);
-        (overlap > 0.0).then(|| elastic_energy(scene, contact, overlap, effective_radius))
+        (overlap > 0.0).then(|| elastic_energy(scene, overlap, effective_radius))
     });
     let mass = scene.spheres.shape.mass(scene.spheres.density, radius);
     (2.0 * contacts.sum::<f64>() / mass).sqrt()
 }
 
-fn elastic_energy(scene: &Scene, contact: &Contact, overlap: f64, effective_radius: f64) -> f64 {
+fn elastic_energy(scene: &Scene, overlap: f64, effective_radius: f64) -> f64 {
+    let Some(contact) = &scene.contact else {
+        return 0.0;
+    };
     match *contact {
         Contact::Linear {
             stiffness,

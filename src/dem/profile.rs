@@ -1,9 +1,10 @@
-//! What the parts of a step take, on request.
+//! The parts of a step that cost time.
 
-use crate::cpu_time;
 use crate::scene::{Scene, Start, Tank};
+use crate::simulation::PartOfStep;
+pub(super) use crate::simulation::Profile;
 
-/// The parts of a run that cost time.
+/// The parts of a step that cost time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
     /// Building the neighbour list.
@@ -38,17 +39,11 @@ pub enum Part {
     Rest,
     /// Feed, door, outlet, and the watches over them.
     Process,
-    /// Observers of a frame, the elastic energy of contacts among what they see.
-    Observers,
-    /// Taking the last snapshot, and writing the record.
-    Record,
-    /// Placing the spheres, and all that is made before the first step.
-    Start,
 }
 
 impl Part {
     /// All parts, in the order of a step.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 16] = [
         Self::List,
         Self::Near,
         Self::Pairs,
@@ -65,9 +60,6 @@ impl Part {
         Self::Drift,
         Self::Rest,
         Self::Process,
-        Self::Observers,
-        Self::Record,
-        Self::Start,
     ];
 
     /// Its name in tables.
@@ -89,9 +81,6 @@ impl Part {
             Self::Drift => "drift",
             Self::Rest => "rest of the step",
             Self::Process => "feed, door, outlet",
-            Self::Observers => "observers",
-            Self::Record => "record",
-            Self::Start => "start",
         }
     }
 
@@ -117,124 +106,25 @@ impl Part {
                     || scene.rest.is_some()
                     || scene.outlet.is_some()
             }
-            Self::Kick
-            | Self::Drift
-            | Self::Rest
-            | Self::Observers
-            | Self::Record
-            | Self::Start => true,
+            Self::Kick | Self::Drift | Self::Rest => true,
         }
     }
 }
 
-/// Seconds of processor time of every part, in the order of [`Part::ALL`].
-pub type Seconds = [f64; Part::ALL.len()];
-
-/// A profile of a running engine.
-///
-/// The total is the processor time of the thread. How it divides into parts is found in some of the
-/// steps, in which the clock is read between the parts; the others run as they always do. What reading the
-/// clock takes is left out of all times.
-#[derive(Clone, Debug)]
-pub(crate) struct Profile {
-    /// What one reading of the clock takes (s).
-    pub(crate) reading: f64,
-    /// Times of the parts in the steps that were looked at (s).
-    looked_at: Seconds,
-    /// The latest reading, while a step is looked at (s).
-    latest: Option<f64>,
-    readings: u64,
-    /// When the engine was entered (s).
-    entered: f64,
-    /// Time in the engine so far (s), readings included.
-    inside: f64,
-    sphere_steps: u64,
+/// The parts of a scene's step, in the order of [`Part::ALL`].
+pub(super) fn parts_of(scene: &Scene) -> Vec<PartOfStep> {
+    let part = |part: Part| PartOfStep {
+        name: part.name(),
+        is_present: part.is_in(scene),
+        // Feed, door and outlet work between the steps.
+        is_between_steps: part == Part::Process,
+    };
+    Part::ALL.map(part).into()
 }
 
-/// Readings by which a profile finds what one takes.
-const TRIALS: u32 = 2000;
-
-impl Profile {
-    /// An empty profile, which knows what a reading takes.
-    pub(crate) fn new() -> Self {
-        let started = cpu_time::of_this_thread();
-        for _ in 1..TRIALS {
-            std::hint::black_box(cpu_time::of_this_thread());
-        }
-        let trials = cpu_time::of_this_thread() - started;
-        Self {
-            reading: trials / f64::from(TRIALS),
-            looked_at: Seconds::default(),
-            latest: None,
-            readings: 0,
-            entered: 0.0,
-            inside: 0.0,
-            sphere_steps: 0,
-        }
-    }
-
-    /// Time in the engine (s).
-    pub(crate) fn seconds(&self) -> f64 {
-        self.inside - self.readings as f64 * self.reading
-    }
-
-    /// What reading the clock took (s).
-    pub(crate) fn readings(&self) -> f64 {
-        self.readings as f64 * self.reading
-    }
-
-    /// Steps done, each times the spheres that moved in it.
-    pub(crate) fn sphere_steps(&self) -> u64 {
-        self.sphere_steps
-    }
-
-    /// The time in the engine, divided into its parts.
-    pub(crate) fn parts(&self) -> Seconds {
-        let all: f64 = self.looked_at.iter().sum();
-        if all > 0.0 {
-            return self.looked_at.map(|part| part * self.seconds() / all);
-        }
-        let mut parts = Seconds::default();
-        parts[Part::Rest as usize] = self.seconds();
-        parts
-    }
-
-    pub(super) fn enter(&mut self) {
-        self.entered = cpu_time::of_this_thread();
-        self.readings += 1;
-    }
-
-    pub(super) fn leave(&mut self) {
-        self.latest = None;
-        self.inside += cpu_time::of_this_thread() - self.entered;
-    }
-
-    /// Begins a step that moves so many spheres, and looks at it or not.
-    #[inline(never)]
-    fn begin(&mut self, step: u64, spheres: usize) {
-        self.sphere_steps += spheres as u64;
-        // The clock is read a dozen times for 128 spheres, half a microsecond each, in a step of some 50 ns per
-        // sphere: with one step of 16 at most that adds some percent to it.
-        let period = (8192 / spheres.max(1) as u64).clamp(16, 256);
-        // Multiples of the golden ratio are spread evenly over any rhythm of steps, such as that of the
-        // neighbour list.
-        let spread = (step + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        self.latest = (spread < u64::MAX / period).then(|| {
-            self.readings += 1;
-            cpu_time::of_this_thread()
-        });
-    }
-
-    /// Ends a part of a step.
-    #[inline(never)]
-    pub(super) fn mark(&mut self, part: Part) {
-        if let Some(latest) = self.latest {
-            let now = cpu_time::of_this_thread();
-            self.readings += 1;
-            self.looked_at[part as usize] += (now - latest - self.reading).max(0.0);
-            self.latest = Some(now);
-        }
-    }
+/// An empty profile of the parts of a step.
+pub(super) fn new_profile() -> Profile {
+    Profile::new(Part::ALL.len(), Part::Rest as usize)
 }
 
 /// Begins a step, if there is a profile.
@@ -249,6 +139,6 @@ pub(super) fn begin(profile: &mut Option<Box<Profile>>, step: u64, spheres: usiz
 #[inline(always)]
 pub(super) fn mark(profile: &mut Option<Box<Profile>>, part: Part) {
     if let Some(profile) = profile {
-        profile.mark(part);
+        profile.mark(part as usize);
     }
 }

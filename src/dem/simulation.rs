@@ -8,7 +8,6 @@ use super::neighbours::VerletList;
 use super::order;
 use super::particles::{Particles, Sphere};
 use super::process::{Feed, Process};
-use super::profile::Profile;
 use super::start::{self, StartError};
 use super::system::{Engine, Parts};
 use super::vector::Vector;
@@ -50,6 +49,7 @@ pub struct Simulation {
     pub(super) mass: Vec<f64>,
     pub(super) inertia: Vec<f64>,
     dt: f64,
+    pub(super) steps_per_frame: u64,
     /// What a frame borrows.
     pub(super) components: [[Vec<f64>; 3]; 3],
     /// The threads that the engine runs on, if there are several.
@@ -136,6 +136,7 @@ impl Simulation {
             mass,
             inertia,
             dt: scene.time.dt,
+            steps_per_frame: scene.time.steps_per_frame(),
             components: Default::default(),
             pool: None,
         })
@@ -223,21 +224,6 @@ impl Simulation {
         let pool = self.pool.iter();
         pool.flat_map(|pool| pool.broadcast(|_| cpu_time::of_this_thread()))
             .sum()
-    }
-
-    /// Forgets all that is known of contacts, for its memory: nothing comes but a last look at the spheres.
-    pub(crate) fn forget_contacts(&mut self) {
-        self.engine.forget_contacts();
-    }
-
-    /// Begins to measure what the parts of a step take. Never changes the motion.
-    pub(crate) fn keep_profile(&mut self, profile: Profile) {
-        self.engine.keep_profile(profile);
-    }
-
-    /// What was measured, if anything is.
-    pub(crate) fn profile(&self) -> Option<&Profile> {
-        self.engine.profile()
     }
 
     /// The spheres that are in the simulation, the fixed ones first. The order of the others is that of

@@ -3,6 +3,7 @@
 use super::Simulation;
 use super::process::{Process, ProcessState};
 use super::system::EngineState;
+pub(super) use crate::simulation::StateError;
 use serde::{Deserialize, Serialize};
 
 /// What a simulation goes on from: everything that neither its scene says nor can be found again
@@ -24,11 +25,6 @@ impl SimulationState<'_> {
         }
     }
 }
-
-/// A state is not one of the scene, or was saved by another program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the state does not fit the scene: {0}")]
-pub struct StateError(pub(super) &'static str);
 
 impl Simulation {
     /// The state between the latest step and the next. Asking for it never changes the motion.

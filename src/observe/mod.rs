@@ -4,6 +4,6 @@ mod observations;
 mod observer;
 mod reduce;
 
-pub use crate::simulation::{FRAME_BLOCK, Flow, Frame, FrameView, Ledger, Snapshot};
-pub use observations::{Observations, Series};
+pub use crate::simulation::{Column, FRAME_BLOCK, Flow, Frame, FrameView, Ledger, Snapshot};
+pub use observations::{Observations, OwnSeries, Series};
 pub use observer::Observer;

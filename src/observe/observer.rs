@@ -1,20 +1,27 @@
 //! Measures a simulation at every frame.
 
+use super::Observations;
 use super::reduce::{Sum, largest, least};
-use super::{Flow, Frame, FrameView, Ledger, Observations};
 use crate::scene::{Gravity, Scene};
+use crate::simulation::{Column, Flow, Frame, FrameView, Ledger};
 use ndarray::{Array2, Array3};
 use serde::{Deserialize, Serialize};
 
-/// Measures a simulation at every frame.
+/// Measures a simulation at every frame: what its scene calls for, and what its model declares.
 ///
-/// Sums run over the spheres in the order of their indices, so equal states give equal bits.
+/// What refers to the axis (hole, rotation, fluctuation) is measured in a round tank or in swirling
+/// air; the speed of the air in swirling air; elastic energy where there are contacts; flow where
+/// spheres come and go; the energy ledger on request. Sums run over the spheres in the order of their indices, so equal states give equal bits.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Observer {
     /// Components of gravity along x and z, 0 without it (m/s2).
     gravity: [f64; 2],
     /// |Omega| of the swirling air, 0 without swirl (rad/s).
     air_rotation: f64,
+    /// Whether the scene has an axis that spheres may turn about.
+    has_axis: bool,
+    has_air: bool,
+    has_contacts: bool,
     bins: usize,
     bin_width: f64,
     /// Rises per frame relative to the mean that count, in radii of the sphere.
@@ -67,6 +74,9 @@ impl Observer {
         let per_frame = |speed: &f64| speed * scene.time.frame_interval;
         Self {
             gravity: scene.gravity.as_ref().map_or([0.0; 2], Gravity::components),
+            has_axis: !scene.has_flow() && (tank_radius.is_some() || scene.swirl.is_some()),
+            has_air: scene.swirl.is_some(),
+            has_contacts: scene.contact.is_some(),
             air_rotation: scene.swirl.as_ref().map_or(0.0, |it| it.omega.abs()),
             bins,
             bin_width,
@@ -79,6 +89,20 @@ impl Observer {
             distance: Vec::new(),
             previous: None,
             balance: None,
+        }
+    }
+
+    /// The same with the columns that the model of the scene declares.
+    #[must_use]
+    pub fn with_own(mut self, columns: &[Column]) -> Self {
+        self.observations.own = columns.iter().map(|&column| column.into()).collect();
+        self
+    }
+
+    /// Notes the values of the model's own columns at the frame that is observed next.
+    pub fn observe_own(&mut self, values: &[f64]) {
+        for (series, value) in self.observations.own.iter_mut().zip(values) {
+            series.values.push(*value as f32);
         }
     }
 
@@ -114,8 +138,11 @@ impl Observer {
         self.profile.resize(start + self.bins, f32::NAN);
         let mut totals = Totals::default();
         frame.show(&mut |block| {
-            find_distances(block, &mut self.distance);
-            totals.add(block, &self.distance, self.gravity);
+            totals.add(block, self.gravity);
+            if self.has_axis {
+                find_distances(block, &mut self.distance);
+                totals.add_about_axis(block, &self.distance);
+            }
             let tops = &mut self.profile[start..];
             if tops.is_empty() {
                 return;
@@ -137,7 +164,9 @@ impl Observer {
         observations.kinetic.push(kinetic as f32);
         observations.rotational.push(rotational as f32);
         observations.gravitational.push(gravitational as f32);
-        observations.elastic.push(totals.elastic_energy as f32);
+        if self.has_contacts {
+            observations.elastic.push(totals.elastic_energy as f32);
+        }
         let energy = kinetic + rotational + gravitational + totals.elastic_energy;
         if let Some(ledger) = &totals.ledger {
             self.note_ledger(ledger, energy);
@@ -182,10 +211,13 @@ impl Observer {
     fn note_distances(&mut self, totals: &Totals) {
         let mean = totals.distance.total() / totals.count as f64;
         let observations = &mut self.observations;
-        observations.hole_radius.push(totals.nearest as f32);
-        observations
-            .air_speed_mean
-            .push((self.air_rotation * mean) as f32);
+        if self.has_axis {
+            observations.hole_radius.push(totals.nearest as f32);
+        }
+        if self.has_air {
+            let speed = (self.air_rotation * mean) as f32;
+            observations.air_speed_mean.push(speed);
+        }
     }
 
     fn note_heights(&mut self, totals: &Totals) {
@@ -206,7 +238,9 @@ impl Observer {
         let speed = totals.speed.total() / count;
         let observations = &mut self.observations;
         observations.speed_mean.push(speed as f32);
-        observations.rotation.push(rotation as f32);
+        if self.has_axis {
+            observations.rotation.push(rotation as f32);
+        }
         Means {
             count,
             rotation,
@@ -215,8 +249,11 @@ impl Observer {
         }
     }
 
-    /// Looks for what depends on means.
+    /// Looks for what depends on means. All of it refers to the axis.
     fn second_look(&mut self, frame: &dyn Frame, means: &Means) {
+        if !self.has_axis {
+            return;
+        }
         let (rotation, rise) = (means.rotation, means.rise);
         let mut fluctuation = Sum::default();
         let mut rising = Rising::new(self, frame.count(), means.height);
@@ -287,10 +324,9 @@ impl Default for Totals {
 }
 
 impl Totals {
-    /// Adds a block of spheres, which are that far from the axis (m), under gravity of these components along x
-    /// and z (m/s2).
-    fn add(&mut self, block: &FrameView<'_>, distance: &[f64], [gx, gz]: [f64; 2]) {
-        let ([x, y, z], [vx, vy, vz]) = (block.position, block.velocity);
+    /// Adds a block of spheres, under gravity of these components along x and z (m/s2).
+    fn add(&mut self, block: &FrameView<'_>, [gx, gz]: [f64; 2]) {
+        let ([x, _, z], [vx, vy, vz]) = (block.position, block.velocity);
         self.count += block.count();
         self.kinetic
             .add([block.mass, vx, vy, vz], |[mass, x, y, z]| {
@@ -308,19 +344,9 @@ impl Totals {
         let speed = |[x, y, z]: [f64; 3]| (x * x + y * y + z * z).sqrt();
         self.speed.add(block.velocity, speed);
         self.rise.add([vz], |[vz]| vz);
-        self.momentum
-            .add([block.mass, x, y, vx, vy], |[mass, x, y, vx, vy]| {
-                mass * (x * vy - y * vx)
-            });
-        self.inertia
-            .add([block.mass, x, y], |[mass, x, y]| mass * (x * x + y * y));
-        self.distance.add([distance], |[distance]| distance);
         self.height.add([z], |[z]| z);
-        let (nearest, highest) = (least(distance), largest(z));
+        let highest = largest(z);
         // Not a number before the first sphere.
-        if nearest < self.nearest || self.nearest.is_nan() {
-            self.nearest = nearest;
-        }
         if highest > self.highest || self.highest.is_nan() {
             self.highest = highest;
         }
@@ -330,6 +356,23 @@ impl Totals {
         self.elastic_energy = block.elastic_energy;
         self.ledger = block.ledger;
         self.flow = block.flow;
+    }
+
+    /// Adds what refers to the axis, from which the spheres of a block are that far (m).
+    fn add_about_axis(&mut self, block: &FrameView<'_>, distance: &[f64]) {
+        let ([x, y, _], [vx, vy, _]) = (block.position, block.velocity);
+        self.momentum
+            .add([block.mass, x, y, vx, vy], |[mass, x, y, vx, vy]| {
+                mass * (x * vy - y * vx)
+            });
+        self.inertia
+            .add([block.mass, x, y], |[mass, x, y]| mass * (x * x + y * y));
+        self.distance.add([distance], |[distance]| distance);
+        let nearest = least(distance);
+        // Not a number before the first sphere.
+        if nearest < self.nearest || self.nearest.is_nan() {
+            self.nearest = nearest;
+        }
     }
 }
 

@@ -1,18 +1,20 @@
 //! One run: from a scene to its record.
 
 mod load;
+mod models;
+mod state;
 
 pub(crate) use load::{Reading, base_of_tree, load_base_with};
+pub use models::model_of;
+pub use state::frame_of_state;
 
 use crate::cpu_time;
-use crate::dem::{BuildError, Profile, Simulation, SimulationState, StateError};
-use crate::observe::{Frame, Observer, Snapshot};
+use crate::observe::{Observer, Snapshot};
 use crate::record::{Outcome, Program, RunRecord};
 use crate::scene::Scene;
-use crate::simulation::Counts;
+use crate::simulation::{BuildError, Counts, Profile, Simulation};
 use rayon::ThreadPoolBuildError;
 use serde::{Deserialize, Serialize};
-use std::borrow::Cow;
 use std::ops::ControlFlow;
 
 /// How far a run is.
@@ -45,13 +47,6 @@ pub enum RunError {
     /// The caller asked to stop.
     #[error("interrupted")]
     Interrupted,
-}
-
-/// Steps between frames, and frames of a run.
-pub fn frames(scene: &Scene) -> (u64, u64) {
-    let steps = (scene.time.frame_interval / scene.time.dt).round() as u64;
-    let frames = (scene.time.duration / scene.time.frame_interval).round() as u64;
-    (steps, frames)
 }
 
 /// Runs a scene to its end, or to the guard that it breaks. `control` is asked after every
@@ -87,8 +82,10 @@ pub fn run(
 /// let mut first = Run::new(&scene)?;
 /// first.advance_frame();
 /// // What was saved of one run, another goes on from.
+/// let mut saved = Vec::new();
+/// first.save(&mut saved)?;
 /// let mut second = Run::new(&scene)?;
-/// second.restore(first.state().expect("no guard ended it").into_owned())?;
+/// second.restore(&saved)?;
 /// while !second.ended() {
 ///     second.advance_frame();
 /// }
@@ -98,12 +95,11 @@ pub fn run(
 /// ```
 pub struct Run {
     scene: Scene,
-    simulation: Simulation,
+    simulation: Box<dyn Simulation>,
     results: Results,
     outcome: Outcome,
     frame: u64,
     frames: u64,
-    steps_per_frame: u64,
     /// Absent where none but that of the end is asked for.
     frames_per_snapshot: Option<u64>,
     /// Processor time that the run took before `started` (s).
@@ -120,32 +116,6 @@ struct Results {
     trajectory: Vec<Snapshot>,
 }
 
-/// The state of a run between two frames: with the scene all that it goes on from.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct RunState<'a> {
-    frame: u64,
-    cpu_seconds: f64,
-    simulation: SimulationState<'a>,
-    results: Cow<'a, Results>,
-}
-
-impl RunState<'_> {
-    /// Frames done, the start not counted.
-    pub fn frame(&self) -> u64 {
-        self.frame
-    }
-
-    /// The same, on its own.
-    pub fn into_owned(self) -> RunState<'static> {
-        RunState {
-            frame: self.frame,
-            cpu_seconds: self.cpu_seconds,
-            simulation: self.simulation.into_owned(),
-            results: Cow::Owned(self.results.into_owned()),
-        }
-    }
-}
-
 impl Run {
     /// A run at its start.
     ///
@@ -153,28 +123,36 @@ impl Run {
     /// If the scene cannot be built.
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
         let started = cpu_time::of_this_thread();
-        let (steps_per_frame, frames) = frames(scene);
-        let simulation = Simulation::new(scene)?;
+        let simulation = model_of(scene).build(scene)?;
+        Ok(Self::begin(scene, simulation, started))
+    }
+
+    /// A run of a simulation that was built elsewhere and is at its start. The scene says how long
+    /// it runs and what is kept of it.
+    pub fn with_simulation(scene: &Scene, simulation: Box<dyn Simulation>) -> Self {
+        Self::begin(scene, simulation, cpu_time::of_this_thread())
+    }
+
+    fn begin(scene: &Scene, simulation: Box<dyn Simulation>, started: f64) -> Self {
         let ratio = scene.output.snapshot_interval / scene.time.frame_interval;
         let frames_per_snapshot = (ratio > 0.0).then(|| (ratio.round() as u64).max(1));
         let mut run = Self {
             scene: scene.clone(),
             results: Results {
-                observer: Observer::new(scene, simulation.radius()),
+                observer: Observer::new(scene, simulation.radius()).with_own(simulation.columns()),
                 snapshots: Vec::new(),
                 trajectory: Vec::new(),
             },
             simulation,
             outcome: Outcome::Completed,
             frame: 0,
-            frames,
-            steps_per_frame,
+            frames: scene.time.frames(),
             frames_per_snapshot,
             cpu_seconds_before: 0.0,
             started,
         };
         run.look();
-        Ok(run)
+        run
     }
 
     /// The scene.
@@ -192,7 +170,7 @@ impl Run {
         self.look();
     }
 
-    /// Goes on with so many threads, as [`Simulation::use_threads`]. No bit of the record depends on it.
+    /// Advances on that many threads from now on, where it pays. No bit of the record depends on it.
     ///
     /// # Errors
     /// If the system gives no threads.
@@ -201,8 +179,8 @@ impl Run {
     }
 
     /// Begins to measure what the parts of a step take. Never changes the run.
-    pub(crate) fn keep_profile(&mut self, profile: Profile) {
-        self.simulation.keep_profile(profile);
+    pub(crate) fn keep_profile(&mut self) {
+        self.simulation.keep_profile();
     }
 
     /// What was measured, if anything is.
@@ -213,14 +191,14 @@ impl Run {
     /// Advances to the next frame, which is to be [looked at](Self::look).
     pub(crate) fn advance_steps(&mut self) {
         self.frame += 1;
-        if let Err(instability) = self.simulation.advance(self.steps_per_frame) {
+        if let Err(instability) = self.simulation.advance_frame() {
             self.outcome = Outcome::Unstable(instability);
         }
     }
 
     /// Whether the run is over: its time is up, a guard is broken, or nothing more will happen.
     pub fn ended(&self) -> bool {
-        self.frame == self.frames || self.broken() || self.simulation.ended()
+        self.frame == self.frames || self.is_unstable() || self.simulation.ended()
     }
 
     /// How far the run is.
@@ -232,40 +210,21 @@ impl Run {
         }
     }
 
+    /// Work done so far, in the unit of the model.
+    pub fn work(&self) -> u64 {
+        self.simulation.work()
+    }
+
     /// Time of the latest frame (s).
     pub fn time(&self) -> f64 {
         self.simulation.time()
     }
 
-    /// The state at the latest frame; none if a guard ended the run. Asking for it changes nothing.
-    pub fn state(&self) -> Option<RunState<'_>> {
-        (!self.broken()).then(|| RunState {
-            frame: self.frame,
-            cpu_seconds: self.cpu_seconds(),
-            simulation: self.simulation.state(),
-            results: Cow::Borrowed(&self.results),
-        })
-    }
-
-    /// Takes up the state of a run of the same scene and output, by the same program: this run, which
-    /// must be at its start, goes on with the same bits.
-    ///
-    /// # Errors
-    /// If the state cannot be one of this scene; the run is then as it was.
-    pub fn restore(&mut self, state: RunState<'_>) -> Result<(), StateError> {
-        self.simulation.restore(state.simulation)?;
-        self.frame = state.frame;
-        self.results = state.results.into_owned();
-        self.cpu_seconds_before = state.cpu_seconds;
-        self.started = cpu_time::of_this_thread();
-        Ok(())
-    }
-
     /// The record of the run, of all frames so far.
     pub fn finish(mut self) -> RunRecord {
         if self.ended() {
-            // A large scene takes most memory now; so its contacts go before there is one snapshot more.
-            self.simulation.forget_contacts();
+            // A large scene takes most memory now, before the last snapshot.
+            self.simulation.release_memory();
             self.take_snapshot();
         }
         let cpu_seconds = self.cpu_seconds();
@@ -284,12 +243,9 @@ impl Run {
             observations: observer.finish(),
             snapshots,
             trajectory,
+            work: self.simulation.work(),
             cpu_seconds,
         }
-    }
-
-    fn broken(&self) -> bool {
-        self.outcome != Outcome::Completed
     }
 
     fn cpu_seconds(&self) -> f64 {
@@ -299,18 +255,20 @@ impl Run {
 
     fn take_snapshot(&mut self) {
         let time = self.simulation.time();
-        let snapshot = |frame: &dyn Frame| Snapshot::take(time, frame);
-        let snapshot = self.simulation.with_frame(snapshot);
-        self.results.snapshots.push(snapshot);
+        let snapshots = &mut self.results.snapshots;
+        self.simulation
+            .look(&mut |frame| snapshots.push(Snapshot::take(time, frame)));
     }
 
     /// Looks at the present frame, and keeps of it what the scene's output asks for.
     pub(crate) fn look(&mut self) {
-        let (broken, ended) = (self.broken(), self.ended());
+        let (broken, ended) = (self.is_unstable(), self.ended());
         let time = self.simulation.time();
+        let own = self.simulation.values();
         let results = &mut self.results;
-        self.simulation.with_frame(|frame| {
+        self.simulation.look(&mut |frame| {
             if !broken {
+                results.observer.observe_own(&own);
                 results.observer.observe(time, frame);
             }
             // That of the end is taken last of all.

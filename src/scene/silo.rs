@@ -168,12 +168,14 @@ impl Hopper {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rest {
-    /// Translational kinetic energy of all grains together (J) below which they may be at rest.
+    /// Kinetic energy of all grains together (J), translation and rotation, below which they may be
+    /// at rest. No single grain may have more than a hundredth of it, or of fewer than a hundred
+    /// grains more than its equal share.
     #[schemars(transform = quantity("E_{rest}", "J", "kinetic energy of spheres at rest").above(0.0))]
     pub kinetic_energy: f64,
-    /// Time for which it must stay below that (s). A grain at the top of its bounce is slow for an
-    /// instant, but not for long: g times this should be far above the speed of one grain with that
-    /// energy.
+    /// Time for which they must stay below that (s). A grain at the top of its bounce is slow for
+    /// an instant, but not for long: g times this should be far above the speed of a grain with its
+    /// share of the energy.
     #[serde(default = "default_hold")]
     #[schemars(transform = quantity("t_{rest}", "s", "time for which spheres must be slow").above(0.0))]
     pub hold: f64,

@@ -32,6 +32,18 @@ pub struct Time {
     pub integrator: Integrator,
 }
 
+impl Time {
+    /// Steps between two frames.
+    pub fn steps_per_frame(&self) -> u64 {
+        (self.frame_interval / self.dt).round() as u64
+    }
+
+    /// Frames of a whole run, the start not counted.
+    pub fn frames(&self) -> u64 {
+        (self.duration / self.frame_interval).round() as u64
+    }
+}
+
 /// Integration scheme.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

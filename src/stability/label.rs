@@ -80,7 +80,9 @@ fn gain_over(books: &Observations, lift: f64) -> f64 {
             &books.elastic,
             &books.springs,
         ];
-        let energy: f64 = parts.iter().map(|part| f64::from(part[frame])).sum();
+        // What a scene does not have is not observed.
+        let energy = parts.iter().filter_map(|part| part.get(frame));
+        let energy: f64 = energy.map(|energy| f64::from(*energy)).sum();
         scale = energy.max(scale);
         let residual = f64::from(*residual);
         if !residual.is_finite() {

@@ -18,7 +18,7 @@ use super::atomic::write_atomic_with;
 use super::hashed::Hashed;
 use crate::document::differing_keys;
 use crate::record::Program;
-use crate::run::RunState;
+use crate::run::Run;
 use crate::scene::{LIST_KEY, Neighbours, Scene};
 use serde::{Deserialize, Serialize};
 use std::fs;
@@ -28,7 +28,7 @@ use std::path::{Path, PathBuf};
 /// What every checkpoint begins with.
 pub const CHECKPOINT_SIGNATURE: &[u8; 21] = b"\x89phase checkpoint\r\n\x1a\n";
 /// Raised with every change of the layout above; what a state holds follows from the program.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// Why a run cannot go on from a checkpoint. The file stays as it is.
 #[derive(Debug, thiserror::Error)]
@@ -103,25 +103,17 @@ struct Header {
     list: String,
 }
 
-/// Writes the checkpoint of a run of that scene, all or nothing.
+/// Writes the checkpoint of a run that no guard ended, all or nothing.
 ///
 /// # Errors
 /// [`StoreError::DiskFull`] or [`StoreError::Write`]; an older checkpoint is still there.
-pub fn write_checkpoint(
-    path: &Path,
-    scene: &Scene,
-    state: &RunState<'_>,
-) -> Result<(), StoreError> {
-    write_atomic_with(path, |file| encode(scene, &Program::current(), state, file))
+pub fn write_checkpoint(path: &Path, run: &Run) -> Result<(), StoreError> {
+    write_atomic_with(path, |file| encode(run, &Program::current(), file))
 }
 
 /// Writes it piece by piece: a state may be most of what fits into memory.
-fn encode(
-    scene: &Scene,
-    program: &Program,
-    state: &RunState<'_>,
-    file: &mut impl Write,
-) -> io::Result<()> {
+fn encode(run: &Run, program: &Program, file: &mut impl Write) -> io::Result<()> {
+    let scene = run.scene();
     let header = Header {
         program_version: program.version.clone(),
         program_commit: program.commit.clone(),
@@ -132,28 +124,50 @@ fn encode(
     let mut hashed = Hashed::new(file);
     let mut pieces = BufWriter::new(&mut hashed);
     pieces.write_all(CHECKPOINT_SIGNATURE)?;
-    let written = postcard::to_io(&(VERSION, header, state), &mut pieces).map(drop);
-    let written = written.map_err(io::Error::other).and(pieces.flush());
+    let written = postcard::to_io(&(VERSION, header), &mut pieces)
+        .map(drop)
+        .map_err(io::Error::other)
+        .and_then(|()| run.save(&mut pieces))
+        .and_then(|()| pieces.flush());
     drop(pieces);
     hashed.seal(written, &[])
+}
+
+/// A checkpoint that was read, whose checksum and scene are right.
+#[derive(Debug)]
+pub struct Checkpoint {
+    bytes: Vec<u8>,
+    state: std::ops::Range<usize>,
+}
+
+impl Checkpoint {
+    /// The state of the run, to be [restored](Run::restore).
+    pub fn state(&self) -> &[u8] {
+        &self.bytes[self.state.clone()]
+    }
 }
 
 /// Reads the checkpoint of a run of that scene, if there is a file at all.
 ///
 /// # Errors
 /// If a run of this scene, by this program, cannot go on from that file.
-pub fn read_checkpoint(
-    path: &Path,
-    scene: &Scene,
-) -> Result<Option<RunState<'static>>, CheckpointError> {
+pub fn read_checkpoint(path: &Path, scene: &Scene) -> Result<Option<Checkpoint>, CheckpointError> {
     match fs::read(path) {
-        Ok(bytes) => decode(&bytes, path, scene).map(Some),
+        Ok(bytes) => {
+            let state = find_state(&bytes, path, scene)?;
+            Ok(Some(Checkpoint { bytes, state }))
+        }
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(StoreError::reading(path, error).into()),
     }
 }
 
-fn decode(bytes: &[u8], path: &Path, scene: &Scene) -> Result<RunState<'static>, CheckpointError> {
+/// Where the state stands in the bytes of a checkpoint.
+fn find_state(
+    bytes: &[u8],
+    path: &Path,
+    scene: &Scene,
+) -> Result<std::ops::Range<usize>, CheckpointError> {
     let path = || path.to_owned();
     let damaged = |reason| CheckpointError::Damaged {
         path: path(),
@@ -198,11 +212,8 @@ fn decode(bytes: &[u8], path: &Path, scene: &Scene) -> Result<RunState<'static>,
     if !keys.is_empty() {
         return Err(CheckpointError::OtherScene { path: path(), keys });
     }
-    match postcard::take_from_bytes(body) {
-        Ok((state, [])) => Ok(state),
-        Ok(_) => Err(damaged("there is something after its end")),
-        Err(error) => Err(unreadable(error)),
-    }
+    let end = bytes.len() - blake3::OUT_LEN;
+    Ok(end - body.len()..end)
 }
 
 /// A hash of the spheres that a start lists, as it lists them.

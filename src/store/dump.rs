@@ -11,7 +11,6 @@ use super::StoreError;
 use super::export::write_array;
 use crate::observe::Snapshot;
 use crate::record::{Outcome, RunRecord};
-use crate::run;
 use ndarray::{Array3, ArrayView3};
 use ndarray_npy::{ReadNpyExt, ViewNpyError, ViewNpyExt};
 use std::fmt;
@@ -103,7 +102,7 @@ fn values(record: &RunRecord, states: &[&Snapshot]) -> Array3<f64> {
     let count = record.radius.len();
     let gravity = record.scene.gravity.as_ref();
     let inertia_factor = record.scene.spheres.shape.inertia_factor();
-    let whole = run::frames(&record.scene).1 as usize + 1;
+    let whole = record.scene.time.frames() as usize + 1;
     let (rows, broken) = match &record.outcome {
         Outcome::Completed => (states.len(), f64::INFINITY),
         Outcome::Unstable(instability) => (whole.max(states.len()), instability.time),

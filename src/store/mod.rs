@@ -16,7 +16,9 @@ mod stability;
 
 pub use crate::document::advice;
 pub use atomic::{remove_leftovers, write_atomic};
-pub use checkpoint::{CHECKPOINT_SIGNATURE, CheckpointError, read_checkpoint, write_checkpoint};
+pub use checkpoint::{
+    CHECKPOINT_SIGNATURE, Checkpoint, CheckpointError, read_checkpoint, write_checkpoint,
+};
 pub use dump::{DumpName, read_dump, write_dump};
 pub use export::{
     PAGE_SIGNATURE, SPHERES_SIGNATURE, frame_name, write_arrays, write_fixed, write_fixed_xyz,
@@ -107,7 +109,7 @@ pub enum StoreError {
     /// The record has a form that this program does not know.
     #[error(
         "{} has record format {found} (written by phase {program}), but this program \
-         reads formats up to {known}; use that version, or delete the record and run the sweep again",
+         reads format {known}; use that version, or delete the record and run the sweep again",
         path.display()
     )]
     Format {

@@ -2,6 +2,7 @@
 
 use super::{Axis, Sweep};
 use crate::document::{Problem, number};
+use crate::run::{self, Progress};
 use crate::scene::{Scene, Template};
 
 /// One job of a sweep.
@@ -15,6 +16,18 @@ pub struct Job {
     pub seed: u64,
     /// The resolved scene.
     pub scene: Scene,
+}
+
+impl Job {
+    /// Work of the whole run, at most, in the unit of its model.
+    pub fn work(&self) -> u64 {
+        run::model_of(&self.scene).work_of(&self.scene)
+    }
+
+    /// Work of the run so far, estimated from its progress.
+    pub fn work_at(&self, progress: &Progress) -> u64 {
+        (progress.share() * self.work() as f64) as u64
+    }
 }
 
 /// A point of the grid whose scene cannot be run.

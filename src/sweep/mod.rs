@@ -31,7 +31,7 @@ pub(crate) use load::{
 pub use load::{from_str, load};
 pub use plan::{Done, ForeignRecord, Plan, Standing};
 pub(crate) use pool::panic_message;
-pub use pool::{Event, Pool, PoolError, Report};
+pub use pool::{Begin, Event, Pool, PoolError, Report};
 pub use select::{SelectError, parse_point};
 pub use status::{Status, UnderWay};
 

@@ -49,6 +49,8 @@ pub struct ForeignRecord {
 pub struct Done {
     /// How it ended.
     pub outcome: Outcome,
+    /// Its work, in the unit of its model.
+    pub work: u64,
     /// Processor time it took (s).
     pub cpu_seconds: f64,
     /// The build that made it.
@@ -137,6 +139,7 @@ fn standing(job: &Job, path: &Path) -> Standing {
     } else {
         Standing::Done(Done {
             outcome: record.outcome,
+            work: record.work,
             cpu_seconds: record.cpu_seconds,
             program: record.program,
         })

@@ -1,10 +1,10 @@
 //! Runs the jobs of a sweep on all cores.
 
 use super::{Failure, Folder, FolderError, ForeignRecord, Job, Plan, Sweep, work};
-use crate::dem::BuildError;
 use crate::record::RunRecord;
 use crate::resume::{self, Checkpoints};
-use crate::run::{self, Progress, Run};
+use crate::run::{Progress, Run};
+use crate::simulation::BuildError;
 use crate::store::{self, CheckpointError, StoreError};
 use std::cmp::Reverse;
 use std::ops::ControlFlow;
@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// How, where and under whose eyes the jobs of a sweep are run.
+/// How, where and with which callbacks the jobs of a sweep are run.
 pub struct Pool<'a> {
     /// Where records go. The folder must exist, and the caller hold its lock.
     pub folder: &'a Folder,
@@ -37,13 +37,13 @@ pub struct Pool<'a> {
 pub enum Event<'a> {
     /// A job has begun.
     Started(&'a Job),
-    /// A job goes on from its checkpoint, where it had done this many sphere-steps.
+    /// A job goes on from its checkpoint, where it had done this much work.
     Resumed(&'a Job, u64),
     /// A job cannot go on from its checkpoint, and starts from the beginning.
     CheckpointRefused(&'a Job, &'a CheckpointError),
     /// A checkpoint of a job could not be written; an older one is still there.
     NoCheckpoint(&'a Job, &'a StoreError),
-    /// A job did this many sphere-steps since the last such event.
+    /// A job did this much work since the last such event.
     Advanced(&'a Job, u64),
     /// A job has ended and its record is stored.
     Finished(&'a Job, &'a RunRecord),
@@ -62,8 +62,8 @@ pub struct Report {
     pub failures: Vec<Failure>,
     /// Jobs left to do, neither finished nor failed.
     pub left: usize,
-    /// Sphere-steps of the finished runs.
-    pub sphere_steps: u64,
+    /// Work of the finished runs, in the unit of their model.
+    pub work: u64,
     /// Processor time of the finished runs (s).
     pub cpu_seconds: f64,
     /// Why no more jobs were started, if a file could not be written.
@@ -84,8 +84,8 @@ pub enum PoolError {
     Folder(#[from] FolderError),
 }
 
-/// Makes the run of a job.
-type Begin<'a> = &'a (dyn Fn(&Job) -> Result<Run, BuildError> + Sync);
+/// Makes the run of a job, at its start.
+pub type Begin<'a> = &'a (dyn Fn(&Job) -> Result<Run, BuildError> + Sync);
 
 impl Pool<'_> {
     /// Runs what is pending in the plan, and stores each record as soon as it is there.
@@ -97,10 +97,14 @@ impl Pool<'_> {
     /// Before anything is run, if a record of another scene is in the way or the folder
     /// cannot be written.
     pub fn run(&self, plan: &Plan) -> Result<Report, PoolError> {
-        self.run_with(plan, &|job| self.begin(job))
+        self.run_with(plan, &|job| Run::new(&job.scene))
     }
 
-    fn run_with(&self, plan: &Plan, begin: Begin<'_>) -> Result<Report, PoolError> {
+    /// The same with runs that `begin` makes. Those with a good checkpoint go on from it.
+    ///
+    /// # Errors
+    /// Those of [`run`](Self::run).
+    pub fn run_with(&self, plan: &Plan, begin: Begin<'_>) -> Result<Report, PoolError> {
         plan.check()?;
         self.folder.remove_leftovers()?;
         self.folder.write_sweep(self.sweep)?;
@@ -113,7 +117,7 @@ impl Pool<'_> {
         let mut pending: Vec<(usize, &Job)> = plan.pending().enumerate().collect();
         // The longest first, so that no worker begins one when the others are done. Those of one length
         // stay in the sweep's order.
-        pending.sort_by_key(|(_, job)| Reverse(work::sphere_steps(&job.scene)));
+        pending.sort_by_key(|(_, job)| Reverse(job.work()));
         let tally = Mutex::new(Tally::default());
         work::each(self.workers, &pending, |&(position, job)| {
             if self.stop.load(Ordering::Relaxed) || lock(&tally).halted.is_some() {
@@ -133,7 +137,7 @@ impl Pool<'_> {
             resumed: tally.resumed,
             left: pending.len() - tally.finished - failures.len(),
             failures,
-            sphere_steps: tally.sphere_steps,
+            work: tally.work,
             cpu_seconds: tally.cpu_seconds,
             halted: tally.halted,
         })
@@ -147,7 +151,7 @@ impl Pool<'_> {
             (self.watch)(Event::Failed(job, &failure));
             Ending::Failed(failure)
         };
-        let run = || begin(job).map(|run| self.drive(job, run));
+        let run = || begin(job).map(|run| self.drive(job, self.resumed(job, run)));
         let (record, resumed) = match catch_unwind(AssertUnwindSafe(run)) {
             Ok(Ok((resume::Ending::Finished(record), resumed))) => (record, resumed),
             Ok(Ok((resume::Ending::Lost(error), _))) => {
@@ -176,36 +180,28 @@ impl Pool<'_> {
     }
 
     /// The run of a job: at its checkpoint, if there is a good one and it may be used.
-    fn begin(&self, job: &Job) -> Result<Run, BuildError> {
-        let mut run = Run::new(&job.scene)?;
+    fn resumed(&self, job: &Job, mut run: Run) -> Run {
         if self.resume {
             match self.checkpoints(job).restore(&mut run) {
-                Ok(true) => {
-                    let frame = run.progress().frame;
-                    let before =
-                        work::sphere_steps_until(&job.scene, frame * run::frames(&job.scene).0);
-                    (self.watch)(Event::Resumed(job, before));
-                }
+                Ok(true) => (self.watch)(Event::Resumed(job, job.work_at(&run.progress()))),
                 Ok(false) => {}
                 Err(error) => (self.watch)(Event::CheckpointRefused(job, &error)),
             }
         }
-        Ok(run)
+        run
     }
 
     /// Advances a run to its end and tells of it; and whether it went on from a checkpoint.
     fn drive(&self, job: &Job, run: Run) -> (resume::Ending, bool) {
-        let (steps_per_frame, frames) = run::frames(&job.scene);
         let first = run.progress().frame;
-        let mut told = first;
+        let (mut frame, mut work) = (first, job.work_at(&run.progress()));
         let mut control = |progress: Progress| {
             // A frame may take less than a millisecond: too often for people, and for locks.
-            if progress.frame == frames || (progress.frame - told) * 100 >= frames {
-                let until =
-                    |frame: u64| work::sphere_steps_until(&job.scene, frame * steps_per_frame);
-                let steps = until(progress.frame) - until(told);
-                told = progress.frame;
-                (self.watch)(Event::Advanced(job, steps));
+            let frames = progress.frames;
+            if progress.frame == frames || (progress.frame - frame) * 100 >= frames {
+                let now = job.work_at(&progress);
+                (self.watch)(Event::Advanced(job, now.saturating_sub(work)));
+                (frame, work) = (progress.frame, now);
             }
             if self.stop.load(Ordering::Relaxed) {
                 ControlFlow::Break(())
@@ -245,7 +241,7 @@ struct Tally {
     resumed: usize,
     /// By position among the pending jobs.
     failures: std::collections::BTreeMap<usize, Failure>,
-    sphere_steps: u64,
+    work: u64,
     cpu_seconds: f64,
     halted: Option<StoreError>,
 }
@@ -254,7 +250,7 @@ impl Tally {
     fn add(&mut self, record: &RunRecord, resumed: bool) {
         self.finished += 1;
         self.resumed += usize::from(resumed);
-        self.sphere_steps += work::sphere_steps_of(record);
+        self.work += record.work;
         self.cpu_seconds += record.cpu_seconds;
     }
 }
@@ -275,6 +271,7 @@ pub(crate) fn panic_message(panic: &(dyn std::any::Any + Send)) -> &str {
 mod tests {
     use super::*;
     use crate::classify::Sieves;
+    use crate::dem;
     use crate::scene::Scene;
     use crate::sweep::{Axis, PlotSettings};
 
@@ -334,7 +331,7 @@ mod tests {
         };
         let faulty: Begin<'_> = &|job| match job.values[0] {
             1.0 => panic!("one is too few"),
-            3.0 => Err(BuildError::FrictionWithoutContact),
+            3.0 => Err(BuildError::new(dem::BuildError::FrictionWithoutContact)),
             _ => Run::new(&job.scene),
         };
         let plan = Plan::new(&folder, jobs.clone(), 2).unwrap();

@@ -1,6 +1,6 @@
 //! How far the sweep of a results folder is.
 
-use super::{Failure, Folder, FolderError, Job, Plan, Standing, work};
+use super::{Failure, Folder, FolderError, Job, Plan, Standing};
 use crate::record::Outcome;
 use crate::run;
 use crate::store;
@@ -39,24 +39,23 @@ pub struct UnderWay {
     pub values: Vec<f64>,
     /// Seed.
     pub seed: u64,
-    /// Steps until the checkpoint.
-    pub step: u64,
-    /// Steps in all, if nothing ends the run before its time.
-    pub steps: u64,
+    /// Frames until the checkpoint.
+    pub frame: u64,
+    /// Frames in all, if nothing ends the run before its time.
+    pub frames: u64,
 }
 
 impl UnderWay {
     /// What the checkpoint of a job says; none if there is none that this build could go on from.
     fn of(folder: &Folder, job: &Job) -> Option<Self> {
         let checkpoints = folder.checkpoints(&job.id, Duration::ZERO);
-        let state = store::read_checkpoint(checkpoints.path(), &job.scene).ok()??;
-        let (steps_per_frame, frames) = run::frames(&job.scene);
+        let checkpoint = store::read_checkpoint(checkpoints.path(), &job.scene).ok()??;
         Some(Self {
             id: job.id.clone(),
             values: job.values.clone(),
             seed: job.seed,
-            step: state.frame() * steps_per_frame,
-            steps: frames * steps_per_frame,
+            frame: run::frame_of_state(checkpoint.state()).ok()?,
+            frames: job.scene.time.frames(),
         })
     }
 }
@@ -97,16 +96,13 @@ impl Status {
     }
 }
 
-/// Work left over the mean speed of the runs that are done.
+/// Work left over the mean rate of the runs that are done.
 fn cpu_seconds_left(plan: &Plan) -> Option<f64> {
-    let left: u64 = plan
-        .pending()
-        .map(|job| work::sphere_steps(&job.scene))
-        .sum();
-    let (mut steps, mut seconds) = (0, 0.0);
-    for (job, done) in plan.done() {
-        steps += work::sphere_steps_run(&job.scene, &done.outcome);
+    let left: u64 = plan.pending().map(Job::work).sum();
+    let (mut work, mut seconds) = (0, 0.0);
+    for (_, done) in plan.done() {
+        work += done.work;
         seconds += done.cpu_seconds;
     }
-    (steps > 0).then(|| left as f64 * seconds / steps as f64)
+    (work > 0).then(|| left as f64 * seconds / work as f64)
 }

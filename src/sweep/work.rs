@@ -1,57 +1,6 @@
-//! How much work a run is, and which workers do it.
+//! Which workers do the jobs of a sweep.
 
-use crate::observe::Observations;
-use crate::record::{Outcome, RunRecord};
-use crate::run;
-use crate::scene::{Scene, Start};
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// Sphere-steps of a whole run: steps times spheres. Where spheres come and go, the most that it may
-/// take: none is known to leave, and the run to last its whole duration.
-pub fn sphere_steps(scene: &Scene) -> u64 {
-    let (steps, frames) = run::frames(scene);
-    sphere_steps_until(scene, steps * frames)
-}
-
-/// Sphere-steps of a run until that step, if no sphere leaves.
-pub fn sphere_steps_until(scene: &Scene, step: u64) -> u64 {
-    let count = scene.spheres.count as u64;
-    let Start::Feed { interval, .. } = scene.start else {
-        return step.saturating_mul(count);
-    };
-    // One more sphere from every interval on, until all are in.
-    let interval = ((interval / scene.time.dt).round() as u64).max(1);
-    let coming = count.min(step.div_ceil(interval));
-    let missed = interval.saturating_mul(coming.saturating_mul(coming.saturating_sub(1)) / 2);
-    step.saturating_mul(coming).saturating_sub(missed)
-}
-
-/// Sphere-steps that a run of that outcome took, if no sphere left: fewer if a guard ended it.
-pub fn sphere_steps_run(scene: &Scene, outcome: &Outcome) -> u64 {
-    match outcome {
-        Outcome::Completed => sphere_steps(scene),
-        Outcome::Unstable(instability) => sphere_steps_until(scene, instability.step),
-    }
-}
-
-/// Sphere-steps that the run of a record took.
-pub fn sphere_steps_of(record: &RunRecord) -> u64 {
-    let Observations {
-        released,
-        discharged,
-        spilled,
-        ..
-    } = &record.observations;
-    if released.is_empty() {
-        return sphere_steps_run(&record.scene, &record.outcome);
-    }
-    let (steps, _) = run::frames(&record.scene);
-    // The first frame is the start.
-    (1..released.len())
-        .map(|frame| released[frame] - discharged[frame] - spilled[frame])
-        .map(|inside| inside as u64 * steps)
-        .sum()
-}
 
 /// Number of workers to use by default: all cores this process may use.
 pub fn default_workers() -> usize {

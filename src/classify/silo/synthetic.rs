@@ -43,8 +43,7 @@ pub(super) fn draining_until(end: f64, grains: usize, pause: f64) -> RunRecord {
         rising: Array3::zeros((frames, 0, 3)),
         ..Observations::default()
     };
-    let names: Vec<_> = observations.scalars().iter().map(|it| it.name).collect();
-    for name in names {
+    for name in ["kinetic", "height_max"] {
         observations.scalar_mut(name).unwrap().resize(frames, 1.0);
     }
     RunRecord {
@@ -68,6 +67,7 @@ pub(super) fn draining_until(end: f64, grains: usize, pause: f64) -> RunRecord {
         },
         snapshots: vec![square_lattice(REST)],
         trajectory: Vec::new(),
+        work: 0,
         cpu_seconds: 0.0,
     }
 }

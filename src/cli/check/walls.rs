@@ -1,6 +1,7 @@
 //! Whether walls of fixed discs hold what comes.
 
-use phase::dem::{WeakestWall, timestep};
+use phase::dem::{WallFailure, WeakestWall, timestep};
+use phase::scene::FixedSphere;
 use phase::sweep::{Axis, Job, describe};
 use serde::Serialize;
 
@@ -34,7 +35,8 @@ impl Walls<'_> {
         let WeakestWall {
             speed,
             radius,
-            between: [one, other],
+            fixed: [one, other],
+            failure,
         } = self.wall;
         let at = describe(axes, &self.job.values, self.job.seed);
         let mut text = format!(
@@ -43,10 +45,24 @@ impl Walls<'_> {
             self.impact
         );
         if self.margin() < 1.0 {
+            let place = |fixed: FixedSphere| {
+                format!("({:.4}, {:.4}) m", fixed.position[0], fixed.position[2])
+            };
+            let warning = match failure {
+                WallFailure::Passed => format!(
+                    "faster ones squeeze through, first between {} and {}",
+                    place(one),
+                    place(other)
+                ),
+                WallFailure::OverlapGuard => format!(
+                    "faster ones may break the overlap guard, first at {}",
+                    place(one)
+                ),
+            };
+            let indent = "";
             text += &format!(
-                "\n{:14}WARNING: faster ones squeeze through, first between ({:.4}, {:.4}) m and \
-                 ({:.4}, {:.4}) m;\n{:14}raise the stiffness, or make the spheres lighter or slower",
-                "", one.position[0], one.position[2], other.position[0], other.position[2], ""
+                "\n{indent:14}WARNING: {warning};\n{indent:14}raise the stiffness, or make the spheres \
+                 lighter or slower"
             );
         }
         text
@@ -65,7 +81,8 @@ impl Walls<'_> {
 /// What `--json` prints.
 #[derive(Serialize)]
 pub(super) struct Answer {
-    /// Speed above which a sphere squeezes through (m/s), and the radius of that sphere (m).
+    /// Speed above which a sphere squeezes through, or breaks the overlap guard (m/s); and the
+    /// radius of that sphere (m).
     holds_up_to: f64,
     radius: f64,
     /// Fastest impact that the scene lets expect (m/s).

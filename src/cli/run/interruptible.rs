@@ -10,7 +10,6 @@ use phase::resume::{Checkpoints, Ending};
 use phase::run::{self, Run};
 use phase::scene::Scene;
 use phase::simulation::Counts;
-use phase::sweep::work;
 use std::ops::ControlFlow;
 use std::sync::atomic::Ordering;
 
@@ -36,19 +35,19 @@ pub(super) fn run(
     run.use_threads(threads).map_err(Failure::failed)?;
     let resumed = begin(&mut run, checkpoints, resume, console)?;
     let resumed_from = resumed.then(|| run.time());
-    let steps = work::sphere_steps(scene);
-    let done = |now: &run::Progress| (now.share() * steps as f64) as u64;
+    let work = run::model_of(scene).work_of(scene);
+    let done = |now: &run::Progress| (now.share() * work as f64) as u64;
     let mut told = done(&run.progress());
     let progress = Progress::new(
         console,
         Work {
             jobs: 1,
             jobs_done: 0,
-            steps,
+            steps: work,
             steps_done: told,
         },
     );
-    let steps_per_frame = run::frames(scene).0;
+    let steps_per_frame = scene.time.steps_per_frame();
     let mut frame = 0;
     let mut control = |now: run::Progress| {
         let inside = now.counts.map_or(scene.spheres.count, |counts| {
@@ -86,7 +85,7 @@ pub(super) fn run(
         Ending::Interrupted => console.note(format_args!(
             "interrupted at frame {frame} of {}; the same command with --resume goes on from there \
              ({path})",
-            run::frames(scene).1
+            scene.time.frames()
         )),
         Ending::EarlierKept => console.note(format_args!(
             "interrupted; nothing was stored. The checkpoint that was there still is: --resume goes on \

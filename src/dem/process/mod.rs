@@ -69,7 +69,10 @@ impl Process {
                     spheres: walls..walls + fixed.door.len(),
                     step: door.opens.map(|time| (time / dt).round() as u64),
                 }),
-                rest: scene.rest.as_ref().map(|rest| RestWatch::new(rest, dt)),
+                rest: scene
+                    .rest
+                    .as_ref()
+                    .map(|rest| RestWatch::new(rest, scene.spheres.count, dt)),
                 outlet: scene.outlet.as_ref().map(|outlet| outlet.height),
                 leak: LeakWatch::of_scene(scene, &fixed),
                 milestones: Vec::new(),

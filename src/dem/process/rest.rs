@@ -3,19 +3,30 @@
 use crate::dem::particles::Particles;
 use crate::scene::Rest;
 
-/// Watches the kinetic energy of the spheres.
+/// Largest part of the limit for all spheres that one of them may have at rest, in scenes of so many
+/// spheres or more. In smaller scenes it is an equal share.
+const PARTS: usize = 100;
+
+/// Watches the kinetic energy of all spheres and of every single one.
+///
+/// A total alone says nothing of single spheres: a few that still flow are lost in the sum.
 pub(super) struct RestWatch {
-    kinetic_energy: f64,
-    /// Steps for which the energy must stay below the limit.
+    /// Largest kinetic energy of all spheres at rest together (J), spins included.
+    all: f64,
+    /// Largest kinetic energy of one sphere at rest (J), its spin included.
+    one: f64,
+    /// Steps for which all spheres must stay below these.
     hold: u64,
-    /// Step since which it has.
+    /// Step since which they have.
     pub(super) since: Option<u64>,
 }
 
 impl RestWatch {
-    pub(super) fn new(rest: &Rest, dt: f64) -> Self {
+    /// A watch over a scene of `count` spheres, those included that are not in yet.
+    pub(super) fn new(rest: &Rest, count: usize, dt: f64) -> Self {
         Self {
-            kinetic_energy: rest.kinetic_energy,
+            all: rest.kinetic_energy,
+            one: rest.kinetic_energy / count.clamp(1, PARTS) as f64,
             hold: (rest.hold / dt).ceil() as u64,
             since: None,
         }
@@ -29,15 +40,30 @@ impl RestWatch {
     /// Looks at the spheres. The step since which they have been slow, if they are at rest by now;
     /// never before all are `in`.
     pub(super) fn since(&mut self, particles: &Particles, all_in: bool, step: u64) -> Option<u64> {
-        let moving = particles.fixed..particles.len();
-        let energy = moving.fold(0.0, |sum, i| {
-            sum + 0.5 * particles.mass[i] * particles.velocity[i].norm_squared()
-        });
-        if !(all_in && energy < self.kinetic_energy) {
+        if !(all_in && self.are_slow(particles)) {
             self.since = None;
             return None;
         }
         let since = *self.since.get_or_insert(step);
         (step - since >= self.hold).then_some(since)
     }
+
+    fn are_slow(&self, particles: &Particles) -> bool {
+        let mut sum = 0.0;
+        (particles.fixed..particles.len()).all(|sphere| {
+            let energy = kinetic_energy(particles, sphere);
+            sum += energy;
+            energy < self.one
+        }) && sum < self.all
+    }
+}
+
+/// Translational and rotational kinetic energy of a sphere (J).
+fn kinetic_energy(particles: &Particles, sphere: usize) -> f64 {
+    let translational = particles.mass[sphere] * particles.velocity[sphere].norm_squared();
+    let rotational = match particles.rotate() {
+        true => particles.inertia[sphere] * particles.spin[sphere].norm_squared(),
+        false => 0.0,
+    };
+    0.5 * (translational + rotational)
 }

@@ -12,7 +12,7 @@
 //!
 //! Bounded is not accurate: an elastic impact at the limit takes two steps and ends with 0.6 to 2.4
 //! times its speed, at half the limit within 4 %, at a tenth within 0.03 %. Nor do the decisive limits
-//! know of several contacts of one sphere, which need that of twelve (tests/stability measures both).
+//! know of several contacts of one sphere, which need that of twelve (tests/engine/stability measures both).
 
 mod air;
 mod hertz;

@@ -275,6 +275,7 @@ mod tests {
             observations: Default::default(),
             snapshots: Vec::new(),
             trajectory: places.iter().enumerate().map(snapshot).collect(),
+            work: 0,
             cpu_seconds: 0.0,
         }
     }

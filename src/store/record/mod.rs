@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! /             attributes: format, format_version, program_version, program_commit, identity,
-//!               seed, scene (JSON), scene_toml, outcome, cpu_seconds; of an unstable run also
+//!               seed, scene (JSON), scene_toml, outcome, work, cpu_seconds; of an unstable run also
 //!               guard, guard_step, guard_time, guard_sphere, guard_detail
 //! /start        of a start that lists more than 1000 spheres, which the texts leave out then:
 //!               position, velocity, spin                    n x 3
@@ -39,9 +39,7 @@ use std::path::Path;
 const FORMAT: &str = "phase run record";
 /// Raised with every change after which this program cannot read older records (a new
 /// observable, say) or older programs cannot read its own.
-const FORMAT_VERSION: u64 = 2;
-/// The version of a record without `/start`, which programs read that know nothing of such a group.
-const VERSION_WITHOUT_START: u64 = 1;
+const FORMAT_VERSION: u64 = 3;
 
 /// Most spheres that stand in the text of a scene, of which a reader makes several hundred bytes for each.
 const MOST_IN_TEXT: usize = 1000;
@@ -55,6 +53,8 @@ pub struct RecordHeader {
     pub program: Program,
     /// How the run ended.
     pub outcome: Outcome,
+    /// Work of the run, in the unit of its model.
+    pub work: u64,
     /// Processor time of the run (s).
     pub cpu_seconds: f64,
 }
@@ -157,6 +157,7 @@ pub fn motion_digest(record: &RunRecord) -> Result<String, String> {
         observations: record.observations.clone(),
         snapshots: record.snapshots.last().cloned().into_iter().collect(),
         trajectory: Vec::new(),
+        work: record.work,
         cpu_seconds: record.cpu_seconds,
     })
 }

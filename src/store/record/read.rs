@@ -1,7 +1,7 @@
 //! From the bytes of an HDF5 file to a record.
 
-use super::{FORMAT, FORMAT_VERSION, RecordHeader, VERSION_WITHOUT_START, seal};
-use crate::observe::{Observations, Snapshot};
+use super::{FORMAT, FORMAT_VERSION, RecordHeader, seal};
+use crate::observe::{Observations, OwnSeries, Snapshot};
 use crate::record::{Guard, Instability, Milestone, Outcome, Program, RunRecord};
 use crate::scene::{Scene, Start, StartSphere};
 use crate::store::StoreError;
@@ -9,6 +9,9 @@ use hdf5_pure::{AttrValue, File, H5Element};
 use ndarray::{Array, Array1, Array2, Array3, Axis, Dimension};
 use std::collections::HashMap;
 use std::path::Path;
+
+/// Datasets of the observations that are no scalars of single precision.
+const NOT_SCALAR: [&str; 3] = ["time", "profile", "rising"];
 
 /// An open record whose checksum and format are right.
 pub(super) struct Reader<'a> {
@@ -41,7 +44,7 @@ impl<'a> Reader<'a> {
             });
         }
         match self.whole("format_version")? {
-            VERSION_WITHOUT_START..=FORMAT_VERSION => Ok(()),
+            FORMAT_VERSION => Ok(()),
             found => Err(StoreError::Format {
                 path: self.path.to_owned(),
                 found,
@@ -59,6 +62,7 @@ impl<'a> Reader<'a> {
                 commit: self.text("program_commit")?.to_owned(),
             },
             outcome: self.outcome()?,
+            work: self.whole("work")?,
             cpu_seconds: self.number("cpu_seconds")?,
         })
     }
@@ -66,7 +70,8 @@ impl<'a> Reader<'a> {
     fn scene(&self) -> Result<Scene, StoreError> {
         let mut scene = Scene::from_json(self.text("scene")?)
             .map_err(|error| self.damaged(format!("its scene: {error}")))?;
-        if self.whole("format_version")? > VERSION_WITHOUT_START {
+        // A long list stands in datasets instead of the text.
+        if matches!(&scene.start, Start::List { spheres } if spheres.is_empty()) {
             scene.start = self.start(scene.spheres.count)?;
         }
         Ok(scene)
@@ -106,6 +111,7 @@ impl<'a> Reader<'a> {
             scene,
             program,
             outcome,
+            work,
             cpu_seconds,
         } = self.header()?;
         Ok(RunRecord {
@@ -118,6 +124,7 @@ impl<'a> Reader<'a> {
             observations: self.observations()?,
             snapshots: self.snapshots("snapshots")?,
             trajectory: self.snapshots("trajectory")?,
+            work,
             cpu_seconds,
         })
     }
@@ -157,16 +164,44 @@ impl<'a> Reader<'a> {
             rising: self.array("observations/rising")?,
             ..Observations::default()
         };
-        for name in Observations::NAMES {
-            let path = format!("observations/{name}");
-            if Observations::OPTIONAL.contains(name) && self.file.dataset(&path).is_err() {
+        let group = self.file.group("observations");
+        let names = group.and_then(|group| group.datasets());
+        let names = names.map_err(|error| self.damaged(format!("its observations: {error}")))?;
+        for name in names {
+            if NOT_SCALAR.contains(&name.as_str()) {
                 continue;
             }
-            if let Some(values) = observations.scalar_mut(name) {
-                *values = self.values(&path)?;
+            let path = format!("observations/{name}");
+            let values = self.values(&path)?;
+            match observations.scalar_mut(&name) {
+                Some(series) => *series = values,
+                None => observations.own.push(self.own_series(name, &path, values)?),
             }
         }
         Ok(observations)
+    }
+
+    /// An observable that a model declared for itself.
+    fn own_series(
+        &self,
+        name: String,
+        path: &str,
+        values: Vec<f32>,
+    ) -> Result<OwnSeries, StoreError> {
+        let dataset = self.file.dataset(path);
+        let attributes = dataset.and_then(|dataset| dataset.attrs());
+        let attributes =
+            attributes.map_err(|error| self.damaged(format!("its dataset `{path}`: {error}")))?;
+        let text = |key: &str| {
+            let value = attributes.get(key).and_then(AttrValue::as_str);
+            value.unwrap_or_default().to_owned()
+        };
+        Ok(OwnSeries {
+            name,
+            unit: text("unit"),
+            description: text("description"),
+            values,
+        })
     }
 
     fn snapshots(&self, group: &str) -> Result<Vec<Snapshot>, StoreError> {

@@ -1,6 +1,6 @@
 //! From a record to the bytes of an HDF5 file.
 
-use super::{FORMAT, FORMAT_VERSION, MOST_IN_TEXT, VERSION_WITHOUT_START};
+use super::{FORMAT, FORMAT_VERSION, MOST_IN_TEXT};
 use crate::observe::{Observations, Snapshot};
 use crate::record::{Outcome, Program, RunRecord};
 use crate::scene::{Scene, StartSphere};
@@ -72,19 +72,16 @@ fn long_start(scene: &Scene) -> Option<(Scene, &[StartSphere])> {
 /// The attributes; `rest` is the scene without its start's spheres, if these are too many for a text.
 fn header(file: &mut FileBuilder, record: &RunRecord, rest: Option<&Scene>) -> Result<(), String> {
     let scene = &record.scene;
-    let version = match rest {
-        Some(_) => FORMAT_VERSION,
-        None => VERSION_WITHOUT_START,
-    };
     let in_text = rest.unwrap_or(scene);
     let json = serde_json::to_string(in_text).map_err(|error| error.to_string())?;
     if Scene::from_json(&json).ok().as_ref() != Some(in_text) {
         return Err(NOT_FINITE.to_owned());
     }
     file.set_attr("format", text(FORMAT));
-    file.set_attr("format_version", AttrValue::U64(version));
+    file.set_attr("format_version", AttrValue::U64(FORMAT_VERSION));
     file.set_attr("identity", text(&scene.identity()));
     file.set_attr("seed", AttrValue::U64(scene.seed));
+    file.set_attr("work", AttrValue::U64(record.work));
     file.set_attr("scene", text(&json));
     // For people only, so it may be missing: it is no file to run without the spheres, and TOML has no whole
     // numbers beyond 64 signed bits.

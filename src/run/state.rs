@@ -1,0 +1,55 @@
+//! The state of a run between two frames, as a checkpoint keeps it.
+//!
+//! The run's own part comes first (frame, processor time, results so far), then that of the
+//! simulation, which alone knows its form.
+
+use super::{Results, Run};
+use crate::cpu_time;
+use crate::record::Outcome;
+use crate::simulation::StateError;
+use std::io;
+
+impl Run {
+    /// Whether a guard ended the run. There is nothing to go on from then.
+    pub fn is_unstable(&self) -> bool {
+        self.outcome != Outcome::Completed
+    }
+
+    /// Writes the state at the latest frame: with the scene, all that the run goes on from. Saving
+    /// changes nothing.
+    ///
+    /// # Errors
+    /// If `to` cannot be written, or a guard ended the run.
+    pub fn save(&self, to: &mut dyn io::Write) -> io::Result<()> {
+        if self.is_unstable() {
+            return Err(io::Error::other("a guard ended the run"));
+        }
+        let own = (self.frame, self.cpu_seconds(), &self.results);
+        postcard::to_io(&own, &mut *to).map_err(io::Error::other)?;
+        self.simulation.save(to)
+    }
+
+    /// Takes up the state of a run of the same scene and output, saved by the same program: this
+    /// run, which must be at its start, goes on with the same bits.
+    ///
+    /// # Errors
+    /// If the state cannot be one of this scene. The run is then as it was.
+    pub fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
+        let own: (u64, f64, Results);
+        let simulation;
+        (own, simulation) = postcard::take_from_bytes(state).map_err(|_| StateError::OTHER_FORM)?;
+        self.simulation.restore(simulation)?;
+        (self.frame, self.cpu_seconds_before, self.results) = own;
+        self.started = cpu_time::of_this_thread();
+        Ok(())
+    }
+}
+
+/// The frame of a saved state, the start not counted.
+///
+/// # Errors
+/// If it is no state of a run.
+pub fn frame_of_state(state: &[u8]) -> Result<u64, StateError> {
+    let (frame, _) = postcard::take_from_bytes(state).map_err(|_| StateError::OTHER_FORM)?;
+    Ok(frame)
+}

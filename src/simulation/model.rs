@@ -1,0 +1,136 @@
+//! The door between the program and its models.
+
+use super::{Column, Counts, Frame, Instability, Milestone, PartOfStep, Profile};
+use crate::scene::Scene;
+use rayon::ThreadPoolBuildError;
+use std::error::Error;
+use std::io;
+
+/// A kind of simulation: what can be said of a scene before it runs, and how to run it.
+pub trait Model: Sync {
+    /// The unit in which the model counts its work, such as `sphere-steps`.
+    fn work_unit(&self) -> &'static str;
+
+    /// Work of a whole run of the scene, at most.
+    fn work_of(&self, scene: &Scene) -> u64;
+
+    /// The parts of a step that cost time, whether the scene has them or not.
+    fn parts_of(&self, scene: &Scene) -> Vec<PartOfStep>;
+
+    /// A simulation of the scene at its start.
+    ///
+    /// # Errors
+    /// If the scene cannot be built.
+    fn build(&self, scene: &Scene) -> Result<Box<dyn Simulation>, BuildError>;
+}
+
+/// A running model, advanced frame by frame. Runs, checkpoints, sweeps and costs know nothing else
+/// of it.
+pub trait Simulation {
+    /// Advances to the next frame.
+    ///
+    /// # Errors
+    /// The guard that was broken. The simulation must not be advanced any further.
+    fn advance_frame(&mut self) -> Result<(), Instability>;
+
+    /// Time (s).
+    fn time(&self) -> f64;
+
+    /// Whether nothing more will happen, however long the run goes on.
+    fn ended(&self) -> bool {
+        false
+    }
+
+    /// Work done so far, in the [unit](Model::work_unit) of the model.
+    fn work(&self) -> u64;
+
+    /// Radius of every sphere of the scene that moves (m), by its number.
+    fn radius(&self) -> &[f64];
+
+    /// Mass of every sphere of the scene that moves (kg), by its number.
+    fn mass(&self) -> &[f64];
+
+    /// Shows the present frame. Looking never changes the motion.
+    fn look(&mut self, look: &mut dyn FnMut(&dyn Frame));
+
+    /// Scalars that the model itself declares, besides those that are observed on the spheres.
+    fn columns(&self) -> &[Column] {
+        &[]
+    }
+
+    /// Their present values, in the same order.
+    fn values(&mut self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Writes the state between two frames: with the scene, all that the simulation goes on from.
+    /// Saving never changes the motion.
+    ///
+    /// # Errors
+    /// If `to` cannot be written.
+    fn save(&self, to: &mut dyn io::Write) -> io::Result<()>;
+
+    /// Takes up a state that the same program saved of the same scene. The simulation must be at
+    /// its start, and goes on with the bits of the one that was saved.
+    ///
+    /// # Errors
+    /// If the state cannot be one of this scene. The simulation is then as it was.
+    fn restore(&mut self, state: &[u8]) -> Result<(), StateError>;
+
+    /// How many spheres came and went, in a scene where they do.
+    fn counts(&self) -> Option<Counts> {
+        None
+    }
+
+    /// Events so far that happen once in a run.
+    fn milestones(&self) -> &[Milestone] {
+        &[]
+    }
+
+    /// Advances on that many threads from now on, where it pays. No bit depends on it.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    fn use_threads(&mut self, _threads: usize) -> Result<(), ThreadPoolBuildError> {
+        Ok(())
+    }
+
+    /// Processor time of all threads besides the caller's (s).
+    fn seconds_of_threads(&self) -> f64 {
+        0.0
+    }
+
+    /// Releases memory that no look at the spheres needs. Nothing follows but such looks.
+    fn release_memory(&mut self) {}
+
+    /// Begins to measure what the parts of a step take. Never changes the motion.
+    fn keep_profile(&mut self) {}
+
+    /// What was measured since [`keep_profile`](Self::keep_profile); none from a model that does not
+    /// measure.
+    fn profile(&self) -> Option<&Profile> {
+        None
+    }
+}
+
+/// Why a scene cannot be built.
+#[derive(Debug, thiserror::Error)]
+#[error(transparent)]
+pub struct BuildError(Box<dyn Error + Send + Sync>);
+
+impl BuildError {
+    /// The error of a model.
+    pub fn new(error: impl Error + Send + Sync + 'static) -> Self {
+        Self(Box::new(error))
+    }
+}
+
+/// A state does not belong to the scene, or another program saved it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the state does not fit the scene: {0}")]
+pub struct StateError(pub &'static str);
+
+impl StateError {
+    /// What cannot be read as a state at all.
+    pub const OTHER_FORM: Self = Self("its content has another form");
+}

@@ -1,0 +1,133 @@
+//! What the parts of a step take, measured on request.
+
+use crate::cpu_time;
+
+/// A part of a model's step that costs time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PartOfStep {
+    /// Its name in tables.
+    pub name: &'static str,
+    /// Whether the scene has it at all. What it does not have costs nothing.
+    pub is_present: bool,
+    /// Whether it works between the steps, so that the time between them is its own.
+    pub is_between_steps: bool,
+}
+
+/// A profile of a running engine.
+///
+/// The total is the processor time of the thread. How it divides into parts is found in some of the
+/// steps, in which the clock is read between the parts; the others run as they always do. What reading the
+/// clock takes is left out of all times.
+#[derive(Clone, Debug)]
+pub struct Profile {
+    /// What one reading of the clock takes (s).
+    reading: f64,
+    /// Times of the parts in the steps that were looked at (s).
+    looked_at: Vec<f64>,
+    /// The part that takes all of the time when no step was looked at.
+    rest: usize,
+    /// The latest reading, while a step is looked at (s).
+    latest: Option<f64>,
+    readings: u64,
+    /// When the engine was entered (s).
+    entered: f64,
+    /// Time in the engine so far (s), readings included.
+    inside: f64,
+    work: u64,
+}
+
+/// Readings by which a profile finds what one takes.
+const TRIALS: u32 = 2000;
+
+impl Profile {
+    /// An empty profile of that many parts. If no step is looked at, all time counts as that of the
+    /// part `rest`.
+    pub fn new(parts: usize, rest: usize) -> Self {
+        let started = cpu_time::of_this_thread();
+        for _ in 1..TRIALS {
+            std::hint::black_box(cpu_time::of_this_thread());
+        }
+        let trials = cpu_time::of_this_thread() - started;
+        Self {
+            reading: trials / f64::from(TRIALS),
+            looked_at: vec![0.0; parts],
+            rest,
+            latest: None,
+            readings: 0,
+            entered: 0.0,
+            inside: 0.0,
+            work: 0,
+        }
+    }
+
+    /// Time in the engine (s).
+    pub fn seconds(&self) -> f64 {
+        self.inside - self.readings as f64 * self.reading
+    }
+
+    /// What reading the clock took (s).
+    pub fn readings(&self) -> f64 {
+        self.readings as f64 * self.reading
+    }
+
+    /// Work done in the steps so far: each counts its spheres once.
+    pub fn work(&self) -> u64 {
+        self.work
+    }
+
+    /// The time in the engine, divided into its parts.
+    pub fn parts(&self) -> Vec<f64> {
+        let all: f64 = self.looked_at.iter().sum();
+        if all > 0.0 {
+            let of_all = |part: &f64| part * self.seconds() / all;
+            return self.looked_at.iter().map(of_all).collect();
+        }
+        let mut parts = vec![0.0; self.looked_at.len()];
+        parts[self.rest] = self.seconds();
+        parts
+    }
+
+    /// What one reading of the clock takes (s).
+    pub fn reading(&self) -> f64 {
+        self.reading
+    }
+
+    /// Notes that the engine is entered.
+    pub fn enter(&mut self) {
+        self.entered = cpu_time::of_this_thread();
+        self.readings += 1;
+    }
+
+    /// Notes that the engine is left.
+    pub fn leave(&mut self) {
+        self.latest = None;
+        self.inside += cpu_time::of_this_thread() - self.entered;
+    }
+
+    /// Begins a step that moves so many spheres, and looks at it or not.
+    #[inline(never)]
+    pub fn begin(&mut self, step: u64, spheres: usize) {
+        self.work += spheres as u64;
+        // The clock is read a dozen times for 128 spheres, half a microsecond each, in a step of some 50 ns per
+        // sphere: with one step of 16 at most that adds some percent to it.
+        let period = (8192 / spheres.max(1) as u64).clamp(16, 256);
+        // Multiples of the golden ratio are spread evenly over any rhythm of steps, such as that of the
+        // neighbour list.
+        let spread = (step + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        self.latest = (spread < u64::MAX / period).then(|| {
+            self.readings += 1;
+            cpu_time::of_this_thread()
+        });
+    }
+
+    /// Ends a part of a step.
+    #[inline(never)]
+    pub fn mark(&mut self, part: usize) {
+        if let Some(latest) = self.latest {
+            let now = cpu_time::of_this_thread();
+            self.readings += 1;
+            self.looked_at[part] += (now - latest - self.reading).max(0.0);
+            self.latest = Some(now);
+        }
+    }
+}

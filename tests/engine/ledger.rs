@@ -1,0 +1,315 @@
+//! The books of energy: they close, they name what is dissipated, and they change nothing.
+
+use crate::scenes::{INTEGRATORS, frictions, tank};
+use crate::support::Workplace;
+use phase::observe::Observations;
+use phase::record::{Outcome, RunRecord};
+use phase::run;
+use phase::scene::{Friction, Integrator, Scene};
+use std::ops::ControlFlow;
+
+fn observe(scene: &Scene) -> RunRecord {
+    let record = run::run(scene, &mut |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!(record.outcome, Outcome::Completed);
+    record
+}
+
+fn with_ledger(scene: &Scene) -> Observations {
+    let mut scene = scene.clone();
+    scene.output.ledger = true;
+    observe(&scene).observations
+}
+
+fn last(values: &[f32]) -> f64 {
+    f64::from(*values.last().unwrap())
+}
+
+fn largest(values: &[f32]) -> f64 {
+    values
+        .iter()
+        .fold(0.0, |most, value| f64::from(value.abs()).max(most))
+}
+
+fn scene(text: &str, integrator: Integrator) -> Scene {
+    let mut scene: Scene = toml::from_str(text).unwrap();
+    scene.time.integrator = integrator;
+    scene
+}
+
+/// A sphere that hits the floor once at 1 m/s, and sticks or slides.
+fn impact(integrator: Integrator, friction: &str) -> Scene {
+    let text = format!(
+        r#"
+        spheres = {{ count = 1, radius = 0.004, density = 1e4 }}
+        contact = {{ law = "hertz", young_modulus = 2e5, poisson_ratio = 0.3, dissipation_time = 2e-4 }}
+        {friction}
+        tank = {{ floor = 0.0 }}
+        start = {{ kind = "list", spheres = [{{ position = [0.0, 0.0, 0.0041], velocity = [0.5, 0.0, -1.0], spin = [0.0, 20.0, 5.0] }}] }}
+        time = {{ dt = 1e-5, duration = 0.02, frame_interval = 1e-3 }}
+        "#
+    );
+    scene(&text, integrator)
+}
+
+#[test]
+fn asking_for_the_books_changes_no_bit() {
+    for friction in frictions() {
+        for integrator in INTEGRATORS {
+            let mut scene = tank(friction.clone(), integrator);
+            scene.time.duration = 0.05;
+            let plain = observe(&scene);
+            scene.output.ledger = true;
+            let kept = observe(&scene);
+            assert_eq!(
+                plain.snapshots, kept.snapshots,
+                "{friction:?} {integrator:?}"
+            );
+            assert_eq!(plain.observations.elastic, kept.observations.elastic);
+            assert!(plain.observations.residual.is_empty());
+            assert_eq!(scene.identity(), plain.scene.identity());
+        }
+    }
+}
+
+/// What an impact loses is in the books: kinetic energy before less that after.
+#[test]
+fn damping_and_friction_are_told_apart() {
+    let laws = [
+        "",
+        "friction = { law = 'coulomb', coefficient = 0.3, regularisation = 1e-4 }",
+        "friction = { law = 'mindlin', coefficient = 0.3 }",
+        "friction = { law = 'mindlin', coefficient = 5.0 }",
+    ];
+    for integrator in INTEGRATORS {
+        for law in laws {
+            let books = with_ledger(&impact(integrator, law));
+            let kinetic =
+                |frame: usize| f64::from(books.kinetic[frame]) + f64::from(books.rotational[frame]);
+            let (start, end) = (kinetic(0), kinetic(books.frames() - 1));
+            let (damping, friction) = (
+                last(&books.dissipated_by_damping),
+                last(&books.dissipated_by_friction),
+            );
+            assert!(
+                (start - end - damping - friction).abs() < 1e-4 * start,
+                "{law}"
+            );
+            // The normal motion loses what it does without friction: 1 - e^2 of m v^2 / 2.
+            let frictionless = with_ledger(&impact(integrator, ""));
+            let expected = last(&frictionless.dissipated_by_damping);
+            assert!(
+                (damping / expected - 1.0).abs() < 1e-6,
+                "{law} {damping} {expected}"
+            );
+            assert!(
+                (law.is_empty() && friction == 0.0)
+                    || friction > 0.01 * start
+                    || law.contains("5.0")
+            );
+        }
+    }
+}
+
+/// The same under the laws of Silbert et al., whose damping attracts at the end.
+#[test]
+fn the_books_know_the_contact_of_silbert() {
+    for integrator in INTEGRATORS {
+        for friction in [
+            "",
+            "friction = { law = 'silbert', coefficient = 0.3, stiffness = 3e5, damping = 1e5 }",
+        ] {
+            let text = format!(
+                r#"
+                spheres = {{ count = 2, radius = 0.004, density = 2500.0 }}
+                contact = {{ law = "silbert", stiffness = 1e6, damping = 2e5 }}
+                {friction}
+                start = {{ kind = "list", spheres = [{{ position = [0, 0, 0], velocity = [0.5, 0, 0.3] }}, {{ position = [0.0081, 0, 0] }}] }}
+                time = {{ dt = 1e-6, duration = 0.01, frame_interval = 1e-3 }}
+                "#
+            );
+            let books = with_ledger(&scene(&text, integrator));
+            let kinetic =
+                |frame: usize| f64::from(books.kinetic[frame]) + f64::from(books.rotational[frame]);
+            let lost = kinetic(0) - kinetic(books.frames() - 1);
+            let (damping, rubbed) = (
+                last(&books.dissipated_by_damping),
+                last(&books.dissipated_by_friction),
+            );
+            assert!(
+                (lost - damping - rubbed).abs() < 1e-3 * lost,
+                "{integrator:?} {lost} {damping} {rubbed}"
+            );
+            assert!(damping > 0.1 * lost);
+            assert!(friction.is_empty() == (rubbed == 0.0));
+        }
+    }
+}
+
+/// A sphere that slides until it rolls gives 2/7 of its energy to friction.
+#[test]
+fn sliding_into_rolling_costs_two_sevenths() {
+    for integrator in INTEGRATORS {
+        for law in [
+            "{ law = 'coulomb', coefficient = 0.3, regularisation = 1e-4 }",
+            "{ law = 'mindlin', coefficient = 0.3 }",
+        ] {
+            let text = format!(
+                r#"
+                spheres = {{ count = 1, radius = 0.004, density = 1e4 }}
+                contact = {{ law = "hertz", young_modulus = 2e6, poisson_ratio = 0.3, dissipation_time = 1e-4 }}
+                friction = {law}
+                tank = {{ floor = 0.0 }}
+                gravity = {{ acceleration = 9.81 }}
+                start = {{ kind = "list", spheres = [{{ position = [0.0, 0.0, 0.0039568424], velocity = [1.0, 0.0, 0.0] }}] }}
+                time = {{ dt = 1e-5, duration = 0.2, frame_interval = 1e-2 }}
+                "#
+            );
+            let books = with_ledger(&scene(&text, integrator));
+            let share = last(&books.dissipated_by_friction) / f64::from(books.kinetic[0]);
+            assert!(
+                (share - 2.0 / 7.0).abs() < 2e-3,
+                "{law} {integrator:?} {share}"
+            );
+        }
+    }
+}
+
+/// The air's work is what a free sphere gains, gravity's apart.
+#[test]
+fn the_work_of_the_air_is_what_a_sphere_gains() {
+    for integrator in INTEGRATORS {
+        let text = r#"
+            spheres = { count = 2, radius = 0.004, density = 1e3 }
+            gravity = { acceleration = 9.8 }
+            drag = { law = "constant", linear = 2e-4, quadratic = 5e-3 }
+            swirl = { omega = 20.0 }
+            start = { kind = "list", spheres = [{ position = [0.1, 0.0, 0.0], velocity = [1.0, 0.0, 2.0] }, { position = [-0.2, 0.0, 0.5] }] }
+            time = { dt = 1e-4, duration = 0.5, frame_interval = 0.1 }
+        "#;
+        let books = with_ledger(&scene(text, integrator));
+        let energy =
+            |frame: usize| f64::from(books.kinetic[frame]) + f64::from(books.gravitational[frame]);
+        let gained = energy(books.frames() - 1) - energy(0);
+        let air = last(&books.work_of_air);
+        let tolerance = if integrator == Integrator::SymplecticEuler {
+            2e-3
+        } else {
+            1e-5
+        };
+        assert!(
+            (gained / air - 1.0).abs() < tolerance,
+            "{integrator:?} {gained} {air}"
+        );
+    }
+}
+
+/// The residual shrinks with the order of the integrator: halving the step divides it by two for
+/// symplectic Euler and by four for the others. A contact that lasts, on which a sphere bounces,
+/// sticks and turns in moving air.
+#[test]
+fn the_residual_has_the_order_of_the_integrator() {
+    for integrator in INTEGRATORS {
+        let residual = |dt: f64| {
+            let text = format!(
+                r#"
+                spheres = {{ count = 1, radius = 0.004, density = 1e4 }}
+                contact = {{ law = "hertz", young_modulus = 2e5, poisson_ratio = 0.3, dissipation_time = 2e-4 }}
+                friction = {{ law = "mindlin", coefficient = 0.9 }}
+                tank = {{ floor = 0.0 }}
+                gravity = {{ acceleration = 200.0 }}
+                drag = {{ law = "constant", linear = 2e-3, quadratic = 5e-2 }}
+                swirl = {{ omega = 30.0 }}
+                start = {{ kind = "list", spheres = [{{ position = [0.1, 0.0, 0.0036], velocity = [0.03, -0.02, 0.0], spin = [2.0, 1.0, 3.0] }}] }}
+                time = {{ dt = {dt}, duration = 0.01, frame_interval = 1e-4 }}
+                "#
+            );
+            largest(&with_ledger(&scene(&text, integrator)).residual)
+        };
+        let order = libm::log2(residual(2e-5) / residual(1e-5));
+        let expected = match integrator {
+            Integrator::SymplecticEuler => 1.0,
+            _ => 2.0,
+        };
+        assert!((order - expected).abs() < 0.15, "{integrator:?}: {order}");
+    }
+}
+
+/// In a tank with every effect the books close: the residual is a small part of what was dissipated.
+#[test]
+fn the_books_of_a_tank_close() {
+    for friction in frictions() {
+        for integrator in INTEGRATORS {
+            let mut scene = tank(friction.clone(), integrator);
+            scene.time.dt = 2e-5;
+            let books = with_ledger(&scene);
+            let turnover = last(&books.dissipated_by_damping) + last(&books.work_of_air).abs();
+            let residual = largest(&books.residual);
+            let share = match integrator {
+                Integrator::SymplecticEuler => 2e-2,
+                _ => 2e-3,
+            };
+            assert!(
+                residual < share * turnover,
+                "{friction:?} {integrator:?}: {residual} of {turnover}"
+            );
+            assert!(residual > 0.0);
+            assert!(
+                books
+                    .dissipated_by_damping
+                    .windows(2)
+                    .all(|pair| pair[1] >= pair[0])
+            );
+        }
+    }
+}
+
+/// Where spheres come and go, what they bring and take is in the books.
+#[test]
+fn the_books_of_a_silo_close() {
+    for integrator in INTEGRATORS {
+        let mut silo = scene(&crate::support::silo_file(), integrator);
+        silo.friction = Some(Friction::CundallStrack {
+            coefficient: 0.5,
+            stiffness: 50.0,
+            damping: 0.01,
+        });
+        silo.time.dt = 2.5e-4;
+        let books = with_ledger(&silo);
+        assert!(last(&books.discharged) > 0.0);
+        let turnover = last(&books.dissipated_by_damping) + last(&books.dissipated_by_friction);
+        let residual = largest(&books.residual);
+        assert!(largest(&books.energy_brought) > turnover);
+        let share = match integrator {
+            Integrator::SymplecticEuler => 2e-2,
+            _ => 5e-3,
+        };
+        assert!(
+            residual < share * turnover,
+            "{integrator:?}: {residual} of {turnover}"
+        );
+    }
+}
+
+/// Through the program: asked for by a flag, drawn from the record, named where it is missing.
+#[test]
+fn the_program_keeps_and_draws_the_books() {
+    let place = Workplace::new();
+    place.write("scene.toml", &crate::support::scene_file());
+    let run = |more: &[&str]| {
+        let arguments = [&["run", "scene.toml", "--out", "run.h5"], more].concat();
+        place.phase(&arguments).code(0)
+    };
+    assert!(run(&["--ledger"]).stdout.contains("residual"));
+    place
+        .phase(&["plot", "run.h5"])
+        .code(0)
+        .says("run-ledger.svg");
+    let picture = place.read("run-ledger.svg");
+    for word in ["dissipated by damping", "residual", "symplectic-euler"] {
+        assert!(picture.contains(word), "{word}");
+    }
+    assert!(!run(&[]).stdout.contains("residual"));
+    place
+        .phase(&["plot", "run.h5", "--figure", "ledger"])
+        .complains("ledger = true");
+}

@@ -1,0 +1,20 @@
+//! The engine: what its motion must keep, whatever the scene, the integrator and the threads.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod collisions;
+mod determinism;
+mod integrators;
+mod invariants;
+mod large;
+mod ledger;
+mod plane_sides;
+mod reproduction;
+#[path = "../scenes/mod.rs"]
+mod scenes;
+mod silo;
+mod stability;
+#[path = "../support/mod.rs"]
+mod support;
+mod time_step;
+mod verification;

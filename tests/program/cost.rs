@@ -1,0 +1,204 @@
+//! What `phase cost` says: it adds up to what a run takes, counts nothing that is not there, and
+//! changes no bit.
+
+use crate::support::{TinySweep, Workplace, silo_file};
+use phase::cost::{OBSERVERS, RECORD, RunCost, START, SweepCost};
+use phase::dem::Part;
+use phase::record::Outcome;
+use phase::scene::{Integrator, Scene};
+use phase::store::content_digest;
+use serde_json::Value;
+use std::ops::ControlFlow;
+use std::path::Path;
+use std::time::Duration;
+
+const LONG: Duration = Duration::from_secs(600);
+
+fn realistic(duration: f64) -> Scene {
+    let mut scene = phase::scene::Scene::load(Path::new("sweeps/scenes/realistic.toml")).unwrap();
+    scene.time.duration = duration;
+    scene
+}
+
+fn json(place: &Workplace, arguments: &[&str]) -> Value {
+    let answer = place.phase(arguments).code(0);
+    serde_json::from_str(&answer.stdout).unwrap()
+}
+
+/// What else the machine does only ever adds time, so the least of several runs is compared, of both
+/// commands in turn. The comparison is repeated until 24 runs of each: a false alarm takes a machine on
+/// which none of the 24 on one side went undisturbed, and one on the other did. What is wrong by more
+/// than the tolerance in the least disturbed runs fails all three comparisons.
+#[test]
+fn the_total_is_what_a_run_takes() {
+    let place = Workplace::new();
+    let text = std::fs::read_to_string("sweeps/scenes/realistic.toml").unwrap();
+    let short = text.replace("duration = 5.0", "duration = 1.0");
+    assert_ne!(text, short);
+    place.write("tank.toml", &short);
+    let (mut cost, mut run) = (f64::INFINITY, f64::INFINITY);
+    for round in 1..=24 {
+        let answer = json(&place, &["cost", "tank.toml", "--json"]);
+        assert_eq!(answer["tried"][0]["whole"], true);
+        // What a run reports ends before its record is written.
+        let mut total = answer["cpu_seconds"].as_f64().unwrap();
+        for part in answer["parts"].as_array().unwrap() {
+            if part["part"] == "record" {
+                total *= 1.0 - part["share"].as_f64().unwrap();
+            }
+        }
+        cost = cost.min(total);
+        let answer = json(&place, &["run", "tank.toml", "--json"]);
+        run = run.min(answer["cpu_seconds"].as_f64().unwrap());
+        if round % 8 == 0 && (cost / run - 1.0).abs() < 0.05 {
+            return;
+        }
+    }
+    panic!("the parts add up to {cost} s, and a run takes {run} s");
+}
+
+#[test]
+fn what_a_scene_does_not_have_costs_nothing() {
+    let whole = RunCost::measure(&realistic(0.4), LONG).unwrap();
+    for part in Part::ALL {
+        let absent = matches!(part, Part::Ledger | Part::Process | Part::Sides);
+        assert_eq!(part.is_in(&whole.record.scene), !absent, "{part:?}");
+        assert_eq!(whole.seconds(part.name()) == 0.0, absent, "{part:?}");
+    }
+    let mut scene = realistic(0.4);
+    scene.updraught = None;
+    scene.spin_damping = None;
+    scene.tank.as_mut().unwrap().floor = None;
+    scene.output.ledger = true;
+    let cost = RunCost::measure(&scene, LONG).unwrap();
+    for part in Part::ALL {
+        let absent = matches!(
+            part,
+            Part::Updraught
+                | Part::Shield
+                | Part::SpinDamping
+                | Part::Floor
+                | Part::Sides
+                | Part::Process
+        );
+        assert_eq!(part.is_in(&scene), !absent, "{part:?}");
+        assert_eq!(cost.seconds(part.name()) == 0.0, absent, "{part:?}");
+    }
+    let sum: f64 = Part::ALL.iter().map(|part| cost.seconds(part.name())).sum();
+    let rest = [OBSERVERS, RECORD, START].map(|part| cost.seconds(part));
+    let sum = sum + rest.iter().sum::<f64>();
+    assert!((sum / cost.total() - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn spheres_without_forces_have_no_lists() {
+    let mut scene = realistic(0.05);
+    scene.contact = None;
+    scene.friction = None;
+    scene.updraught = None;
+    let cost = RunCost::measure(&scene, LONG).unwrap();
+    for part in [Part::List, Part::Near, Part::Pairs, Part::Floor] {
+        assert!(!part.is_in(&scene), "{part:?}");
+        assert_eq!(cost.seconds(part.name()), 0.0, "{part:?}");
+    }
+}
+
+#[test]
+fn measuring_changes_no_bit() {
+    let mut scenes = vec![toml::from_str::<Scene>(&silo_file()).unwrap()];
+    for integrator in [
+        Integrator::SymplecticEuler,
+        Integrator::VelocityVerlet,
+        Integrator::SynchronisedVerlet,
+        Integrator::AdaptiveVerlet,
+    ] {
+        for ledger in [false, true] {
+            let mut scene = realistic(0.04);
+            scene.time.integrator = integrator;
+            scene.output.ledger = ledger;
+            scenes.push(scene);
+        }
+    }
+    for scene in scenes {
+        let measured = RunCost::measure(&scene, LONG).unwrap().record;
+        let plain = phase::run::run(&scene, &mut |_| ControlFlow::Continue(())).unwrap();
+        assert_eq!(
+            content_digest(&measured).unwrap(),
+            content_digest(&plain).unwrap(),
+            "{:?}",
+            scene.time.integrator
+        );
+    }
+}
+
+#[test]
+fn spheres_that_come_and_go_are_counted_while_they_are_there() {
+    let scene: Scene = toml::from_str(&silo_file()).unwrap();
+    let cost = RunCost::measure(&scene, LONG).unwrap();
+    let steps: u64 = cost.record.work;
+    let ratio = cost.work as f64 / steps as f64;
+    assert!((0.95..1.05).contains(&ratio), "{ratio}");
+    assert!(cost.seconds(Part::Process.name()) > 0.0);
+}
+
+#[test]
+fn a_part_of_a_run_tells_of_all_of_it() {
+    let scene = realistic(2.0);
+    let cost = RunCost::measure(&scene, Duration::from_millis(1)).unwrap();
+    assert!(!cost.whole && cost.frames > 0);
+    assert_eq!(cost.all_work, 256 * 20_000);
+    let ratio = cost.all_work as f64 / cost.work as f64;
+    let all = |name: &str| {
+        let part = cost.parts.iter().find(|part| part.name == name).unwrap();
+        cost.all_seconds(part)
+    };
+    let observers = all(OBSERVERS) / cost.seconds(OBSERVERS);
+    assert!((observers / ratio - 1.0).abs() < 1e-12);
+    assert_eq!(all(START), cost.seconds(START));
+}
+
+#[test]
+fn a_few_jobs_stand_for_a_sweep() {
+    let place = Workplace::new();
+    place.write("tiny.toml", &TinySweep::default().text());
+    let sweep = phase::sweep::load(&place.path("tiny.toml")).unwrap();
+    let jobs = sweep.jobs().unwrap();
+    let cost = SweepCost::measure(&jobs, LONG).unwrap();
+    let values: Vec<f64> = cost.tried.iter().map(|tried| tried.job.values[0]).collect();
+    assert_eq!(values, [0.0, 8.0, 4.0]);
+    assert_eq!(cost.tried.iter().map(|tried| tried.jobs).sum::<usize>(), 6);
+    // Two seeds each.
+    let all: f64 = cost.tried.iter().map(|it| 2.0 * it.cost.total()).sum();
+    assert!((cost.total() / all - 1.0).abs() < 1e-9);
+    let has = |part: Part| {
+        let mut parts = cost.parts().into_iter();
+        parts.any(|it| it.name == part.name() && it.is_present)
+    };
+    assert!(!has(Part::Updraught) && has(Part::Swirl));
+
+    let text = place.phase(&["cost", "tiny.toml"]).code(0);
+    text.says("omega = 4, seed 1")
+        .says("stands for 2 jobs")
+        .says("total");
+}
+
+/// Symptom: a run that a guard ended was called the whole run, and start and record of a single frame were
+/// taken for what every step costs.
+#[test]
+fn a_run_that_becomes_unstable_is_named_and_its_record_counts_once() {
+    let mut scene = realistic(5.0);
+    scene.guards.displacement = 1e-6;
+    let cost = RunCost::measure(&scene, LONG).unwrap();
+    assert!(matches!(cost.record.outcome, Outcome::Unstable(_)));
+    for name in [START, RECORD] {
+        let part = cost.parts.iter().find(|part| part.name == name).unwrap();
+        assert_eq!(cost.all_seconds(part), cost.seconds(name), "{name}");
+    }
+    let place = Workplace::new();
+    let text = std::fs::read_to_string("sweeps/scenes/realistic.toml").unwrap();
+    place.write("scene.toml", &(text + "\n[guards]\ndisplacement = 1e-6\n"));
+    let answer = json(&place, &["cost", "scene.toml", "--json"]);
+    assert_eq!(answer["tried"][0]["unstable"], true);
+    let said = place.phase(&["cost", "scene.toml"]).code(0).stdout;
+    assert!(said.contains("became unstable"), "{said}");
+}

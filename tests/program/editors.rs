@@ -1,0 +1,383 @@
+//! What editors, shells and scripts are given: schemas, starter files, completions, manual pages,
+//! `--json`. `BLESS=1` writes the pages in `docs/` anew.
+
+use crate::support::{TinySweep, Workplace, scene_file};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// The commands that answer in JSON are tested below; these are all.
+const COMMANDS: [&str; 17] = [
+    "sweep",
+    "classify",
+    "plot",
+    "run",
+    "export",
+    "view",
+    "check",
+    "cost",
+    "neighbours",
+    "stability",
+    "verify",
+    "status",
+    "new",
+    "schema",
+    "reference",
+    "completions",
+    "man",
+];
+
+#[test]
+fn documents_are_what_the_program_prints() {
+    let place = Workplace::new();
+    for (arguments, path) in [
+        (["schema", "scene"], "docs/schema/scene.json"),
+        (["schema", "sweep"], "docs/schema/sweep.json"),
+        (["schema", "stability"], "docs/schema/stability.json"),
+        (["reference", "keys"], "docs/reference.md"),
+        (["reference", "notation"], "docs/notation.md"),
+    ] {
+        let printed = place.phase(&arguments).code(0).stdout;
+        if std::env::var_os("BLESS").is_some() {
+            std::fs::write(path, &printed).unwrap();
+        }
+        let kept = std::fs::read_to_string(path).unwrap_or_default();
+        assert!(
+            printed == kept,
+            "{path} is not what `phase {}` prints; write it anew with BLESS=1",
+            arguments.join(" ")
+        );
+    }
+}
+
+#[test]
+fn the_reference_tells_type_unit_default_and_description() {
+    let page = Workplace::new().phase(&["reference", "keys"]).code(0);
+    page.says(
+        "| `density` | a number of at least 1e-9 and at most 1e15 | kg/m³, kg/m² | *needed* | Density rho",
+    )
+    .says(
+        "| `dt` | a number of at least 1e-15 and at most 1e15, or \"auto\" | s | *needed* | Time step dt (s);",
+    )
+    .says("| `overlap` | a number above 0 | | `1.5` | Largest overlap")
+    .says("| `window` | a number above 0 | s | `0.5` | Window (s). |")
+    .says("### `[friction]` with `law = \"mindlin\"`")
+    .says("Largest \\|x\\| and \\|y\\| of a centre");
+}
+
+/// TOML files in a folder and those below it.
+fn toml_files(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            toml_files(&path, files);
+        } else if path.extension().is_some_and(|end| end == "toml") {
+            files.push(path);
+        }
+    }
+}
+
+#[test]
+fn shipped_files_name_their_schema_in_the_first_line() {
+    let mut files = Vec::new();
+    toml_files(Path::new("sweeps"), &mut files);
+    assert!(files.len() >= 9);
+    for path in files {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let has_scene = toml::from_str::<toml::Table>(&text)
+            .unwrap()
+            .contains_key("scene");
+        let kind = match path.starts_with("sweeps/stability") {
+            true => "stability",
+            false if has_scene => "sweep",
+            false => "scene",
+        };
+        let up = "../".repeat(path.components().count() - 1);
+        assert_eq!(
+            text.lines().next(),
+            Some(format!("#:schema {up}docs/schema/{kind}.json").as_str()),
+            "{}",
+            path.display()
+        );
+    }
+}
+
+#[test]
+fn new_files_pass_the_check() {
+    let place = Workplace::new();
+    for (arguments, path, says) in [
+        (&["scene", "tank"][..], "tank.toml", "1 job"),
+        (&["scene", "a/b/tank.toml"], "a/b/tank.toml", "1 job"),
+        (&["silo", "silo"], "silo.toml", "feed, door, outlet"),
+        (&["sweep", "alone"], "alone.toml", "15 jobs"),
+        (
+            &["sweep", "a/diagram", "--scene", "b/tank.toml"],
+            "a/diagram.toml",
+            "15 jobs",
+        ),
+    ] {
+        let answer = place.phase(&[&["new"], arguments].concat()).code(0);
+        assert_eq!(answer.stdout, format!("{path}\n"));
+        place
+            .phase(&["check", path, "--no-trial"])
+            .code(0)
+            .says(says);
+    }
+}
+
+#[test]
+fn new_files_comment_every_table() {
+    let place = Workplace::new();
+    for kind in ["scene", "sweep", "silo"] {
+        place.phase(&["new", kind, kind]).code(0);
+        let text = place.read(&format!("{kind}.toml"));
+        assert!(text.starts_with("# "), "{text}");
+        let comments = text.matches("# ").count();
+        assert!(2 * comments > text.matches(" = ").count(), "{text}");
+    }
+}
+
+#[test]
+fn new_replaces_nothing_unless_it_is_told_to() {
+    let place = Workplace::new();
+    place.write("mine.toml", "# mine\n");
+    place
+        .phase(&["new", "scene", "mine"])
+        .code(2)
+        .complains("mine.toml: the file is there already")
+        .complains("--force");
+    assert_eq!(place.read("mine.toml"), "# mine\n");
+    place.phase(&["new", "scene", "mine", "--force"]).code(0);
+    assert!(place.read("mine.toml").contains("[spheres]"));
+    place
+        .phase(&["new", "scene", "other", "--scene", "mine.toml"])
+        .code(2)
+        .complains("phase new sweep");
+    place.phase(&["new", "tank", "other"]).code(2);
+    assert!(!place.path("other.toml").exists());
+}
+
+#[test]
+fn completions_know_every_command() {
+    let place = Workplace::new();
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = place.phase(&["completions", shell]).code(0).stdout;
+        for command in COMMANDS {
+            assert!(script.contains(command), "{shell} does not know {command}");
+        }
+        assert!(script.contains("no-trial"), "{shell}");
+    }
+    place.phase(&["completions", "nonsense"]).code(2);
+}
+
+#[test]
+fn every_command_has_a_manual_page() {
+    let place = Workplace::new();
+    let page = place.phase(&["man"]).code(0).says(".TH phase 1");
+    for command in COMMANDS {
+        assert!(page.stdout.contains(&format!("phase\\-{command}(1)")));
+    }
+    let answer = place.phase(&["man", "--out", "share/man1"]).code(0);
+    assert_eq!(answer.stdout.lines().count(), COMMANDS.len() + 1);
+    for command in COMMANDS {
+        let page = place.read(&format!("share/man1/phase-{command}.1"));
+        assert!(page.contains(&format!(".TH phase-{command} 1")), "{page}");
+        assert!(page.contains(&format!("\\fBphase {command}\\fR")), "{page}");
+    }
+}
+
+/// What a command answers in JSON: one line, with keys that `docs/json.md` names.
+#[track_caller]
+fn answer(place: &Workplace, arguments: &[&str], code: i32) -> Value {
+    let stdout = place
+        .phase(&[arguments, &["--json"]].concat())
+        .code(code)
+        .stdout;
+    assert_eq!(stdout.matches('\n').count(), 1, "{stdout}");
+    let answer: Value = serde_json::from_str(&stdout).unwrap();
+    assert!(answer.is_object());
+    let page = std::fs::read_to_string("docs/json.md").unwrap();
+    let (_, rest) = page
+        .split_once(&format!("## `phase {} ", arguments[0]))
+        .unwrap();
+    // A sweep's labels are described with those of `classify`.
+    let chapter = match arguments[0] {
+        "sweep" => rest,
+        _ => rest.split("\n## ").next().unwrap(),
+    };
+    assert_described(&answer, chapter);
+    answer
+}
+
+#[track_caller]
+fn assert_described(value: &Value, chapter: &str) {
+    match value {
+        Value::Object(table) => {
+            for (key, value) in table {
+                // The names of axes are those of the sweep.
+                if key != "omega" {
+                    assert!(
+                        chapter.contains(&format!("`{key}`")),
+                        "docs/json.md does not say what `{key}` is"
+                    );
+                }
+                assert_described(value, chapter);
+            }
+        }
+        Value::Array(entries) => entries
+            .iter()
+            .for_each(|entry| assert_described(entry, chapter)),
+        _ => {}
+    }
+}
+
+#[test]
+fn a_sweep_answers_in_json() {
+    let place = Workplace::new();
+    place.write("tiny.toml", &TinySweep::default().text());
+    let forecast = answer(&place, &["check", "tiny.toml"], 0);
+    assert_eq!(forecast["kind"], "sweep");
+    assert_eq!(forecast["jobs"], 6);
+    assert_eq!(
+        forecast["axes"][0]["values"],
+        serde_json::json!([0.0, 4.0, 8.0])
+    );
+    assert_eq!(forecast["limits"][0]["decisive"], true);
+    assert!(forecast["limits"][0]["ratio"].as_f64().unwrap() < 1.0);
+    assert!(forecast["forecast"]["disk"].as_f64().unwrap() > 0.0);
+
+    let cost = answer(&place, &["cost", "tiny.toml", "--seconds", "1"], 0);
+    assert_eq!((&cost["kind"], &cost["jobs"]), (&"sweep".into(), &6.into()));
+    let parts = cost["parts"].as_array().unwrap();
+    let shares = parts.iter().map(|part| part["share"].as_f64().unwrap());
+    assert!((shares.sum::<f64>() - 1.0).abs() < 1e-9, "{cost}");
+    assert_eq!(cost["tried"][1]["point"]["omega"], 8.0);
+
+    let swept = answer(&place, &["sweep", "tiny.toml"], 0);
+    assert_eq!(swept["folder"], "results/tiny");
+    assert_eq!(
+        (&swept["jobs"], &swept["run_now"]),
+        (&6.into(), &6.into()),
+        "{swept}"
+    );
+    assert_eq!(swept["interrupted"], false);
+    let labels = swept["labels"]["labels"].as_object().unwrap();
+    let labelled: u64 = labels.values().map(|runs| runs.as_u64().unwrap()).sum();
+    assert_eq!(labelled, 6);
+    let files = swept["files"].as_array().unwrap();
+    assert!(files.contains(&"results/tiny/phase.png".into()), "{swept}");
+
+    let again = answer(&place, &["sweep", "tiny.toml", "--no-plot", "--quiet"], 0);
+    assert_eq!(
+        (&again["done_before"], &again["run_now"]),
+        (&6.into(), &0.into())
+    );
+
+    let status = answer(&place, &["status", "results"], 0);
+    assert_eq!(status["folders"][0]["done"], 6);
+    assert_eq!(status["folders"][0]["running"], false);
+
+    let more = "[sieves.settle]\ntolerance = 1e-30".to_owned();
+    let edited = TinySweep {
+        more,
+        ..TinySweep::default()
+    };
+    place.write("edited.toml", &edited.text());
+    let arguments = ["classify", "results/tiny", "--sweep", "edited.toml"];
+    let classified = answer(&place, &arguments, 0);
+    let folder = &classified["folders"][0];
+    assert_eq!(folder["labels"]["unsettled"], 6);
+    let changes = folder["changes"].as_array().unwrap();
+    let changed: u64 = changes
+        .iter()
+        .map(|change| change["runs"].as_u64().unwrap())
+        .sum();
+    assert_eq!((changed, &changes[0]["to"]), (6, &"unsettled".into()));
+}
+
+#[test]
+fn unstable_runs_are_named_in_json() {
+    let place = Workplace::new();
+    let more = "[scene.guards]\ndisplacement = 1e-6".to_owned();
+    let sweep = TinySweep {
+        more,
+        ..TinySweep::default()
+    };
+    place.write("tiny.toml", &sweep.text());
+    let swept = answer(&place, &["sweep", "tiny.toml", "--no-plot"], 0);
+    let unstable = swept["unstable"].as_array().unwrap();
+    assert_eq!(unstable.len(), 6);
+    assert_eq!(unstable[2]["point"]["omega"], 4.0);
+    assert_eq!(unstable[2]["seed"], 1);
+    let reason = unstable[2]["reason"].as_str().unwrap();
+    assert!(reason.starts_with("displacement guard"), "{reason}");
+}
+
+#[test]
+fn a_run_answers_in_json() {
+    let place = Workplace::new();
+    place.write("scene.toml", &scene_file());
+    let run = answer(&place, &["run", "scene.toml", "--seed", "5"], 0);
+    assert_eq!(run["record"], "results/scene.h5");
+    assert_eq!((&run["seed"], &run["frames"]), (&5.into(), &201.into()));
+    assert_eq!(run["outcome"], "completed");
+    assert_eq!(run["last_frame"]["time"], 2.0);
+    assert!(run["last_frame"]["height_mean"].as_f64().unwrap() > 0.0);
+
+    let text = format!("{}[guards]\ndisplacement = 1e-6\n", scene_file());
+    place.write("scene.toml", &text);
+    let run = answer(&place, &["run", "scene.toml"], 0);
+    assert_eq!(run["outcome"], "unstable");
+    assert_eq!(run["instability"]["guard"], "displacement");
+}
+
+#[test]
+fn a_study_of_stability_answers_in_json() {
+    let place = Workplace::new();
+    let axes = "[[axis]]\nkey = \"time.dt\"\nvalues = [1e-4, 2e-2]\n\
+                [[axis]]\nkey = \"contact.young_modulus\"\nvalues = [1e5, 1e6]\n";
+    place.write("scene.toml", &scene_file());
+    place.write("study.toml", &format!("scene = \"scene.toml\"\n{axes}"));
+    let study = answer(&place, &["stability", "study.toml"], 0);
+    assert_eq!(study["folder"], "results/study");
+    assert_eq!(
+        (&study["runs"], &study["run_now"]),
+        (&16.into(), &16.into())
+    );
+    let euler = &study["integrators"][0];
+    assert_eq!(euler["integrator"], "symplectic-euler");
+    let runs = euler["labels"].as_object().unwrap().values();
+    assert_eq!(runs.map(|runs| runs.as_u64().unwrap()).sum::<u64>(), 4);
+    assert!(
+        euler["none_stable_above"].as_f64().unwrap() > 0.1,
+        "{euler}"
+    );
+    let files = study["files"].as_array().unwrap();
+    assert!(
+        files.contains(&"results/study/stability.png".into()),
+        "{study}"
+    );
+}
+
+#[test]
+fn figures_are_listed_in_json() {
+    let place = Workplace::new();
+    let list = answer(&place, &["plot", "--list"], 0);
+    let figures = list["figures"].as_array().unwrap();
+    assert!(figures.iter().any(|figure| figure["name"] == "phase"));
+}
+
+#[test]
+fn what_is_refused_answers_nothing() {
+    let place = Workplace::new();
+    place.write("scene.toml", &scene_file().replace("density", "densty"));
+    for arguments in [
+        &["run", "scene.toml"][..],
+        &["check", "scene.toml"],
+        &["sweep", "absent.toml"],
+        &["status", "absent"],
+    ] {
+        let answer = place.phase(&[arguments, &["--json"]].concat()).code(2);
+        assert_eq!(answer.stdout, "");
+        assert!(answer.stderr.starts_with("error: "), "{}", answer.stderr);
+    }
+}

@@ -1,0 +1,8 @@
+//! One run out of a sweep, and its spheres in the formats of other programs.
+
+mod browser;
+mod dumps;
+mod export;
+mod flat;
+mod run_again;
+mod view;

@@ -1,0 +1,25 @@
+//! The program and the library around the engine: files, sweeps, records, figures, commands.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod checkpoint;
+mod command_line;
+mod cost;
+mod editors;
+mod figures;
+mod formats;
+mod loss;
+mod model;
+mod plot;
+mod published;
+mod records;
+mod resume;
+mod rooms;
+mod scene_files;
+#[path = "../scenes/mod.rs"]
+mod scenes;
+mod silo_figures;
+mod silo_sweep;
+mod stability_study;
+#[path = "../support/mod.rs"]
+mod support;

@@ -1,0 +1,138 @@
+//! Other numbers of axes: strips, panels, rows and columns.
+
+use super::bench::{
+    OMEGA, RADIUS, axis, draw, has, linear, made_up, nine, sweep, table, texts, verdict,
+};
+use phase::classify::Label;
+
+#[test]
+fn three_axes_make_panels_with_their_own_critical_rotation() {
+    let axes = vec![
+        axis(RADIUS, &linear(0.002, 0.006, 9)),
+        axis(OMEGA, &linear(0.0, 40.0, 9)),
+        axis(("gravity.acceleration", "g"), &[1.6, 3.7, 9.8, 24.8]),
+    ];
+    let sweep = sweep("Four planets", axes, &[1, 2]);
+    let table = table(&sweep, |values, seed| {
+        Some(made_up(
+            values[0],
+            values[1],
+            0.1 * seed as f64 - 0.01 * values[2],
+        ))
+    });
+    let svg = draw("three", "phase", &sweep, &table);
+    for text in [
+        "g = 1.6 m/s²",
+        "g = 3.7 m/s²",
+        "g = 9.8 m/s²",
+        "g = 24.8 m/s²",
+    ] {
+        assert!(has(&svg, text), "{text}");
+    }
+    let mut curves: Vec<&str> = svg
+        .lines()
+        .filter(|line| line.contains("stroke-linejoin") && line.contains("stroke-width=\"20\""))
+        .collect();
+    assert_eq!(curves.len(), 4);
+    curves.sort_unstable();
+    curves.dedup();
+    assert_eq!(curves.len(), 4);
+    draw("three-settle-time", "settle-time", &sweep, &table);
+}
+
+#[test]
+fn four_axes_make_rows_and_columns() {
+    let axes = vec![
+        axis(RADIUS, &linear(0.002, 0.006, 5)),
+        axis(OMEGA, &linear(0.0, 40.0, 9)),
+        axis(("spheres.density", "density"), &[1000.0, 2500.0, 7850.0]),
+        axis(("drag.linear", "drag"), &[50.0, 100.0]),
+    ];
+    let sweep = sweep("Density and drag", axes, &[1]);
+    let table = table(&sweep, |values, _| {
+        Some(made_up(
+            values[0],
+            values[1],
+            values[3] / 200.0 - values[2] / 2e4,
+        ))
+    });
+    let svg = draw("four", "phase", &sweep, &table);
+    for text in ["ρ = 2500 kg/m³", "M1 = 50 kg/(m² s)", "M1 = 100 kg/(m² s)"] {
+        let found = texts(&svg).iter().filter(|found| *found == text).count();
+        assert_eq!(found, 1, "{text}");
+    }
+    draw("four-hole", "hole-radius", &sweep, &table);
+}
+
+#[test]
+fn settings_choose_the_axes() {
+    let (mut sweep, table) = nine();
+    sweep.plot.y = Some("radius".to_owned());
+    let svg = draw("swapped", "phase", &sweep, &table);
+    let rotated = |text: &str| {
+        svg.lines().any(|line| {
+            let label = line.starts_with("<text") && line.contains("rotate(270");
+            label && texts(line).iter().any(|found| found == text)
+        })
+    };
+    assert!(rotated("r / R") && !rotated("Ω (rad/s)"));
+    assert!(has(&svg, "critical rotation Ωc"));
+}
+
+#[test]
+fn one_axis_makes_a_strip() {
+    let axes = vec![axis(OMEGA, &linear(0.0, 40.0, 21))];
+    let sweep = sweep("Spheres of 4 mm", axes, &[1, 2, 3]);
+    let table = table(&sweep, |values, seed| {
+        Some(made_up(0.004, values[0], 0.05 * seed as f64))
+    });
+    let svg = draw("strip", "phase", &sweep, &table);
+    assert!(has(&svg, "Ω (rad/s)") && has(&svg, "critical rotation Ωc"));
+    draw("strip-settle-time", "settle-time", &sweep, &table);
+    draw("strip-rotation", "rotation", &sweep, &table);
+}
+
+#[test]
+fn logarithmic_axis_without_omega_has_no_curve() {
+    let steps: Vec<f64> = (0..10)
+        .map(|index| 1e-6 * libm::exp10(0.5 * f64::from(index)))
+        .collect();
+    let axes = vec![
+        axis(("time.dt", "dt"), &steps),
+        axis(("friction.coefficient", "friction"), &linear(0.0, 1.0, 6)),
+    ];
+    let sweep = sweep("Time step", axes, &[1]);
+    let table = table(&sweep, |values, _| {
+        let label = if values[0] > 1e-3 {
+            Label::Unstable
+        } else {
+            Label::Settled
+        };
+        Some(verdict(label))
+    });
+    let svg = draw("logarithmic", "phase", &sweep, &table);
+    assert!(has(&svg, "10⁻⁵") && has(&svg, "Δt (s)") && has(&svg, "μ"));
+    assert!(!has(&svg, "critical rotation Ωc"));
+}
+
+#[test]
+fn many_panels_widen_the_figure() {
+    let alpha = linear(0.1, 0.9, 9);
+    let axes = vec![
+        axis(RADIUS, &linear(0.002, 0.006, 5)),
+        axis(OMEGA, &linear(0.0, 40.0, 5)),
+        axis(("updraught.alpha", "alpha"), &alpha),
+        axis(("contact.young_modulus", "young"), &[1e5, 5.657e5]),
+    ];
+    let sweep = sweep("Many panels", axes, &[1]);
+    let table = table(&sweep, |values, _| {
+        Some(made_up(values[0], values[1], values[2] - 0.5))
+    });
+    let svg = draw("many", "phase", &sweep, &table);
+    assert!(has(&svg, "α = 0.9") && has(&svg, "Y = 5.657×10⁵ Pa"));
+    let width = svg
+        .split("width=\"")
+        .nth(1)
+        .and_then(|rest| rest.split('"').next());
+    assert!(width.unwrap().parse::<f64>().unwrap() > 900.0);
+}

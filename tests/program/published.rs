@@ -1,0 +1,36 @@
+//! Published tables: every one is read, and written again has the same bytes.
+
+use phase::classify::Family;
+use phase::store::{read_labels, write_labels, write_points};
+use phase::sweep::Folder;
+use std::fs;
+use std::path::Path;
+
+#[test]
+fn published_tables_keep_their_bytes() {
+    let place = tempfile::tempdir().unwrap();
+    let mut families = Vec::new();
+    for folder in Folder::find(Path::new("results")).unwrap() {
+        if !folder.labels().exists() {
+            continue;
+        }
+        let table = read_labels(&folder.labels()).unwrap();
+        families.push(table.family);
+        let sweep = folder.read_sweep().unwrap();
+        assert_eq!(table.family, Family::of(&sweep.scene), "{folder:?}");
+        let (labels, points) = (place.path().join("labels"), place.path().join("points"));
+        write_labels(&table, &labels).unwrap();
+        write_points(&table, &points).unwrap();
+        for (written, published) in [(labels, folder.labels()), (points, folder.points())] {
+            let same = fs::read(written).unwrap() == fs::read(&published).unwrap();
+            assert!(same, "{}", published.display());
+        }
+    }
+    for family in [Family::Tank, Family::Silo] {
+        assert!(
+            families.contains(&family),
+            "no table of a {}",
+            family.name()
+        );
+    }
+}

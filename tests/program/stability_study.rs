@@ -1,0 +1,388 @@
+//! Phase diagrams of the numerics: borders lie where theory has them, and studies are kept and gone on
+//! with like sweeps.
+
+use crate::support::Workplace;
+use phase::scene::Integrator;
+use phase::stability::{self, Event, Label, Report, Row, Study, Theory, Trials};
+use phase::store::read_stability;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+fn study(text: &str) -> Study {
+    stability::from_str(text, Path::new("study.toml")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn run(study: &Study) -> Vec<Row> {
+    let place = tempfile::tempdir().unwrap();
+    run_into(study, &place.path().join("stability.csv"), Vec::new()).rows
+}
+
+fn run_into(study: &Study, table: &Path, known: Vec<Row>) -> Report {
+    let trials = Trials {
+        study,
+        jobs: &study.jobs().unwrap(),
+        table,
+        workers: 2,
+        stop: &AtomicBool::new(false),
+        watch: &|_| {},
+    };
+    trials.run(known).unwrap()
+}
+
+/// The largest stable and the least other step of an integrator at a value of the second axis. Between
+/// them there is nothing: all below are stable, and none above is.
+fn border(rows: &[Row], integrator: Integrator, value: f64) -> [f64; 2] {
+    let own = rows
+        .iter()
+        .filter(|row| row.integrator == integrator && row.values[1] == value);
+    let (mut stable, mut broken) = (0.0_f64, f64::INFINITY);
+    for row in own {
+        match row.label {
+            Label::Stable => stable = stable.max(row.time_step),
+            _ => broken = broken.min(row.time_step),
+        }
+    }
+    let name = integrator.name();
+    assert!(
+        stable < broken,
+        "{name}, {value}: {stable:e} and {broken:e}"
+    );
+    [stable, broken]
+}
+
+/// A sphere that swings on the floor by a hundredth of the overlap at which it rests, without or with
+/// damping. Steps are 1 % apart.
+const OSCILLATOR: &str = r#"
+    integrators = ["symplectic-euler", "velocity-verlet", "synchronised-verlet"]
+    [[axis]]
+    key = "time.dt"
+    from = 2e-3
+    to = 5e-3
+    count = 93
+    spacing = "log"
+    [[axis]]
+    key = "contact.damping"
+    values = [0.0, 0.05, 0.1]
+    [scene]
+    spheres = { count = 1, radius = 0.004, density = 2500.0 }
+    contact = { law = "linear", stiffness = 160.0, damping = 0.0 }
+    tank = { floor = 0.0 }
+    gravity = { acceleration = 9.8 }
+    start = { kind = "list", spheres = [{ position = [0.0, 0.0, 0.0039586] }] }
+    time = { dt = 1e-3, duration = 40.0, frame_interval = 1e-1 }
+"#;
+
+/// The limit of a pair, at half of the stiffness and damping: that of one sphere and the floor, which
+/// is twice as heavy as a pair.
+fn limit_on_the_floor(study: &Study, damping: f64, integrator: Integrator) -> f64 {
+    let scene = study.scene_at(&[1e-3, damping], integrator).unwrap();
+    let halves = [
+        ("contact.stiffness", 80.0),
+        ("contact.damping", 0.5 * damping),
+    ];
+    let tree = serde_json::to_value(&scene).unwrap();
+    let mut tree = tree;
+    for (key, value) in halves {
+        let (table, key) = key.split_once('.').unwrap();
+        tree[table][key] = value.into();
+    }
+    let scene = serde_json::from_value(tree).unwrap();
+    Theory::of(&scene).decisive.unwrap().seconds
+}
+
+#[test]
+fn an_oscillator_breaks_at_the_limit_of_its_integrator() {
+    let study = study(OSCILLATOR);
+    let rows = run(&study);
+    let mut limits = Vec::new();
+    for &integrator in &study.integrators {
+        for damping in [0.0, 0.05, 0.1] {
+            let limit = limit_on_the_floor(&study, damping, integrator);
+            let [stable, broken] = border(&rows, integrator, damping);
+            let name = format!("{}, damping {damping}", integrator.name());
+            // The border is in the cell of the limit or in one next to it.
+            assert!(
+                stable < 1.011 * limit && broken > 0.989 * limit,
+                "{name}: {stable:e} to {broken:e} for {limit:e}"
+            );
+            assert!(broken < 1.011 * stable, "{name}: a hole");
+            limits.push(limit);
+        }
+    }
+    // The limits differ, or the borders would say little.
+    assert!(
+        limits[2] < 0.9 * limits[0] && limits[8] < 0.9 * limits[5],
+        "{limits:?}"
+    );
+}
+
+#[test]
+fn sub_steps_leave_the_displacement() {
+    let study = study(
+        r#"
+        integrators = ["adaptive-verlet"]
+        [[axis]]
+        key = "time.dt"
+        from = 1e-3
+        to = 1e-2
+        count = 231
+        spacing = "log"
+        [[axis]]
+        key = "spheres.radius"
+        values = [0.002, 0.004]
+        [scene]
+        spheres = { count = 1, radius = 0.004, density = 2500.0 }
+        contact = { law = "hertz", young_modulus = 1e9, poisson_ratio = 0.3, dissipation_time = 0.0 }
+        start = { kind = "list", spheres = [{ position = [0.0, 0.0, 0.0], velocity = [1.0, 0.0, 0.0] }] }
+        time = { dt = 1e-5, duration = 0.1, frame_interval = 1e-3 }
+        "#,
+    );
+    let rows = run(&study);
+    for radius in [0.002, 0.004] {
+        let scene = study.scene_at(&[1e-3, radius], Integrator::AdaptiveVerlet);
+        let limit = Theory::of(&scene.unwrap()).decisive.unwrap();
+        assert_eq!((limit.name, limit.seconds), ("displacement", radius));
+        let [stable, broken] = border(&rows, Integrator::AdaptiveVerlet, radius);
+        assert!(
+            stable <= 1.000_001 * radius && broken > radius,
+            "{stable:e} to {broken:e}"
+        );
+        assert!(broken < 1.011 * stable);
+    }
+}
+
+/// A sphere that falls onto the floor, with steps far above the limit, in milliseconds.
+const TINY: &str = r#"
+title = "A drop"
+integrators = ["velocity-verlet", "adaptive-verlet"]
+frames = 20
+[[axis]]
+key = "time.dt"
+values = [1e-5, 1e-3, 1e-2]
+[[axis]]
+key = "contact.young_modulus"
+values = [1e6, 1e8]
+[scene]
+spheres = { count = 1, radius = 0.004, density = 2500.0 }
+contact = { law = "hertz", young_modulus = 1e6, poisson_ratio = 0.3, dissipation_time = 0.0 }
+tank = { floor = 0.0 }
+gravity = { acceleration = 9.8 }
+start = { kind = "list", spheres = [{ position = [0.0, 0.0, 0.03] }] }
+time = { dt = 1e-5, duration = 0.5, frame_interval = 1e-2 }
+"#;
+
+#[test]
+fn a_study_that_is_stopped_goes_on_where_it_was() {
+    let study = study(TINY);
+    let jobs = study.jobs().unwrap();
+    let place = tempfile::tempdir().unwrap();
+    let (whole, cut) = (place.path().join("whole"), place.path().join("cut"));
+    let expected = run_into(&study, &whole, Vec::new());
+    assert_eq!((expected.rows.len(), expected.left), (12, 0));
+
+    let stop = AtomicBool::new(false);
+    let stopping = Trials {
+        study: &study,
+        jobs: &jobs,
+        table: &cut,
+        workers: 1,
+        stop: &stop,
+        watch: &|event| {
+            if matches!(event, Event::Finished(job, _) if job.id == jobs[4].id) {
+                stop.store(true, Ordering::Relaxed);
+            }
+        },
+    };
+    let report = stopping.run(Vec::new()).unwrap();
+    assert_eq!((report.rows.len(), report.left), (5, 7));
+    let known = read_stability(&study.axes, &cut).unwrap();
+    assert_eq!(known, expected.rows[..5]);
+
+    let report = run_into(&study, &cut, known);
+    assert_eq!((report.known, report.rows.len(), report.left), (5, 12, 0));
+    assert_eq!(std::fs::read(whole).unwrap(), std::fs::read(cut).unwrap());
+}
+
+#[test]
+fn rows_are_taken_over_and_labelled_by_the_threshold() {
+    let place = Workplace::new();
+    place.write("drop.toml", TINY);
+    let first = place.phase(&["stability", "drop.toml"]).code(0);
+    let table = place.read("results/drop/stability.csv");
+    first
+        .says("12 runs: 12 made now")
+        .says("results/drop/stability.png");
+    place
+        .phase(&["stability", "drop.toml"])
+        .code(0)
+        .says("12 runs: 0 made now");
+    assert_eq!(table, place.read("results/drop/stability.csv"));
+
+    // Whatever gains or loses energy at all is told apart by a threshold of nearly nothing.
+    let stable = |table: &str| table.matches(",stable,").count();
+    place.write("drop.toml", &format!("energy_gain = 1e-12\n{TINY}"));
+    place
+        .phase(&["stability", "drop.toml", "--no-plot"])
+        .code(0)
+        .says("12 runs: 0 made now");
+    let strict = place.read("results/drop/stability.csv");
+    assert!(stable(&strict) < stable(&table), "{strict}");
+
+    place.write("drop.toml", TINY);
+    place
+        .phase(&["stability", "drop.toml", "--force", "--no-plot"])
+        .code(0)
+        .says("12 made now");
+    assert_eq!(table, place.read("results/drop/stability.csv"));
+}
+
+#[test]
+fn the_figure_has_a_panel_per_integrator_units_and_the_limit() {
+    let place = Workplace::new();
+    place.write("drop.toml", TINY);
+    place.phase(&["stability", "drop.toml", "-j", "1"]).code(0);
+    let figure = place.read("results/drop/stability.svg");
+    for text in [
+        "A drop",
+        "velocity-verlet",
+        "adaptive-verlet",
+        "(Pa)",
+        "lost sphere",
+        "limit of the time step",
+        "advised limit of twelve contacts",
+        "Software: phase",
+    ] {
+        assert!(figure.contains(text), "no `{text}`");
+    }
+}
+
+#[test]
+fn a_table_that_is_none_is_refused() {
+    let place = Workplace::new();
+    place.write("drop.toml", TINY);
+    place
+        .phase(&["stability", "drop.toml", "--no-plot"])
+        .code(0);
+    let table = place.read("results/drop/stability.csv");
+    let path = "results/drop/stability.csv";
+    place.write(path, &table.replace("velocity-verlet", "velocity-verlat"));
+    place
+        .phase(&["stability", "drop.toml", "--no-plot"])
+        .code(2)
+        .complains("delete the file");
+}
+
+/// Part of the published cradle, made again.
+#[test]
+fn the_published_cradle_keeps_its_rows() {
+    let mut study = stability::load(Path::new("sweeps/stability/cradle.toml")).unwrap();
+    let published = Path::new("results/stability/cradle/stability.csv");
+    let published = read_stability(&study.axes, published).unwrap();
+    assert_eq!(published.len(), study.jobs().unwrap().len());
+    study.integrators = vec![Integrator::VelocityVerlet];
+    let own = |row: &Row| row.integrator == Integrator::VelocityVerlet;
+    let expected: Vec<Row> = published.into_iter().filter(own).collect();
+    assert!(expected.iter().any(|row| row.label == Label::EnergyGain));
+    assert_eq!(run(&study), expected);
+}
+
+#[test]
+fn published_studies_are_those_that_are_shipped() {
+    for name in ["cradle", "pile", "tank"] {
+        let study = stability::load(Path::new(&format!("sweeps/stability/{name}.toml"))).unwrap();
+        let table = format!("results/stability/{name}/stability.csv");
+        let rows = read_stability(&study.axes, Path::new(&table)).unwrap();
+        let ids = |ids: Vec<&String>| ids.into_iter().cloned().collect::<Vec<_>>();
+        let jobs = study.jobs().unwrap();
+        let of_jobs = ids(jobs.iter().map(|job| &job.id).collect());
+        assert!(
+            of_jobs == ids(rows.iter().map(|row| &row.id).collect()),
+            "{name}"
+        );
+    }
+}
+
+/// Symptom: a study was refused for keys of frames and output that it does not use, and the message
+/// pointed at the scene as a whole. Cause: its scene was checked like one to be run.
+#[test]
+fn keys_that_a_study_does_not_use_do_not_refuse_it() {
+    let own = study(TINY);
+    for (from, to) in [
+        ("frame_interval = 1e-2", "frame_interval = 1.234e-2"),
+        ("frame_interval = 1e-2", "frame_interval = 2.0"),
+        (
+            "[scene]",
+            "[scene]\noutput = { snapshot_interval = 0.012345 }",
+        ),
+    ] {
+        let text = TINY.replace(from, to);
+        assert_ne!(text, TINY);
+        assert_eq!(study(&text).jobs().unwrap(), own.jobs().unwrap(), "{to}");
+    }
+}
+
+/// Symptom: a run of half a second with steps of 7 s lasted 7 s and was labelled.
+#[test]
+fn a_step_longer_than_the_run_is_refused() {
+    let text = TINY.replace("1e-2]", "7.0]");
+    let error = stability::from_str(&text, Path::new("study.toml")).unwrap_err();
+    let error = error.to_string();
+    for part in [
+        "study.toml:6:",
+        "`time.dt` = 7 s is longer than the run, `time.duration` = 0.5 s",
+        "help: use a smaller step",
+    ] {
+        assert!(error.contains(part), "no `{part}` in {error}");
+    }
+}
+
+/// Symptom: rows of any build were taken over without a word.
+#[test]
+fn rows_of_another_build_are_told_of_until_they_are_made_anew() {
+    let place = Workplace::new();
+    place.write("drop.toml", TINY);
+    let again = ["stability", "drop.toml", "--no-plot"];
+    let quiet =
+        |answer: crate::support::Answer| assert!(!answer.stderr.contains("made by"), "{answer:?}");
+    place.phase(&again).code(0);
+    quiet(place.phase(&again).code(0));
+
+    let path = "results/drop/stability.makers.csv";
+    let mut makers: Vec<String> = place.read(path).lines().map(str::to_owned).collect();
+    for row in &mut makers[1..4] {
+        let id = row.split(',').next().unwrap();
+        *row = format!("{id},0.0.9,abc123");
+    }
+    makers.remove(4);
+    place.write(path, &(makers.join("\n") + "\n"));
+    for _ in 0..2 {
+        place
+            .phase(&again)
+            .code(0)
+            .complains("3 rows were made by version 0.0.9 (commit abc123); --force makes them anew")
+            .complains("1 row was made by a version that was not noted; --force makes it anew");
+    }
+    place.phase(&[&again[..], &["--force"]].concat()).code(0);
+    quiet(place.phase(&again).code(0));
+}
+
+#[test]
+fn check_says_what_a_study_would_run() {
+    let place = Workplace::new();
+    place.write("drop.toml", TINY);
+    place
+        .phase(&["check", "drop.toml"])
+        .code(0)
+        .says("A drop: a study of stability, 12 runs")
+        .says("of the limit in 6 runs (adaptive-verlet)")
+        .says("at most about");
+    // One with no key that a sweep has not, but steps above the limit.
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/sweeps/stability/cradle.toml");
+    let answer = place
+        .phase(&["check", file, "--no-trial", "--json"])
+        .code(0);
+    let answer: serde_json::Value = serde_json::from_str(&answer.stdout).unwrap();
+    assert_eq!(answer["kind"], "study");
+    assert_eq!(answer["jobs"], 4 * 31 * 13);
+    assert!(answer["integrators"][0]["largest_ratio"].as_f64().unwrap() > 1.0);
+}
