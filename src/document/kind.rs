@@ -74,6 +74,7 @@ impl Range {
         low_allowed: true,
         high: Self::HUGE,
     };
+
     /// A number of this size is beyond anything that could be meant; no message speaks of it.
     pub(crate) const HUGE: f64 = 1e30;
 

@@ -25,11 +25,15 @@ pub enum Contact {
         /// Restitution of a head-on pair at `restitution_speed`, from which A follows for
         /// the scene's (mean) radius. Give this or `dissipation_time`.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        #[schemars(transform = quantity("e", "", "coefficient of restitution").at_least(0.01).at_most(1.0))]
+        #[schemars(
+            transform = quantity("e", "", "coefficient of restitution").at_least(0.01).at_most(1.0)
+        )]
         restitution: Option<f64>,
         /// Relative speed at which `restitution` holds (m/s, default 1).
         #[serde(default = "one")]
-        #[schemars(transform = quantity("v_e", "m/s", "speed at which the restitution holds").above(0.0))]
+        #[schemars(
+            transform = quantity("v_e", "m/s", "speed at which the restitution holds").above(0.0)
+        )]
         restitution_speed: f64,
         /// Factor c of the dissipative term: 1 as the thesis prints it (default), 3/2 as
         /// Brilliantov et al. derive it.
@@ -57,7 +61,9 @@ pub enum Contact {
         #[schemars(transform = quantity("k", "Pa", "spring constant of a contact").above(0.0))]
         stiffness: f64,
         /// Damping gamma_n (1/(m s)).
-        #[schemars(transform = quantity("b", "1/(m s)", "drag constant of a contact").at_least(0.0))]
+        #[schemars(
+            transform = quantity("b", "1/(m s)", "drag constant of a contact").at_least(0.0)
+        )]
         damping: f64,
     },
 }
@@ -126,7 +132,9 @@ pub enum Friction {
         stiffness: f64,
         /// Tangential damping gamma_t (1/(m s)).
         #[serde(default)]
-        #[schemars(transform = quantity("b_t", "1/(m s)", "tangential drag constant").at_least(0.0))]
+        #[schemars(
+            transform = quantity("b_t", "1/(m s)", "tangential drag constant").at_least(0.0)
+        )]
         damping: f64,
     },
 }

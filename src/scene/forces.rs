@@ -60,7 +60,9 @@ pub struct Updraught {
     #[schemars(transform = quantity("s", "", "strength of the updraught").at_least(0.0))]
     pub strength: f64,
     /// Decay beta of the force with height (1/m).
-    #[schemars(transform = quantity("β", "1/m", "decay of the updraught with height").at_least(0.0))]
+    #[schemars(
+        transform = quantity("β", "1/m", "decay of the updraught with height").at_least(0.0)
+    )]
     pub decay: f64,
     /// Height z0 at which the decay is 1 (m).
     #[schemars(transform = place("z_0", "height where the decay begins"))]
@@ -71,7 +73,10 @@ pub struct Updraught {
     /// Rotation Omega_0 (rad/s) of the swirl at which the force is as given; at another Omega it is
     /// (Omega / Omega_0)^2 times that (Rice, 2012, eq. 44). Absent: the swirl does not matter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = quantity("Ω_0", "rad/s", "rotation at which the updraught is as given").above(0.0))]
+    #[schemars(
+        transform = quantity("Ω_0", "rad/s", "rotation at which the updraught is as given")
+            .above(0.0)
+    )]
     pub reference_omega: Option<f64>,
 }
 

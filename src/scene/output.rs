@@ -13,7 +13,10 @@ pub struct Guards {
     #[schemars(transform = quantity("ξ_{max} / r", "", "largest overlap, in radii").above(0.0))]
     pub overlap: f64,
     /// Largest displacement in one step, in radii of the sphere.
-    #[schemars(transform = quantity("Δx_{max} / r", "", "largest displacement per step, in radii").above(0.0))]
+    #[schemars(
+        transform = quantity("Δx_{max} / r", "", "largest displacement per step, in radii")
+            .above(0.0)
+    )]
     pub displacement: f64,
     /// Largest |x| and |y| of a centre (m). Default: twice the tank's radius, or the larger of its
     /// width and depth, if walls are all around.
@@ -54,7 +57,9 @@ pub struct Output {
     pub ledger: bool,
     /// Radial bins of the surface profile. Default: round(R / 2r).
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = quantity("n_{bins}", "", "radial bins of the surface profile").at_least(1))]
+    #[schemars(
+        transform = quantity("n_{bins}", "", "radial bins of the surface profile").at_least(1)
+    )]
     pub profile_bins: Option<usize>,
     /// Rise speeds, in radii per second above the mean, for which rising spheres are counted.
     #[schemars(transform = unit("1/s"))]

@@ -171,13 +171,17 @@ pub struct Rest {
     /// Kinetic energy of all grains together (J), translation and rotation, below which they may be
     /// at rest. No single grain may have more than a hundredth of it, or of fewer than a hundred
     /// grains more than its equal share.
-    #[schemars(transform = quantity("E_{rest}", "J", "kinetic energy of spheres at rest").above(0.0))]
+    #[schemars(
+        transform = quantity("E_{rest}", "J", "kinetic energy of spheres at rest").above(0.0)
+    )]
     pub kinetic_energy: f64,
     /// Time for which they must stay below that (s). A grain at the top of its bounce is slow for
     /// an instant, but not for long: g times this should be far above the speed of a grain with its
     /// share of the energy.
     #[serde(default = "default_hold")]
-    #[schemars(transform = quantity("t_{rest}", "s", "time for which spheres must be slow").above(0.0))]
+    #[schemars(
+        transform = quantity("t_{rest}", "s", "time for which spheres must be slow").above(0.0)
+    )]
     pub hold: f64,
 }
 

@@ -16,7 +16,12 @@ pub struct Spheres {
     #[schemars(transform = quantity("r", "m", "radius of the spheres"))]
     pub radius: Radii,
     /// Density rho: of spheres that of the solid (kg/m3), of discs in kg/m2.
-    #[schemars(transform = quantity("ρ", "kg/m³", "density of the spheres").at_least(1e-9).at_most(1e15).unit_where("shape", "disc", "kg/m²"))]
+    #[schemars(
+        transform = quantity("ρ", "kg/m³", "density of the spheres")
+            .at_least(1e-9)
+            .at_most(1e15)
+            .unit_where("shape", "disc", "kg/m²")
+    )]
     pub density: f64,
     /// What the mass of one is.
     #[serde(default, skip_serializing_if = "is_default")]

@@ -28,12 +28,17 @@ pub enum Start {
         z_max: f64,
         /// Each velocity component is uniform in plus or minus this (m/s).
         #[serde(default)]
-        #[schemars(transform = quantity("v_{start}", "m/s", "largest start velocity component").at_least(0.0))]
+        #[schemars(
+            transform = quantity("v_{start}", "m/s", "largest start velocity component")
+                .at_least(0.0)
+        )]
         speed: f64,
         /// Each spin component is uniform in plus or minus this (rad/s); no effect
         /// in a scene without friction.
         #[serde(default)]
-        #[schemars(transform = quantity("ω_{start}", "rad/s", "largest start spin component").at_least(0.0))]
+        #[schemars(
+            transform = quantity("ω_{start}", "rad/s", "largest start spin component").at_least(0.0)
+        )]
         spin: f64,
     },
     /// Every sphere listed in the scene.
@@ -53,11 +58,16 @@ pub enum Start {
         velocity: [f64; 3],
         /// Time between two spheres (s); a whole number of steps. One that finds its place taken
         /// waits for the next of these times.
-        #[schemars(transform = quantity("Δt_{feed}", "s", "time between spheres that come in").above(0.0))]
+        #[schemars(
+            transform = quantity("Δt_{feed}", "s", "time between spheres that come in").above(0.0)
+        )]
         interval: f64,
         /// The place is moved along x by a random length, uniform in plus or minus this (m).
         #[serde(default)]
-        #[schemars(transform = quantity("Δx_{feed}", "m", "random shift of where spheres come in").at_least(0.0))]
+        #[schemars(
+            transform = quantity("Δx_{feed}", "m", "random shift of where spheres come in")
+                .at_least(0.0)
+        )]
         spread: f64,
     },
     /// Every sphere from a CSV file: x, y, z, then optionally vx, vy, vz, wx, wy, wz, radius,

@@ -19,7 +19,9 @@ pub struct Time {
     /// With `dt = "auto"` only: the largest step over the least limit, advised limits included
     /// (default 0.2). A scene that runs has a number for its step, and none here.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = quantity("f", "", "time step over its least limit").above(0.0).at_most(1.0))]
+    #[schemars(
+        transform = quantity("f", "", "time step over its least limit").above(0.0).at_most(1.0)
+    )]
     pub safety_factor: Option<f64>,
     /// Duration of the run (s).
     #[schemars(transform = seconds("T", "duration"))]

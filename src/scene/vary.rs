@@ -132,8 +132,8 @@ mod tests {
         ));
     }
 
-    /// Symptom: a sweep over a scene that lists many spheres held them once for each job. Cause: each job's scene was made
-    /// of a tree of values.
+    /// Symptom: a sweep over a scene that lists many spheres held them once for each job. Cause:
+    /// each job's scene was made of a tree of values.
     #[test]
     fn listed_spheres_are_shared_unless_they_vary() {
         let mut scene = scene();
