@@ -51,15 +51,15 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if is_sweep {
         classify::check_sieves(&sweep, &jobs)?;
     }
-    console.result(describe_sweep(&sweep, jobs.len()))?;
-    console.result(line("effects", effects(&sweep.scene).join(", ")))?;
-    console.result(line("duration", describe_time(&sweep.scene)))?;
+    console.result(describe_sweep(&sweep, jobs.len()));
+    console.result(line("effects", effects(&sweep.scene).join(", ")));
+    console.result(line("duration", describe_time(&sweep.scene)));
     let tightest = tightest_limits(&jobs);
     for text in describe_time_step(&tightest, &sweep.axes, console.is_verbose()) {
-        console.result(line("time step", text))?;
+        console.result(line("time step", text));
     }
     if let Some(text) = time_step::describe_choice(&sweep, &jobs) {
-        console.result(line("time step", text))?;
+        console.result(line("time step", text));
     }
     time_step::warn_of_jobs(&tightest, &sweep.axes, console);
     if is_sweep {
@@ -67,7 +67,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     let walls = walls::weakest(&jobs);
     if let Some(wall) = &walls {
-        console.result(line("walls", wall.describe(&sweep.axes)))?;
+        console.result(line("walls", wall.describe(&sweep.axes)));
     }
     let mut forecast = None;
     if !arguments.no_trial {
@@ -76,7 +76,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         let found = print_forecast(&jobs, workers, may_end, Leaves::Records, console)?;
         if let Some(disk) = found.disk {
             let about = format!("about {}", format::bytes(disk));
-            console.result(line("  disk", about))?;
+            console.result(line("  disk", about));
         }
         forecast = Some(found);
     }
@@ -102,7 +102,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             .collect(),
         walls: walls.map(|walls| walls.answer()),
         forecast: forecast.map(|forecast| ForecastAnswer::new(&forecast, workers)),
-    })?;
+    });
     Ok(Exit::Done)
 }
 
@@ -225,7 +225,7 @@ fn print_forecast(
             format::count(forecast.tried, "job"),
             format::rate(forecast.rate)
         ),
-    ))?;
+    ));
     let time = format::duration(forecast.seconds);
     let workers = format::count(workers.min(jobs.len()), "worker");
     let about = match may_end {
@@ -235,11 +235,11 @@ fn print_forecast(
     console.result(line(
         "  time",
         format_args!("{about} {time} with {workers}"),
-    ))?;
+    ));
     console.result(line(
         "  memory",
         format_args!("about {}", format::bytes(forecast.memory)),
-    ))?;
+    ));
     Ok(forecast)
 }
 

@@ -70,7 +70,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     console.answer(&Answer {
         folders,
         files: console.files(),
-    })?;
+    });
     Ok(exit)
 }
 
@@ -253,14 +253,14 @@ fn write_tables(
     store::write_labels(&table, &folder.labels()).map_err(Failure::failed)?;
     store::write_points(&table, &folder.points()).map_err(Failure::failed)?;
     let labels = counts(&table);
-    console.result(describe_counts(&labels, table.rows.len()))?;
+    console.result(describe_counts(&labels, table.rows.len()));
     let new = before.as_ref().map(|before| new_rows(before, &table));
     let changes = before.map(|before| changes_since(&before, &table));
     if let (Some(changes), Some(new)) = (&changes, new) {
-        console.result(describe_changes(changes, table.rows.len() - new, new))?;
+        console.result(describe_changes(changes, table.rows.len() - new, new));
     }
-    console.file(&folder.labels())?;
-    console.file(&folder.points())?;
+    console.file(&folder.labels());
+    console.file(&folder.points());
     let summary = Summary {
         folder: folder.root().to_owned(),
         labelled: table.rows.len(),

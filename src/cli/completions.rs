@@ -22,6 +22,6 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let mut script = Vec::new();
     let mut command = super::CommandLine::command();
     clap_complete::generate(arguments.shell, &mut command, "phase", &mut script);
-    console.result(String::from_utf8_lossy(&script).trim_end())?;
+    console.result(String::from_utf8_lossy(&script).trim_end());
     Ok(Exit::Done)
 }

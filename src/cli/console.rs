@@ -15,6 +15,8 @@ pub(crate) struct Console {
     json: bool,
     /// Files written so far.
     files: Mutex<Vec<PathBuf>>,
+    /// Why the standard output could not be written, the first time.
+    unwritten: Mutex<Option<String>>,
 }
 
 impl Console {
@@ -24,6 +26,7 @@ impl Console {
             verbose,
             json,
             files: Mutex::default(),
+            unwritten: Mutex::default(),
         }
     }
 
@@ -37,18 +40,44 @@ impl Console {
         self.verbose
     }
 
-    /// Prints a result for people.
-    pub(crate) fn result(&self, text: impl Display) -> Result<(), Failure> {
-        if self.quiet || self.json {
-            return Ok(());
+    /// Prints a result for people. If that fails the work goes on, and the program fails when it is
+    /// done.
+    pub(crate) fn result(&self, text: impl Display) {
+        if !(self.quiet || self.json) {
+            self.print(text);
         }
-        print(text)
+    }
+
+    /// Prints to the standard output. A reader that has gone away, such as `head`, is no fault.
+    fn print(&self, text: impl Display) {
+        let mut output = io::stdout().lock();
+        match writeln!(output, "{text}").and_then(|()| output.flush()) {
+            Err(error) if error.kind() != ErrorKind::BrokenPipe => self.cannot_write(&error),
+            _ => {}
+        }
+    }
+
+    fn cannot_write(&self, error: &dyn Display) {
+        let unwritten = self.unwritten.lock();
+        let mut unwritten = unwritten.unwrap_or_else(PoisonError::into_inner);
+        unwritten.get_or_insert_with(|| error.to_string());
+    }
+
+    /// An error if the standard output could not be written. All files have been.
+    pub(crate) fn check_output(&self) -> Result<(), Failure> {
+        let unwritten = self.unwritten.lock();
+        match &*unwritten.unwrap_or_else(PoisonError::into_inner) {
+            None => Ok(()),
+            Some(error) => Err(Failure::failed(format_args!(
+                "cannot write to the standard output: {error}; the files of this command are complete"
+            ))),
+        }
     }
 
     /// A file was written: prints its path.
-    pub(crate) fn file(&self, path: &Path) -> Result<(), Failure> {
+    pub(crate) fn file(&self, path: &Path) {
         self.locked_files().push(path.to_owned());
-        self.result(path.display())
+        self.result(path.display());
     }
 
     /// The files written so far.
@@ -61,21 +90,23 @@ impl Console {
     }
 
     /// Prints the result as one JSON object, if that was asked for; `docs/json.md` describes it.
-    pub(crate) fn answer(&self, answer: &impl Serialize) -> Result<(), Failure> {
-        if !self.json {
-            return Ok(());
+    pub(crate) fn answer(&self, answer: &impl Serialize) {
+        if self.json {
+            match serde_json::to_string(answer) {
+                Ok(text) => self.print(text),
+                Err(error) => self.cannot_write(&error),
+            }
         }
-        print(serde_json::to_string(answer).map_err(Failure::failed)?)
     }
 
     /// Prints the files written as one JSON object, if that was asked for.
-    pub(crate) fn answer_files(&self) -> Result<(), Failure> {
+    pub(crate) fn answer_files(&self) {
         #[derive(Serialize)]
         struct Answer {
             files: Vec<PathBuf>,
         }
         let files = self.files();
-        self.answer(&Answer { files })
+        self.answer(&Answer { files });
     }
 
     /// Says something on the way.
@@ -100,17 +131,6 @@ impl Console {
     /// Says what is wrong.
     pub(crate) fn error(&self, text: impl Display) {
         complain(format_args!("error: {text}"));
-    }
-}
-
-/// Prints to the standard output. A reader that has gone away, such as `head`, is no fault.
-fn print(text: impl Display) -> Result<(), Failure> {
-    let mut output = io::stdout().lock();
-    match writeln!(output, "{text}").and_then(|()| output.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(Failure::failed(format!("cannot write the result: {error}")))
-        }
-        _ => Ok(()),
     }
 }
 

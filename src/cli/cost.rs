@@ -39,9 +39,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     console.note(format_args!("measuring for up to about {seconds} ..."));
     let cost = SweepCost::measure(&jobs, arguments.seconds).map_err(Failure::failed)?;
     for tried in &cost.tried {
-        console.result(describe_tried(tried, &sweep.axes, jobs.len()))?;
+        console.result(describe_tried(tried, &sweep.axes, jobs.len()));
     }
-    print_parts(&cost, console)?;
+    print_parts(&cost, console);
     let about = match cost.tried.iter().all(|tried| tried.cost.whole) && jobs.len() == 1 {
         true => "the run took",
         false if jobs.iter().any(|job| job.scene.has_flow()) => "all of it takes at most about",
@@ -51,14 +51,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         "{about} {} of processor time for {}",
         format::duration(cost.total()),
         format::sphere_steps(cost.work() as f64)
-    ))?;
+    ));
     console.answer(&Answer::new(
         arguments,
         is_sweep,
         jobs.len(),
         &cost,
         &sweep.axes,
-    ))?;
+    ));
     Ok(Exit::Done)
 }
 
@@ -88,11 +88,11 @@ fn describe_tried(tried: &Tried<'_>, axes: &[Axis], jobs: usize) -> String {
     )
 }
 
-fn print_parts(cost: &SweepCost<'_>, console: &Console) -> Result<(), Failure> {
+fn print_parts(cost: &SweepCost<'_>, console: &Console) {
     console.result(format_args!(
         "  {:<20} {:>18} {:>9}",
         "part", "ns per sphere-step", "share"
-    ))?;
+    ));
     for row in rows(cost) {
         match row.present {
             true => console.result(format_args!(
@@ -100,8 +100,8 @@ fn print_parts(cost: &SweepCost<'_>, console: &Console) -> Result<(), Failure> {
                 row.part,
                 row.nanoseconds,
                 100.0 * row.share
-            ))?,
-            false => console.result(format_args!("  {:<20} {:>18}", row.part, "absent"))?,
+            )),
+            false => console.result(format_args!("  {:<20} {:>18}", row.part, "absent")),
         }
     }
     console.result(format_args!(
@@ -109,7 +109,7 @@ fn print_parts(cost: &SweepCost<'_>, console: &Console) -> Result<(), Failure> {
         "total",
         1e9 * cost.total() / cost.work().max(1) as f64,
         100.0
-    ))
+    ));
 }
 
 /// What `--json` prints.

@@ -114,7 +114,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         let record = store::read_record(path).map_err(Failure::failed)?;
         export(&record, path, target, arguments, console)?;
     }
-    console.answer_files()?;
+    console.answer_files();
     Ok(Exit::Done)
 }
 
@@ -227,7 +227,7 @@ fn export(
     }
     folders::make_for(target)?;
     for path in write(record, &chosen, target, arguments.to)? {
-        console.file(&path)?;
+        console.file(&path);
     }
     Ok(())
 }

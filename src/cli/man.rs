@@ -24,7 +24,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     command.build();
     let Some(folder) = &arguments.out else {
         let page = page(command)?;
-        console.result(String::from_utf8_lossy(&page).trim_end())?;
+        console.result(String::from_utf8_lossy(&page).trim_end());
         return Ok(Exit::Done);
     };
     folders::make(folder)?;
@@ -33,7 +33,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         let name = command.get_display_name().unwrap_or(command.get_name());
         let path = folder.join(format!("{name}.1"));
         phase::store::write_atomic(&path, &page(command)?).map_err(Failure::failed)?;
-        console.file(&path)?;
+        console.file(&path);
     }
     Ok(Exit::Done)
 }

@@ -30,7 +30,9 @@ mod view;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use console::Console;
+use exit::Exit;
 use phase::scene::LARGEST_SEED;
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 const VERSION: &str = concat!(
@@ -132,8 +134,15 @@ fn seed(text: &str) -> Result<u64, String> {
 
 /// Parses the command line and does what it says.
 pub(crate) fn main() -> ExitCode {
+    interrupt::report_too_large_files();
     let CommandLine { verbosity, command } = parse();
-    let console = Console::new(verbosity.quiet, verbosity.verbose, command.wants_json());
+    let wants_json = command.wants_json();
+    let console = Console::new(verbosity.quiet, verbosity.verbose, wants_json);
+    let is_text = |argument: OsString| argument.into_string().is_ok();
+    if wants_json && !std::env::args_os().all(is_text) {
+        console.error("JSON holds text in UTF-8 only, and an argument is none; rename the file or folder, or leave out --json");
+        return Exit::Refused.into();
+    }
     let result = match command {
         Command::Sweep(arguments) => sweep::main(&arguments, &console),
         Command::Classify(arguments) => classify::main(&arguments, &console),
@@ -153,7 +162,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Completions(arguments) => completions::main(&arguments, &console),
         Command::Man(arguments) => man::main(&arguments, &console),
     };
-    match result {
+    match result.and_then(|exit| console.check_output().map(|()| exit)) {
         Ok(exit) => exit.into(),
         Err(failure) => {
             console.error(&failure.message);

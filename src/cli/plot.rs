@@ -83,7 +83,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         figures,
         fits,
         files: console.files(),
-    })?;
+    });
     Ok(Exit::Done)
 }
 
@@ -167,12 +167,12 @@ fn list(dir: Option<&Path>, console: &Console) -> Result<Vec<Entry>, Failure> {
         console.result(format_args!(
             "{:<22} {}{family}",
             entry.name, entry.description
-        ))?;
+        ));
         if let Some(runs) = entry.default_runs {
             console.result(format_args!(
                 "{:<22} of the runs at --point, or else {runs}",
                 ""
-            ))?;
+            ));
         }
     }
     Ok(entries)
@@ -274,7 +274,7 @@ fn print_fits(
             entry.k_half_width,
             super::format::count(entry.runs, "run"),
             entry.without_rate
-        ))?;
+        ));
     }
     Ok(entries)
 }
@@ -379,7 +379,7 @@ pub(super) fn write(
     for (extension, bytes) in images {
         let path = place(extension);
         store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
-        console.file(&path)?;
+        console.file(&path);
     }
     Ok(())
 }

@@ -26,6 +26,6 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         Page::Keys => phase::reference::keys(),
         Page::Notation => phase::reference::notation(),
     };
-    console.result(page.trim_end())?;
+    console.result(page.trim_end());
     Ok(Exit::Done)
 }

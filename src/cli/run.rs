@@ -143,11 +143,11 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         return Ok(Exit::Interrupted);
     };
     write(&mut record, &path, &checkpoints, original.is_some())?;
-    console.result(summary(&record, seconds))?;
-    console.file(&path)?;
+    console.result(summary(&record, seconds));
+    console.file(&path);
     if let Some(table) = &table {
         store::write_observations(&record, table).map_err(Failure::failed)?;
-        console.file(table)?;
+        console.file(table);
     }
     checkpoints.remove().map_err(Failure::failed)?;
     let same_bits = match &original {
@@ -158,7 +158,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         resumed_from,
         same_bits,
         ..Answer::new(&record, seconds, &path)
-    })?;
+    });
     Ok(Exit::Done)
 }
 

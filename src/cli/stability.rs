@@ -82,7 +82,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let tried = Tried::all(&study, &report.rows);
     print(&study, &tried, &report, seconds, console)?;
     let interrupted = stop.load(Ordering::Relaxed) && report.left > 0;
-    console.file(&table)?;
+    console.file(&table);
     if !interrupted && !arguments.no_plot {
         draw(&study, &report.rows, &root, console)?;
     }
@@ -104,7 +104,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         cpu_seconds: report.cpu_seconds,
         integrators: tried,
         files: console.files(),
-    })?;
+    });
     Ok(exit)
 }
 
@@ -257,9 +257,9 @@ fn print(
         format::duration(report.cpu_seconds),
         report.known,
         report.left
-    ))?;
+    ));
     for tried in tried {
-        console.result(tried.line())?;
+        console.result(tried.line());
     }
     let failures = report.failures.iter().map(|failure| {
         let point = describe(&study.axes, &failure.values, failure.seed);

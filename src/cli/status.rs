@@ -38,7 +38,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             "{}: {}",
             folder.root().display(),
             text(&status, &sweep.axes, workers)
-        ))?;
+        ));
         folders.push(FolderAnswer {
             folder: folder.root().to_owned(),
             jobs: status.jobs,
@@ -53,7 +53,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             running: status.running,
         });
     }
-    console.answer(&Answer { folders })?;
+    console.answer(&Answer { folders });
     Ok(Exit::Done)
 }
 

@@ -133,7 +133,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             format::count(run.report.left, "job")
         ));
         answer.interrupted = true;
-        console.answer(&answer)?;
+        console.answer(&answer);
         return Ok(Exit::Interrupted);
     }
     if let Some(error) = &run.report.halted {
@@ -149,7 +149,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         answer.labels = Some(labelled.summary);
     }
     answer.files = console.files();
-    console.answer(&answer)?;
+    console.answer(&answer);
     Ok(if failed { Exit::Failed } else { Exit::Done })
 }
 
@@ -388,7 +388,7 @@ impl Run {
                 format::sphere_steps(*work as f64 / cpu_seconds.max(1e-9)),
             );
         }
-        console.result(text)?;
+        console.result(text);
         let names = |jobs: &[JobFailure]| -> Vec<String> {
             let named = |job: &JobFailure| {
                 let name = describe(&sweep.axes, &job.values, job.seed);

@@ -80,7 +80,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let outcomes = outcomes.map_err(Failure::failed)?;
     let (mut rows, mut errors, mut failed) = (Vec::new(), Vec::new(), 0);
     for ((case, integrator), outcome) in runs.iter().zip(&outcomes) {
-        console.result(line(case, *integrator, outcome))?;
+        console.result(line(case, *integrator, outcome));
         match outcome {
             Ok(outcome) => {
                 failed += usize::from(!outcome.passed());
@@ -94,7 +94,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         "{}: {} passed, {failed} failed",
         format::count(runs.len(), "run"),
         runs.len() - failed
-    ))?;
+    ));
     if let Some(folder) = &arguments.out {
         write(&rows, &errors, folder, console)?;
     }
@@ -103,7 +103,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         failed,
         checks: rows,
         files: console.files(),
-    })?;
+    });
     Ok(if failed == 0 {
         Exit::Done
     } else {
@@ -171,7 +171,7 @@ fn list(cases: &[&Case], console: &Console) -> Result<Exit, Failure> {
             case.name,
             "",
             case.source
-        ))?;
+        ));
     }
     let listed = cases.iter().map(|case| Listed {
         family: case.setup.name(),
@@ -181,7 +181,7 @@ fn list(cases: &[&Case], console: &Console) -> Result<Exit, Failure> {
     });
     console.answer(&List {
         cases: listed.collect(),
-    })?;
+    });
     Ok(Exit::Done)
 }
 
@@ -250,7 +250,7 @@ fn write(
 ) -> Result<(), Failure> {
     let place = |end: &str| folder.join(format!("verification.{end}"));
     store::write_rows(rows, &place("csv")).map_err(Failure::failed)?;
-    console.file(&place("csv"))?;
+    console.file(&place("csv"));
     let figure = verification::draw(errors, &Program::current()).map_err(Failure::failed)?;
     plot::write(&figure, place, console)
 }

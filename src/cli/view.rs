@@ -109,7 +109,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
                 arguments,
                 console,
             )?;
-            console.file(folder)?;
+            console.file(folder);
         }
         None => {
             let target = Target::new(arguments)?;
@@ -122,10 +122,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             };
             folders::make_for(&target.path)?;
             store::write_atomic(&target.path, &bytes).map_err(Failure::failed)?;
-            console.file(&target.path)?;
+            console.file(&target.path);
         }
     }
-    console.answer_files()?;
+    console.answer_files();
     Ok(Exit::Done)
 }
 

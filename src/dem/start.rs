@@ -282,8 +282,8 @@ impl Grid {
         let cells = |side: f64, width: f64| (side / width).max(0.0) + 1.0;
         let sizes = |width: f64| [2.0 * x, 2.0 * y, high - low].map(|side| cells(side, width));
         // A room that is nearly empty needs no cells as narrow as that.
-        while sizes(width).iter().product::<f64>() > 64.0 * (radii.len() as f64 + 64.0) {
-            width *= 2.0;
+        while sizes(width).iter().product::<f64>() > 8.0 * (radii.len() as f64 + 512.0) {
+            width *= 1.25;
         }
         let sizes = sizes(width).map(|size| size as usize);
         Self {

@@ -32,6 +32,7 @@ pub(crate) use keys::leaf;
 pub use neighbours::Neighbours;
 pub use output::{Guards, Output};
 pub use radius::{Radii, RadiusShare};
+pub(crate) use silo::MOST_HOPPER_SPHERES;
 pub use silo::{Door, FixedSphere, FixedSpheres, Geometry, Hopper, LengthUnit, Outlet, Rest};
 pub use spheres::{Shape, Spheres};
 pub(crate) use start::LIST_KEY;

@@ -104,6 +104,9 @@ pub struct FixedSpheres {
     pub door: Vec<FixedSphere>,
 }
 
+/// Most fixed spheres of a hopper.
+pub(crate) const MOST_HOPPER_SPHERES: f64 = 10_000.0;
+
 impl Geometry {
     /// All fixed spheres; none for a file that has not been read.
     pub fn spheres(&self) -> FixedSpheres {
@@ -129,7 +132,27 @@ impl Hopper {
         self.foot - (self.half_width - self.edge()) * libm::tan(self.slope)
     }
 
+    /// Number of fixed spheres that its lines ask for.
+    pub(crate) fn count(&self) -> f64 {
+        let [top, foot, edge, other_edge] = self.corners();
+        let steps = |from, to| self.steps(from, to) + 1.0;
+        2.0 * (steps(top, foot) + steps(foot, edge)) + steps(edge, other_edge)
+    }
+
+    /// The ends (x, z) of the lines on the right: top and foot of the wall, edge of the slope; and
+    /// the edge on the left.
+    fn corners(&self) -> [[f64; 2]; 4] {
+        let (edge, outlet) = (self.edge(), self.outlet());
+        let top = [self.half_width, self.top];
+        let foot = [self.half_width, self.foot];
+        [top, foot, [edge, outlet], [-edge, outlet]]
+    }
+
+    /// The fixed spheres; none if they are too many, which no scene that was checked asks for.
     fn spheres(&self) -> FixedSpheres {
+        if !(self.count() <= MOST_HOPPER_SPHERES) {
+            return FixedSpheres::default();
+        }
         let (edge, outlet) = (self.edge(), self.outlet());
         let mut walls = Vec::new();
         for side in [-1.0, 1.0] {
@@ -150,9 +173,7 @@ impl Hopper {
 
     /// Spheres from one point (x, z) to another, both included, as few as the spacing allows.
     fn line(&self, from: [f64; 2], to: [f64; 2], spheres: &mut Vec<FixedSphere>) {
-        let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
-        // A spacing that divides the length stays whole whatever the last digits say.
-        let steps = libm::ceil(length / self.spacing - 1e-9).max(1.0) as usize;
+        let steps = self.steps(from, to) as usize;
         for step in 0..=steps {
             let share = step as f64 / steps as f64;
             let between = |axis: usize| (1.0 - share) * from[axis] + share * to[axis];
@@ -161,6 +182,15 @@ impl Hopper {
                 radius: self.radius,
             });
         }
+    }
+}
+
+impl Hopper {
+    /// Spacings between two points (x, z).
+    fn steps(&self, from: [f64; 2], to: [f64; 2]) -> f64 {
+        let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
+        // A spacing that divides the length stays whole whatever the last digits say.
+        libm::ceil(length / self.spacing - 1e-9).max(1.0)
     }
 }
 

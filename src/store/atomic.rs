@@ -1,11 +1,13 @@
 //! Files that appear whole or not at all.
 
 use super::StoreError;
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
-/// How the name of an unfinished file begins.
+/// How the name of an unfinished file begins. The machine and the process that write it follow.
 const PREFIX: &str = ".phase-";
 /// How the name of an unfinished file ends.
 const SUFFIX: &str = ".tmp";
@@ -19,7 +21,18 @@ const SUFFIX: &str = ".tmp";
 /// # Errors
 /// [`StoreError::DiskFull`] or [`StoreError::Write`]; the old content is still there.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
-    replace(path, |file| file.write_all(bytes)).map_err(|error| StoreError::writing(path, error))
+    replace(path, Durable::Yes, |file| file.write_all(bytes))
+        .map_err(|error| StoreError::writing(path, error))
+}
+
+/// The same for one of many files that can be made again: it is not made durable, which takes longer
+/// than all the rest. After a crash of the machine, not of the program, it may be empty.
+///
+/// # Errors
+/// Those of [`write_atomic`].
+pub(super) fn write_one_of_many(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
+    replace(path, Durable::No, |file| file.write_all(bytes))
+        .map_err(|error| StoreError::writing(path, error))
 }
 
 /// The same for a file too large to be in memory: `fill` writes it.
@@ -30,7 +43,7 @@ pub(super) fn write_atomic_with(
     path: &Path,
     fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
 ) -> Result<(), StoreError> {
-    replace(path, |file| {
+    replace(path, Durable::Yes, |file| {
         let mut buffer = BufWriter::new(file);
         fill(&mut buffer)?;
         buffer.flush()
@@ -38,24 +51,94 @@ pub(super) fn write_atomic_with(
     .map_err(|error| StoreError::writing(path, error))
 }
 
-fn replace(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
+/// Whether a file is on the disk when its name is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Durable {
+    Yes,
+    No,
+}
+
+fn replace(
+    path: &Path,
+    durable: Durable,
+    fill: impl FnOnce(&mut File) -> io::Result<()>,
+) -> io::Result<()> {
     let folder = match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
+    remove_those_of_the_dead(folder);
+    let prefix = format!("{PREFIX}{}-{}-", machine(), std::process::id());
     let mut builder = tempfile::Builder::new();
-    builder.prefix(PREFIX).suffix(SUFFIX);
+    builder.prefix(&prefix).suffix(SUFFIX);
     // Temporary files are private by default; results are as readable as other files.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let mut temporary = builder.tempfile_in(folder)?;
     fill(temporary.as_file_mut())?;
-    temporary.as_file().sync_all()?;
+    if durable == Durable::Yes {
+        temporary.as_file().sync_all()?;
+    }
     temporary.persist(path)?;
     // The new name must be durable too; only Unix can open a folder for that.
     #[cfg(unix)]
-    File::open(folder)?.sync_all()?;
+    if durable == Durable::Yes {
+        File::open(folder)?.sync_all()?;
+    }
     Ok(())
+}
+
+/// Before this process first writes to a folder: removes the temporary files that processes of this
+/// machine left there when they were killed. What cannot be removed stays, which harms nobody.
+fn remove_those_of_the_dead(folder: &Path) {
+    static CLEANED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    let mut cleaned = CLEANED.lock().unwrap_or_else(PoisonError::into_inner);
+    if !cleaned.insert(folder.to_owned()) {
+        return;
+    }
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        if writer_of(&name.to_string_lossy()).is_some_and(|writer| !is_alive(writer)) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// The process of this machine that writes, or wrote, the unfinished file of that name.
+fn writer_of(name: &str) -> Option<u32> {
+    let name = name.strip_prefix(PREFIX)?.strip_suffix(SUFFIX)?;
+    let name = name.strip_prefix(&machine())?.strip_prefix('-')?;
+    name.split('-').next()?.parse().ok()
+}
+
+/// The name of this machine, as far as it may stand in the name of a file.
+fn machine() -> String {
+    #[cfg(unix)]
+    let name = rustix::system::uname()
+        .nodename()
+        .to_string_lossy()
+        .into_owned();
+    #[cfg(not(unix))]
+    let name = std::env::var("COMPUTERNAME").unwrap_or_default();
+    name.chars().filter(char::is_ascii_alphanumeric).collect()
+}
+
+/// Whether there is such a process, as far as the system tells.
+fn is_alive(process: u32) -> bool {
+    #[cfg(unix)]
+    {
+        let process = i32::try_from(process).ok();
+        let process = process.and_then(rustix::process::Pid::from_raw);
+        // It may belong to somebody else, and then must not be asked.
+        process.is_some_and(|process| {
+            rustix::process::test_kill_process(process) != Err(rustix::io::Errno::SRCH)
+        })
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = process;
+        true
+    }
 }
 
 /// Removes the temporary files that killed programs left in `folder`; returns their number.
@@ -107,7 +190,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("table.csv");
         write_atomic(&path, b"old").unwrap();
-        let error = replace(&path, |file| {
+        let error = replace(&path, Durable::Yes, |file| {
             file.write_all(b"half of the n")?;
             Err(io::ErrorKind::StorageFull.into())
         })
@@ -145,6 +228,26 @@ mod tests {
         write_atomic(&folder.path().join("ours"), b"").unwrap();
         File::create(folder.path().join("ordinary")).unwrap();
         assert_eq!(mode("ours"), mode("ordinary"));
+    }
+
+    /// Symptom: files `.phase-*.tmp` of killed commands stayed for ever. Cause: only a sweep removed
+    /// them, in its own folder.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn what_the_dead_left_goes_when_somebody_writes_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut child = std::process::Command::new("true").spawn().unwrap();
+        let dead = child.id();
+        child.wait().unwrap();
+        let name = |process: u32| format!("{PREFIX}{}-{process}-a1b2c3{SUFFIX}", machine());
+        let other = format!("{PREFIX}elsewhere-{dead}-a1b2c3{SUFFIX}");
+        for name in [&name(dead), &name(std::process::id()), &other] {
+            File::create(folder.path().join(name)).unwrap();
+        }
+        write_atomic(&folder.path().join("table.csv"), b"").unwrap();
+        let mut left = vec![name(std::process::id()), other, "table.csv".to_owned()];
+        left.sort();
+        assert_eq!(names(folder.path()), left);
     }
 
     #[test]

@@ -8,6 +8,7 @@ mod cost;
 mod editors;
 mod figures;
 mod formats;
+mod limits;
 mod loss;
 mod model;
 mod plot;

@@ -20,9 +20,9 @@ pub(super) fn main(
     let study = stability::load(&arguments.file).map_err(Failure::refused)?;
     let jobs = study.jobs().map_err(Failure::refused)?;
     let spans = Span::all(&study, &jobs);
-    console.result(describe(&study, jobs.len()))?;
+    console.result(describe(&study, jobs.len()));
     for span in &spans {
-        console.result(line("time step", span.line()))?;
+        console.result(line("time step", span.line()));
     }
     let forecast = match arguments.no_trial {
         true => None,
@@ -47,7 +47,7 @@ pub(super) fn main(
         duration: study.scene.time.duration,
         frames: study.frames,
         forecast: forecast.map(|forecast| ForecastAnswer::new(&forecast, workers)),
-    })?;
+    });
     Ok(Exit::Done)
 }
 

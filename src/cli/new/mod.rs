@@ -69,7 +69,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     folders::make_for(&path)?;
     store::write_atomic(&path, text.as_bytes()).map_err(Failure::failed)?;
-    console.file(&path)?;
+    console.file(&path);
     let kind = match arguments.kind {
         Kind::Scene | Kind::Silo => "scene",
         Kind::Sweep => "sweep",

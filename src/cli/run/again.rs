@@ -123,7 +123,7 @@ impl Original {
             console.result(format_args!(
                 "the sweep has no record of this job to compare with ({})",
                 path.display()
-            ))?;
+            ));
             return Ok(None);
         };
         if before.digest == store::motion_digest(again).map_err(Failure::failed)? {
@@ -132,7 +132,7 @@ impl Original {
                  spheres ({})",
                 again.observations.frames(),
                 path.display()
-            ))?;
+            ));
             return Ok(Some(true));
         }
         let by =

@@ -13,8 +13,8 @@ use super::{
 };
 use crate::document::{Problem, number};
 
-/// Largest number of spheres: the engine numbers them with 32 bits, and holds them in memory.
-const MOST_SPHERES: usize = 100_000_000;
+/// Largest number of spheres: each takes up to 600 bytes of memory.
+const MOST_SPHERES: usize = 10_000_000;
 
 impl Scene {
     /// What is wrong with the kinds of values, and numbers out of their ranges.

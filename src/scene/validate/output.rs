@@ -7,8 +7,15 @@ use crate::scene::Scene;
 /// Most numbers of an observable with several per frame: a gigabyte of them.
 const MOST_NUMBERS: f64 = 2.5e8;
 
+/// Most numbers in the states of all spheres that a record holds: eight gigabytes of them.
+const MOST_IN_STATES: f64 = 1e9;
+
+/// Numbers in the state of a sphere: position, velocity, spin.
+const NUMBERS_OF_A_SPHERE: f64 = 9.0;
+
 impl Scene {
     pub(super) fn check_output(&self, problems: &mut Vec<Problem>) {
+        self.check_states(problems);
         let frames = self.time.duration / self.time.frame_interval;
         let most = libm::floor(MOST_NUMBERS / frames);
         let tank = self.tank.as_ref().and_then(|tank| tank.radius);
@@ -39,6 +46,36 @@ impl Scene {
             );
             let help = "list fewer `rise_speeds` and `rise_radii`";
             problems.push(Problem::new("output.rise_speeds", message).help(help));
+        }
+    }
+}
+
+impl Scene {
+    /// Whether all states that are asked for fit into memory.
+    fn check_states(&self, problems: &mut Vec<Problem>) {
+        let state = NUMBERS_OF_A_SPHERE * self.spheres.count as f64;
+        let most = libm::floor(MOST_IN_STATES / state).max(1.0);
+        let states = |interval: f64| libm::floor(self.time.duration / interval) + 1.0;
+        let mut refuse = |key: &str, states: f64, help: String| {
+            let message = format!(
+                "the record would hold {} states of {} spheres, which is too much",
+                rounded(states),
+                number(self.spheres.count as f64)
+            );
+            problems.push(Problem::new(key, message).help(help));
+        };
+        let frames = states(self.time.frame_interval);
+        if self.output.trajectory && frames > most {
+            let help = "set `trajectory = false`, or use a larger `frame_interval`";
+            refuse("output.trajectory", frames, help.to_owned());
+        }
+        let interval = self.output.snapshot_interval;
+        if interval > 0.0 && states(interval) > most.max(2.0) {
+            let help = format!(
+                "use `snapshot_interval = {}` or more, or 0 for the last one alone",
+                rounded(self.time.duration / most)
+            );
+            refuse("output.snapshot_interval", states(interval), help);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::rounded;
 use crate::document::{Problem, number};
-use crate::scene::{Friction, Geometry, Hopper, Scene, Shape, Start};
+use crate::scene::{Friction, Geometry, Hopper, MOST_HOPPER_SPHERES, Scene, Shape, Start};
 
 /// Least time for which spheres must be slow to be at rest (s): two looks at them.
 const LEAST_HOLD: f64 = 0.02;
@@ -269,9 +269,15 @@ fn check_hopper(hopper: &Hopper, problems: &mut Vec<Problem>) {
         let help = format!("use less than {}", rounded(widest));
         problems.push(Problem::new("geometry.opening", message).help(help));
     }
-    if hopper.spacing < 1e-3 * (hopper.top - hopper.foot) {
-        let message = "the spacing makes walls of more than a thousand spheres each";
-        let help = format!("use {} or more", rounded(1e-3 * (hopper.top - hopper.foot)));
+    let count = hopper.count();
+    if count > MOST_HOPPER_SPHERES {
+        let message = format!("the spacing makes walls of {} spheres", rounded(count));
+        let least = hopper.spacing * count / MOST_HOPPER_SPHERES;
+        let help = format!(
+            "{} are the most: use `spacing = {}` or more, or shorter walls",
+            number(MOST_HOPPER_SPHERES),
+            rounded(least)
+        );
         problems.push(Problem::new("geometry.spacing", message).help(help));
     } else if hopper.spacing > 2.0 * hopper.radius {
         let message = format!(

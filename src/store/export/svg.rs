@@ -9,8 +9,8 @@ use crate::observe::Snapshot;
 use crate::record::RunRecord;
 use crate::render::{Scenery, Stage, flat};
 use crate::store::StoreError;
+use crate::store::atomic::write_one_of_many;
 use std::fmt::Write;
-use std::fs;
 use std::path::Path;
 
 /// White around what is seen, over its size.
@@ -33,9 +33,8 @@ pub fn write_svg(
     let window = window(record, &scenery, states);
     for (frame, state) in states.iter().enumerate() {
         let path = folder.join(frame_name(frame, "svg"));
-        // Not made durable one by one, which takes longer than all the rest.
-        fs::write(&path, document(record, &scenery, state, &window))
-            .map_err(|error| StoreError::writing(&path, error))?;
+        let picture = document(record, &scenery, state, &window);
+        write_one_of_many(&path, picture.as_bytes())?;
     }
     Ok(())
 }

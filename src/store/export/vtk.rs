@@ -10,6 +10,7 @@ use crate::observe::Snapshot;
 use crate::record::RunRecord;
 use crate::render::Scenery;
 use crate::scene::FixedSphere;
+use crate::store::atomic::write_one_of_many;
 use crate::store::{StoreError, write_atomic};
 use ndarray::{Array2, Axis};
 use std::fs;
@@ -38,11 +39,7 @@ pub fn write_vtk(
         }
         _ => make_folder(&folder)?,
     }
-    let write = |file: &str, bytes: Vec<u8>| {
-        let path = folder.join(file);
-        // Not made durable one by one, which takes longer than all the rest: the series decides.
-        fs::write(&path, bytes).map_err(|error| StoreError::writing(&path, error))
-    };
+    let write = |file: &str, bytes: Vec<u8>| write_one_of_many(&folder.join(file), &bytes);
     let fixed = fixed(record);
     for (file, spheres) in [(WALLS, &fixed.walls), (DOOR, &fixed.door)] {
         if !spheres.is_empty() {

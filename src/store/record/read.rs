@@ -114,7 +114,7 @@ impl<'a> Reader<'a> {
             work,
             cpu_seconds,
         } = self.header()?;
-        Ok(RunRecord {
+        let record = RunRecord {
             scene,
             program,
             outcome,
@@ -126,7 +126,11 @@ impl<'a> Reader<'a> {
             trajectory: self.snapshots("trajectory")?,
             work,
             cpu_seconds,
-        })
+        };
+        match mismatch(&record) {
+            Some(reason) => Err(self.damaged(reason)),
+            None => Ok(record),
+        }
     }
 
     fn outcome(&self) -> Result<Outcome, StoreError> {
@@ -270,5 +274,125 @@ impl<'a> Reader<'a> {
 
     fn damaged(&self, reason: impl ToString) -> StoreError {
         StoreError::damaged(self.path, reason)
+    }
+}
+
+/// What of a record does not fit together, if anything does not.
+fn mismatch(record: &RunRecord) -> Option<String> {
+    let observations = &record.observations;
+    let frames = observations.frames();
+    let scalars = observations.scalars();
+    let scalars = scalars.iter().map(|it| (it.name, it.values.len()));
+    let arrays = [
+        ("profile", observations.profile.nrows()),
+        ("rising", observations.rising.shape()[0]),
+    ];
+    let mut observed = scalars.chain(arrays);
+    if let Some((name, length)) = observed.find(|(_, length)| *length != frames) {
+        return Some(format!(
+            "`observations/{name}` holds {length} frames, but `observations/time` {frames}"
+        ));
+    }
+    let spheres = record.radius.len();
+    if record.mass.len() != spheres {
+        let masses = record.mass.len();
+        return Some(format!(
+            "`spheres/mass` holds {masses} spheres, but `spheres/radius` {spheres}"
+        ));
+    }
+    let states = [
+        ("snapshots", &record.snapshots),
+        ("trajectory", &record.trajectory),
+    ];
+    for (group, states) in states {
+        for state in states {
+            let of_state = [("position", &state.position), ("velocity", &state.velocity)];
+            // Without rotation there are no spins.
+            let spin = Some(("spin", &state.spin)).filter(|(_, spin)| spin.nrows() > 0);
+            let mut of_state = of_state.into_iter().chain(spin);
+            if let Some((name, array)) = of_state.find(|(_, it)| it.dim() != (spheres, 3)) {
+                return Some(format!(
+                    "`{group}/{name}` has the shape {:?} at t = {} s, but ({spheres}, 3) is expected",
+                    array.dim(),
+                    state.time
+                ));
+            }
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ndarray::Array3;
+
+    fn sound() -> RunRecord {
+        let scene = r#"
+            spheres = { count = 2, radius = 0.004, density = 1000.0 }
+            start = { kind = "random", z_min = 0.0, z_max = 1.0 }
+            time = { dt = 1e-3, duration = 0.01, frame_interval = 1e-3 }
+        "#;
+        let state = Snapshot {
+            time: 0.0,
+            position: Array2::zeros((2, 3)),
+            velocity: Array2::zeros((2, 3)),
+            spin: Array2::zeros((0, 3)),
+        };
+        RunRecord {
+            scene: toml::from_str(scene).unwrap(),
+            program: Program::current(),
+            outcome: Outcome::Completed,
+            radius: vec![0.004; 2],
+            mass: vec![1.0; 2],
+            milestones: Vec::new(),
+            observations: Observations {
+                time: vec![0.0, 1e-3],
+                kinetic: vec![0.0; 2],
+                profile: Array2::zeros((2, 0)),
+                rising: Array3::zeros((2, 0, 3)),
+                ..Observations::default()
+            },
+            snapshots: vec![state.clone()],
+            trajectory: vec![state],
+            work: 0,
+            cpu_seconds: 0.0,
+        }
+    }
+
+    /// Symptom: exports of records with a right checksum panicked. Cause: lengths that disagree were
+    /// believed.
+    #[test]
+    fn what_does_not_fit_together_is_named() {
+        assert_eq!(mismatch(&sound()), None);
+        type Spoil = fn(&mut RunRecord);
+        let spoils: [(&str, Spoil); 8] = [
+            ("`spheres/mass`", |it| it.mass.push(1.0)),
+            ("`spheres/mass`", |it| it.radius.truncate(1)),
+            ("`observations/kinetic`", |it| {
+                it.observations.kinetic.truncate(1);
+            }),
+            ("`observations/profile`", |it| {
+                it.observations.profile = Array2::zeros((3, 4));
+            }),
+            ("`observations/rising`", |it| {
+                it.observations.rising = Array3::zeros((1, 0, 3));
+            }),
+            ("`snapshots/velocity`", |it| {
+                it.snapshots[0].velocity = Array2::zeros((1, 3));
+            }),
+            ("`trajectory/spin`", |it| {
+                it.trajectory[0].spin = Array2::zeros((3, 3));
+            }),
+            ("`trajectory/position`", |it| {
+                it.trajectory[0].position = Array2::zeros((2, 2));
+            }),
+        ];
+        for (place, spoil) in spoils {
+            let mut record = sound();
+            spoil(&mut record);
+            let reason = mismatch(&record).unwrap_or_default();
+            assert!(reason.starts_with(place), "{place}: {reason}");
+        }
     }
 }
