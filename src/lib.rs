@@ -81,7 +81,6 @@ pub mod dem;
 pub mod document;
 mod fonts;
 mod markup;
-pub mod notation;
 pub mod observe;
 pub mod plot;
 pub mod record;

@@ -2,6 +2,7 @@
 
 use super::run::Run;
 use super::{ClassifyError, window};
+use crate::document::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -15,12 +16,15 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct FluidSieve {
     /// Window (s).
+    #[schemars(transform = unit("s").above(0.0))]
     pub window: f64,
     /// Least rise from a bin to the next outer one, in (mean) radii of the spheres.
+    #[schemars(transform = unit(""))]
     pub rise: f64,
     /// Bins that may fail.
     pub failures: usize,
     /// Share of the window's frames that must pass.
+    #[schemars(transform = unit("").at_least(0.0).at_most(1.0))]
     pub share: f64,
 }
 

@@ -2,6 +2,7 @@
 
 use super::run::Run;
 use super::{ClassifyError, window};
+use crate::document::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -11,11 +12,14 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct PinnedSieve {
     /// Window (s).
+    #[schemars(transform = unit("s").above(0.0))]
     pub window: f64,
     /// A frame has a hole if every centre is farther than this from the axis, in (mean) radii of
     /// the spheres.
+    #[schemars(transform = unit("").at_least(0.0))]
     pub hole: f64,
     /// Share of the window's frames that must have the hole.
+    #[schemars(transform = unit("").at_least(0.0).at_most(1.0))]
     pub share: f64,
 }
 

@@ -2,6 +2,7 @@
 
 use super::run::Run;
 use super::{ClassifyError, window};
+use crate::document::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -15,11 +16,14 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct SettleSieve {
     /// Window (s).
+    #[schemars(transform = unit("s").above(0.0))]
     pub window: f64,
     /// No centre may be above this height (m) in the window.
+    #[schemars(transform = unit("m"))]
     pub height: f64,
     /// Largest mean over the window of |change of the energy per sphere and millisecond| over
     /// m g R. With frames of another interval, the change is scaled to one millisecond.
+    #[schemars(transform = unit("").above(0.0))]
     pub tolerance: f64,
 }
 

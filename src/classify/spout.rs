@@ -2,6 +2,7 @@
 
 use super::run::Run;
 use super::{ClassifyError, window};
+use crate::document::unit;
 use crate::scene::Output;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,17 +16,22 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct SpoutSieve {
     /// Window (s).
+    #[schemars(transform = unit("s").above(0.0))]
     pub window: f64,
     /// Rise speed relative to the mean, in radii per second; one of the scene's
     /// `output.rise_speeds`.
+    #[schemars(transform = unit("1/s"))]
     pub rise_speed: f64,
     /// Distance from the axis over R; one of the scene's `output.rise_radii`.
+    #[schemars(transform = unit("").above(0.0))]
     pub radius: f64,
     /// Least number of rising spheres in every frame.
     pub least: usize,
     /// A small spout stays below this share of all spheres in every frame.
+    #[schemars(transform = unit("").at_least(0.0).at_most(1.0))]
     pub small: f64,
     /// A spout stays below this share of all spheres in every frame; more is chaos.
+    #[schemars(transform = unit("").at_least(0.0).at_most(1.0))]
     pub large: f64,
 }
 

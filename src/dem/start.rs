@@ -4,7 +4,6 @@ use super::particles::Particles;
 use super::vector::Vector;
 use crate::scene::{Geometry, Radii, Scene, Start};
 use rand::Rng;
-use std::collections::HashMap;
 
 /// Why the spheres of a scene cannot be placed.
 #[derive(Debug, thiserror::Error)]
@@ -236,32 +235,14 @@ impl Room {
 
 /// Random centres without overlap, uniform in the room that keeps each sphere off the walls.
 fn scatter(radii: &[f64], room: &Room, random: &mut impl Rng) -> Result<Vec<Vector>, StartError> {
-    let width = 2.0 * radii.iter().copied().fold(0.0, f64::max);
-    let cell = |p: Vector| [p.x, p.y, p.z].map(|value| libm::floor(value / width) as i64);
+    let mut grid = Grid::new(radii, room);
     let mut placed: Vec<Vector> = Vec::with_capacity(radii.len());
-    // Looked up only, never walked through: its order does not matter.
-    let mut occupied: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
     for (i, &radius) in radii.iter().enumerate() {
         let free = |p: Vector| {
-            let [a, b, c] = cell(p);
-            let near = (-1..=1).flat_map(|da| {
-                (-1..=1).flat_map(move |db| {
-                    (-1..=1).map(move |dc| {
-                        // A start height of 1e300 m is in the last cell.
-                        [
-                            a.saturating_add(da),
-                            b.saturating_add(db),
-                            c.saturating_add(dc),
-                        ]
-                    })
-                })
-            });
-            near.filter_map(|key| occupied.get(&key))
-                .flatten()
-                .all(|&j| {
-                    let distance = radius + radii[j as usize];
-                    (p - placed[j as usize]).norm_squared() > distance * distance
-                })
+            grid.near(p).all(|j| {
+                let distance = radius + radii[j];
+                (p - placed[j]).norm_squared() > distance * distance
+            })
         };
         let candidate = (0..ATTEMPTS)
             .map(|_| room.place(radius, random))
@@ -272,9 +253,83 @@ fn scatter(radii: &[f64], room: &Room, random: &mut impl Rng) -> Result<Vec<Vect
                 radius,
             })?;
         placed.push(candidate);
-        occupied.entry(cell(candidate)).or_default().push(i as u32);
+        grid.add(candidate);
     }
     Ok(placed)
+}
+
+/// Cells over a room, at least as wide as the largest sphere, with the spheres placed so far.
+struct Grid {
+    /// The corner of the room with the least coordinates (m), and the width of a cell (m).
+    corner: Vector,
+    width: f64,
+    /// Number of cells along x, y and z.
+    sizes: [usize; 3],
+    /// For each cell the sphere that came last, and for each sphere the one that came before it to
+    /// its cell; [`NONE`](Self::NONE) where there is none.
+    last: Vec<u32>,
+    before: Vec<u32>,
+}
+
+impl Grid {
+    const NONE: u32 = u32::MAX;
+
+    fn new(radii: &[f64], room: &Room) -> Self {
+        let [x, y] = room.reach;
+        let [low, high] = room.heights;
+        let corner = Vector::new(-x, -y, low);
+        let mut width = 2.0 * radii.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        let cells = |side: f64, width: f64| (side / width).max(0.0) + 1.0;
+        let sizes = |width: f64| [2.0 * x, 2.0 * y, high - low].map(|side| cells(side, width));
+        // A room that is nearly empty needs no cells as narrow as that.
+        while sizes(width).iter().product::<f64>() > 8.0 * (radii.len() as f64 + 512.0) {
+            width *= 1.25;
+        }
+        let sizes = sizes(width).map(|size| size as usize);
+        Self {
+            corner,
+            width,
+            sizes,
+            last: vec![Self::NONE; sizes.iter().product()],
+            before: Vec::with_capacity(radii.len()),
+        }
+    }
+
+    fn cell(&self, place: Vector) -> [usize; 3] {
+        let from_corner = place - self.corner;
+        let along = [from_corner.x, from_corner.y, from_corner.z];
+        std::array::from_fn(|axis| ((along[axis] / self.width) as usize).min(self.sizes[axis] - 1))
+    }
+
+    fn index(&self, [a, b, c]: [usize; 3]) -> usize {
+        (a * self.sizes[1] + b) * self.sizes[2] + c
+    }
+
+    fn add(&mut self, place: Vector) {
+        let cell = self.index(self.cell(place));
+        let number = self.before.len() as u32;
+        self.before
+            .push(std::mem::replace(&mut self.last[cell], number));
+    }
+
+    /// The spheres in the cell of `place` and in those about it.
+    fn near(&self, place: Vector) -> impl Iterator<Item = usize> {
+        let cell = self.cell(place);
+        let [x, y, z] = [0, 1, 2].map(|axis| {
+            let last = self.sizes[axis] - 1;
+            cell[axis].saturating_sub(1)..=(cell[axis] + 1).min(last)
+        });
+        let cells = x.flat_map(move |a| {
+            let z = z.clone();
+            y.clone()
+                .flat_map(move |b| z.clone().map(move |c| [a, b, c]))
+        });
+        let listed = |sphere: u32| (sphere != Self::NONE).then_some(sphere as usize);
+        cells.flat_map(move |cell| {
+            let first = listed(self.last[self.index(cell)]);
+            std::iter::successors(first, move |&sphere| listed(self.before[sphere]))
+        })
+    }
 }
 
 /// A number in [0, 1) with 53 random bits.

@@ -1,11 +1,11 @@
 //! Refuses values that a description does not allow, with all their problems at once.
 
-use super::schema::{Key, Kind, Range, Variant};
+use super::kind::{Key, Kind, Range, Variant};
 use super::{Problem, any_of, number, one_of, quoted, suggest};
 use serde_json::{Map, Value};
 
 /// A tag and all its variants.
-type Variants = (&'static str, &'static [Variant]);
+type Variants<'a> = (&'a str, &'a [Variant]);
 
 /// The first whole number that is too large for TOML.
 const LARGEST_WHOLE: f64 = (1_u64 << 63) as f64;
@@ -28,14 +28,14 @@ impl Kind {
                 None => problems.push(misfit()),
             },
             (Self::Table(keys), Value::Object(table)) => {
-                check_table(keys, None, table, path, problems);
+                check_table(&keys.keys, None, table, path, problems);
             }
             (Self::Tagged(tag, variants), Value::Object(table)) => {
                 check_tagged(tag, variants, table, path, problems);
             }
             (Self::List(kind), Value::Array(entries)) => {
                 for (index, entry) in entries.iter().enumerate() {
-                    kind.check_entry(entry, path, index, problems);
+                    kind.check(entry, &format!("{path}[{index}]"), problems);
                 }
             }
             (Self::Vector, Value::Array(entries)) if entries.len() == 3 => {
@@ -52,8 +52,8 @@ impl Kind {
                 problems.push(Problem::new(path, message));
             }
             (Self::Choice(words), Value::String(word)) => {
-                if !words.contains(&word.as_str()) {
-                    problems.push(match suggest(word, words.iter().copied()) {
+                if !words.contains(word) {
+                    problems.push(match suggest(word, words.iter().map(String::as_str)) {
                         Some(near) => misfit().help(format!("did you mean \"{near}\"?")),
                         None => misfit(),
                     });
@@ -78,17 +78,6 @@ impl Kind {
             _ if self.fits_type_of(value) => {}
             _ => problems.push(misfit()),
         }
-    }
-
-    /// Checks one entry of a list of this kind that stands at `path`.
-    pub(crate) fn check_entry(
-        &self,
-        entry: &Value,
-        path: &str,
-        index: usize,
-        problems: &mut Vec<Problem>,
-    ) {
-        self.check(entry, &format!("{path}[{index}]"), problems);
     }
 }
 
@@ -125,8 +114,8 @@ fn table_name(path: &str) -> String {
 }
 
 fn check_table(
-    keys: &'static [Key],
-    variants: Option<Variants>,
+    keys: &[Key],
+    variants: Option<Variants<'_>>,
     table: &Map<String, Value>,
     path: &str,
     problems: &mut Vec<Problem>,
@@ -136,7 +125,7 @@ fn check_table(
         path => format!("{path}.{name}"),
     };
     for (name, value) in table {
-        match keys.iter().find(|key| key.name == name) {
+        match keys.iter().find(|key| key.name == *name) {
             Some(key) => key.kind.check(value, &join(name), problems),
             None if variants.is_some_and(|(tag, _)| tag == name) => {}
             None => problems.push(unknown_key(keys, variants, name, path, join(name))),
@@ -146,29 +135,32 @@ fn check_table(
         let mut unknown = table
             .keys()
             .filter(|name| !keys.iter().any(|key| key.name == **name));
-        unknown.any(|name| suggest(name, [key.name]).is_some())
+        unknown.any(|name| suggest(name, [key.name.as_str()]).is_some())
     };
     for key in keys
         .iter()
-        .filter(|key| key.needed && !table.contains_key(key.name))
+        .filter(|key| key.needed && !table.contains_key(&key.name))
     {
         if !misspelt(key) {
-            problems.push(missing_key(key, path, &join(key.name)));
+            problems.push(missing_key(key, path, &join(&key.name)));
         }
     }
 }
 
 fn unknown_key(
-    keys: &'static [Key],
-    variants: Option<Variants>,
+    keys: &[Key],
+    variants: Option<Variants<'_>>,
     name: &str,
     table: &str,
     path: String,
 ) -> Problem {
     let table_name = table_name(table);
     let elsewhere = variants.and_then(|(tag, variants)| {
-        let has = |(_, keys): &&Variant| keys.iter().any(|key| key.name == name);
-        variants.iter().find(has).map(|(word, _)| (tag, word))
+        let has = |variant: &&Variant| variant.table.keys.iter().any(|key| key.name == name);
+        variants
+            .iter()
+            .find(has)
+            .map(|variant| (tag, &variant.word))
     });
     if let Some((tag, word)) = elsewhere {
         let message = format!("`{path}` belongs to `{tag} = \"{word}\"` only");
@@ -176,7 +168,10 @@ fn unknown_key(
         return Problem::new(path, message).help(help).at_key();
     }
     let tag = variants.map(|(tag, _)| tag);
-    let names = || tag.into_iter().chain(keys.iter().map(|key| key.name));
+    let names = || {
+        tag.into_iter()
+            .chain(keys.iter().map(|key| key.name.as_str()))
+    };
     let message = format!("{table_name} has no key `{name}`");
     let known = format!("{table_name} knows {}", one_of(names()));
     let help = match suggest(name, names()) {
@@ -187,7 +182,7 @@ fn unknown_key(
 }
 
 fn missing_key(key: &Key, table: &str, path: &str) -> Problem {
-    let name = key.name;
+    let name = &key.name;
     match &key.kind {
         Kind::Table(_) | Kind::Tagged(..) => {
             let message = format!("{} lacks the table [{path}]", table_name(table));
@@ -204,36 +199,37 @@ fn missing_key(key: &Key, table: &str, path: &str) -> Problem {
 /// The keys that a table must have.
 fn first_keys(kind: &Kind) -> String {
     match kind {
-        Kind::Table(keys) => one_of(keys.iter().filter(|key| key.needed).map(|key| key.name)),
+        Kind::Table(table) => {
+            let needed = table.keys.iter().filter(|key| key.needed);
+            one_of(needed.map(|key| &key.name))
+        }
         Kind::Tagged(tag, variants) => {
-            let words = variants
-                .iter()
-                .map(|(word, _)| format!("{tag} = \"{word}\""));
-            one_of(words)
+            let words = variants.iter().map(|variant| &variant.word);
+            one_of(words.map(|word| format!("{tag} = \"{word}\"")))
         }
         _ => String::new(),
     }
 }
 
 fn check_tagged(
-    tag: &'static str,
-    variants: &'static [Variant],
+    tag: &str,
+    variants: &[Variant],
     table: &Map<String, Value>,
     path: &str,
     problems: &mut Vec<Problem>,
 ) {
-    let words: Vec<&str> = variants.iter().map(|(word, _)| *word).collect();
+    let words: Vec<&str> = variants.iter().map(|it| it.word.as_str()).collect();
     let listed = || any_of(words.iter().map(|word| format!("{tag} = \"{word}\"")));
     let Some(value) = table.get(tag) else {
         let message = format!("{} lacks the key `{tag}`", table_name(path));
         problems.push(Problem::new(path, message).help(format!("add {}", listed())));
         return;
     };
-    match variants
-        .iter()
-        .find(|(word, _)| value.as_str() == Some(word))
-    {
-        Some((_, keys)) => check_table(keys, Some((tag, variants)), table, path, problems),
+    match variants.iter().find(|variant| *value == *variant.word) {
+        Some(variant) => {
+            let keys = &variant.table.keys;
+            check_table(keys, Some((tag, variants)), table, path, problems);
+        }
         None => {
             let near = value
                 .as_str()

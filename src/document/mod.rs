@@ -3,9 +3,11 @@
 
 mod check;
 mod difference;
+pub(crate) mod kind;
 mod load_error;
 mod problem;
-pub(crate) mod schema;
+mod quantity;
+mod schema;
 mod spelling;
 pub(crate) mod text;
 mod tree;
@@ -13,6 +15,8 @@ mod tree;
 pub use difference::differing_keys;
 pub use load_error::{Finding, LoadError, Spot};
 pub use problem::Problem;
+pub(crate) use quantity::{Attribute, Quantity, quantity, unit};
+pub(crate) use schema::Schema;
 pub(crate) use spelling::{any_of, number, one_of, quoted, suggest};
 pub use text::advice;
 

@@ -3,7 +3,6 @@
 use super::{PlotError, Source, grid};
 use crate::classify::Label;
 use crate::classify::{LabelRow, Point};
-use crate::notation::notation;
 use crate::record::RunRecord;
 
 /// A run of the table of labels, chosen to be shown.
@@ -224,10 +223,10 @@ impl Run<'_> {
 
 /// `symbol = value unit`; small lengths in millimetres.
 pub(super) fn quantity(source: &Source<'_>, key: &str, name: &str, value: f64) -> String {
-    let Some(notation) = notation(key) else {
+    let Some(notation) = source.sweep.scene.notation(key) else {
         return format!("{name} = {}", super::scale::number(value));
     };
-    let (value, unit) = match notation.unit_in(&source.sweep.scene) {
+    let (value, unit) = match notation.unit {
         "m" if value.abs() < 0.1 => (value * 1e3, "mm"),
         unit => (value, unit),
     };

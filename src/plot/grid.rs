@@ -2,7 +2,6 @@
 
 use super::{PlotError, Source};
 use crate::classify::{LabelTable, Point};
-use crate::notation::notation;
 use crate::scene::Scene;
 use crate::sweep::{Axis, Sweep};
 
@@ -41,11 +40,8 @@ impl GridAxis {
         values.extend(more);
         values.sort_by(f64::total_cmp);
         values.dedup();
-        let (symbol, unit) = match notation(&axis.key) {
-            Some(notation) => (
-                format!("${}$", notation.symbol),
-                notation.unit_in(scene).to_owned(),
-            ),
+        let (symbol, unit) = match scene.notation(&axis.key) {
+            Some(notation) => (format!("${}$", notation.symbol), notation.unit.to_owned()),
             None => {
                 let share = share_of(axis, scene);
                 (share.unwrap_or_else(|| axis.name.clone()), String::new())

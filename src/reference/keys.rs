@@ -1,10 +1,7 @@
 //! The page of all keys.
 
 use super::File;
-use super::docs::Entry;
-use super::json_schema::description;
-use crate::document::schema::{Key, Kind};
-use crate::notation;
+use crate::document::kind::{Key, Kind, Table};
 use serde_json::Value;
 
 const INTRODUCTION: &str = "\
@@ -24,10 +21,8 @@ pub fn keys() -> String {
             File::Sweep => "Sweep files",
             File::Stability => "Studies of stability",
         };
-        let docs = file.docs();
         page.0 += &format!("\n## {heading}\n\n");
-        page.paragraph(docs.root());
-        page.tables("", &file.keys(), docs.root());
+        page.tables("", &file.schema().kind);
     }
     page.0
 }
@@ -36,38 +31,26 @@ pub fn keys() -> String {
 struct Page(String);
 
 impl Page {
-    fn paragraph(&mut self, docs: Entry<'_>) {
-        if let Some(text) = docs.text() {
-            self.0 += &format!("{}\n\n", text.replace('\n', "\n\n"));
-        }
-    }
-
     /// The tables of keys that a value at `path` may have.
-    fn tables(&mut self, path: &str, kind: &Kind, docs: Entry<'_>) {
+    fn tables(&mut self, path: &str, kind: &Kind) {
         match kind {
-            Kind::Table(keys) => {
+            Kind::Table(table) => {
                 if !path.is_empty() {
                     self.0 += &format!("\n### {}\n\n", heading(path));
-                    self.paragraph(docs);
                 }
-                self.table(path, None, keys, docs);
+                self.table(path, None, table);
             }
             Kind::Tagged(tag, variants) => {
-                for (word, keys) in *variants {
-                    let docs = docs.variant(tag, word);
+                for variant in variants {
+                    let word = &variant.word;
                     self.0 += &format!("\n### {} with `{tag} = \"{word}\"`\n\n", heading(path));
-                    self.paragraph(docs);
-                    self.table(path, Some((tag, word)), keys, docs);
+                    self.table(path, Some((tag, word)), &variant.table);
                 }
             }
-            Kind::List(entry) => self.tables(&format!("{path}[]"), entry, docs.items()),
+            Kind::List(entry) => self.tables(&format!("{path}[]"), entry),
             // A scene within a sweep has its own chapter.
             Kind::Either(_) if path == "scene" => {}
-            Kind::Either(kinds) => {
-                for kind in *kinds {
-                    self.tables(path, kind, docs);
-                }
-            }
+            Kind::Either(kinds) => kinds.iter().for_each(|kind| self.tables(path, kind)),
             Kind::Text
             | Kind::Flag
             | Kind::Number(_)
@@ -77,23 +60,22 @@ impl Page {
         }
     }
 
-    fn table(&mut self, path: &str, tag: Option<(&str, &str)>, keys: &[Key], docs: Entry<'_>) {
+    fn table(&mut self, path: &str, tag: Option<(&str, &str)>, table: &Table) {
+        if let Some(text) = &table.description {
+            self.0 += &format!("{}\n\n", text.replace('\n', "\n\n"));
+        }
         self.0 += "| key | type | unit | default | description |\n|---|---|---|---|---|\n";
         if let Some((tag, word)) = tag {
             self.0 += &format!("| `{tag}` | \"{word}\" | | *needed* | |\n");
         }
-        let path_of = |key: &Key| match path {
-            "" => key.name.to_owned(),
-            path => format!("{path}.{}", key.name),
-        };
-        for key in keys {
-            let docs = docs.key(key.name);
+        for key in &table.keys {
+            let units: Vec<&str> = key.quantity.iter().flat_map(|it| it.units()).collect();
             let cells = [
                 format!("`{}`", key.name),
                 type_words(&key.kind),
-                notation::unit(&path_of(key)).unwrap_or_default(),
-                default(key, docs),
-                description(&key.kind, docs).unwrap_or_default(),
+                units.join(", "),
+                default(key),
+                key.description.clone().unwrap_or_default(),
             ];
             let cells = cells.map(|cell| match cell.as_str() {
                 "" => " ".to_owned(),
@@ -102,8 +84,8 @@ impl Page {
             });
             self.0 += &format!("|{}|\n", cells.join("|"));
         }
-        for key in keys {
-            self.tables(&path_of(key), &key.kind, docs.key(key.name));
+        for key in &table.keys {
+            self.tables(&key.path(path), &key.kind);
         }
     }
 }
@@ -121,7 +103,7 @@ fn heading(path: &str) -> String {
 fn type_words(kind: &Kind) -> String {
     match kind {
         Kind::Table(_) | Kind::Tagged(..) => "a table".to_owned(),
-        Kind::List(Kind::Table(_)) => "a list of tables".to_owned(),
+        Kind::List(entry) if matches!(**entry, Kind::Table(_)) => "a list of tables".to_owned(),
         Kind::Either(kinds) => {
             let kinds: Vec<String> = kinds.iter().map(type_words).collect();
             kinds.join(", or ")
@@ -130,10 +112,10 @@ fn type_words(kind: &Kind) -> String {
     }
 }
 
-fn default(key: &Key, docs: Entry<'_>) -> String {
-    match docs.default() {
+fn default(key: &Key) -> String {
+    match &key.default {
         _ if key.needed => "*needed*".to_owned(),
-        None | Some(Value::Object(_)) => String::new(),
+        None => String::new(),
         Some(Value::Array(entries)) if entries.is_empty() => String::new(),
         Some(default) => format!("`{default}`"),
     }
@@ -142,34 +124,6 @@ fn default(key: &Key, docs: Entry<'_>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::schema::Range;
-
-    fn visit(
-        path: &str,
-        kind: &Kind,
-        docs: Entry<'_>,
-        see: &mut dyn FnMut(&str, &Kind, Entry<'_>),
-    ) {
-        let mut table = |keys: &[Key], docs: Entry<'_>| {
-            for key in keys {
-                let dot = if path.is_empty() { "" } else { "." };
-                let path = format!("{path}{dot}{}", key.name);
-                see(&path, &key.kind, docs.key(key.name));
-                visit(&path, &key.kind, docs.key(key.name), see);
-            }
-        };
-        match kind {
-            Kind::Table(keys) => table(keys, docs),
-            Kind::Tagged(tag, variants) => variants
-                .iter()
-                .for_each(|(word, keys)| table(keys, docs.variant(tag, word))),
-            Kind::List(entry) => visit(&format!("{path}[]"), entry, docs.items(), see),
-            Kind::Either(kinds) if path != "scene" => {
-                kinds.iter().for_each(|kind| visit(path, kind, docs, see));
-            }
-            _ => {}
-        }
-    }
 
     fn is_number(kind: &Kind) -> bool {
         match kind {
@@ -182,15 +136,13 @@ mod tests {
 
     #[test]
     fn every_key_has_a_description_and_every_number_a_unit() {
-        assert!(is_number(&Kind::List(&Kind::Number(Range::ANY))));
         for file in File::ALL {
-            let docs = file.docs();
             let mut seen = 0;
-            visit("", &file.keys(), docs.root(), &mut |path, kind, docs| {
+            file.schema().kind.visit("", &mut |path, key| {
                 seen += 1;
-                assert!(docs.text().is_some(), "{path} has no description");
-                let unit = notation::unit(path);
-                assert!(unit.is_some() || !is_number(kind), "{path} has no unit");
+                assert!(key.description.is_some(), "{path} has no description");
+                let has_unit = key.quantity.is_some();
+                assert!(has_unit || !is_number(&key.kind), "{path} has no unit");
             });
             assert!(seen > 10, "{seen}");
         }

@@ -1,26 +1,16 @@
-//! What files may say, for editors and for readers.
-//!
-//! Two sources are put together, and neither is repeated here: the tables of keys by which files
-//! are checked ([`crate::scene`], [`crate::sweep`], [`crate::stability`]), and the documentation of the structs that files
-//! end in. Units and symbols come from [`crate::notation`]. `docs/` holds what these functions
-//! return; a test compares.
+//! What files may say, for editors and for readers: all of it follows from the schemas of the
+//! structs that files end in. `docs/` holds what these functions return; a test compares.
 
-mod docs;
-mod json_schema;
 mod keys;
 mod notation;
 
 pub use keys::keys;
 pub use notation::notation;
 
-use crate::document::schema::Kind;
-use crate::scene::Scene;
-use crate::scene::schema::SCENE;
-use crate::stability::StudyFile;
-use crate::stability::schema::STUDY;
-use crate::sweep::SweepFile;
-use crate::sweep::schema::SWEEP;
-use docs::Docs;
+use crate::document::Schema;
+use crate::scene::SCENE;
+use crate::stability::STUDY;
+use crate::sweep::SWEEP;
 use serde_json::{Value, json};
 
 /// A kind of file that the program reads.
@@ -47,19 +37,11 @@ impl File {
         }
     }
 
-    fn keys(self) -> Kind {
+    fn schema(self) -> &'static Schema {
         match self {
-            Self::Scene => SCENE,
-            Self::Sweep => SWEEP,
-            Self::Stability => STUDY,
-        }
-    }
-
-    fn docs(self) -> Docs {
-        match self {
-            Self::Scene => Docs::of::<Scene>(),
-            Self::Sweep => Docs::of::<SweepFile>(),
-            Self::Stability => Docs::of::<StudyFile>(),
+            Self::Scene => &SCENE,
+            Self::Sweep => &SWEEP,
+            Self::Stability => &STUDY,
         }
     }
 }
@@ -69,9 +51,7 @@ impl File {
 /// It refuses what the loader refuses for a single key: unknown and missing keys, wrong types,
 /// numbers out of range. What concerns several keys at once only the loader finds.
 pub fn schema(file: File) -> Value {
-    let docs = file.docs();
-    let mut schema = json_schema::of(&file.keys(), docs.root());
-    schema["$schema"] = json!("http://json-schema.org/draft-07/schema#");
+    let mut schema = file.schema().json.clone();
     schema["title"] = json!(format!("phase {} file", file.name()));
     schema
 }

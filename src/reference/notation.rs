@@ -1,6 +1,7 @@
 //! The table of symbols.
 
-use crate::notation::{Notation, SCENE_KEYS};
+use crate::document::Quantity;
+use crate::scene::SCENE;
 
 const INTRODUCTION: &str = "\
 # Notation
@@ -14,14 +15,32 @@ Symbol, unit and name of every numeric key of a scene, as figures write them. Th
 
 /// The table of symbols, in Markdown.
 pub fn notation() -> String {
-    let row = |notation: &Notation| {
-        let symbol = subscripts(notation.symbol);
+    // Several laws may have a key of one name; their units differ.
+    let mut rows: Vec<(String, &Quantity, Vec<&str>)> = Vec::new();
+    SCENE.kind.visit("", &mut |path, key| {
+        let Some(quantity) = key.quantity.as_ref().filter(|it| !it.symbol.is_empty()) else {
+            return;
+        };
+        let known = rows.iter().position(|(known, ..)| known == path);
+        let row = known.unwrap_or_else(|| {
+            rows.push((path.to_owned(), quantity, Vec::new()));
+            rows.len() - 1
+        });
+        let units = &mut rows[row].2;
+        let new: Vec<&str> = quantity
+            .units()
+            .filter(|unit| !units.contains(unit))
+            .collect();
+        units.extend(new);
+    });
+    let row = |(path, quantity, units): &(String, &Quantity, Vec<&str>)| {
+        let symbol = subscripts(&quantity.symbol);
         // The bars of an absolute value would end a cell.
-        let name = notation.name.replace('|', "\\|");
-        let unit = notation.units().join(", ");
-        format!("| {symbol} | {name} | {unit} | `{}` |\n", notation.key)
+        let name = quantity.name.replace('|', "\\|");
+        let unit = units.join(", ");
+        format!("| {symbol} | {name} | {unit} | `{path}` |\n")
     };
-    INTRODUCTION.to_owned() + &SCENE_KEYS.iter().map(row).collect::<String>()
+    INTRODUCTION.to_owned() + &rows.iter().map(row).collect::<String>()
 }
 
 /// A symbol whose `_` are subscripts in HTML: `z_{max}` becomes `z<sub>max</sub>`.

@@ -2,8 +2,7 @@
 
 use crate::dem::SAFETY_FACTOR;
 use crate::document::{Document, LoadError, Problem};
-use crate::scene::Scene;
-use crate::scene::schema::{AUTO, SCENE};
+use crate::scene::{AUTO, SCENE, Scene};
 use serde_json::Value;
 use std::path::Path;
 
@@ -58,7 +57,7 @@ fn base_of_document(document: &Document, reading: Reading) -> Result<Scene, Load
 pub(crate) struct Reading {
     /// Puts what the purpose asks for in the place of keys that do not matter to it.
     pub(crate) prepare: fn(&mut Scene),
-    /// Finds the problems of a scene whose step is given.
+    /// Finds the problems of a scene whose step is given and whose numbers are in range.
     pub(crate) check: fn(&Scene) -> Vec<Problem>,
 }
 
@@ -66,7 +65,7 @@ impl Reading {
     /// To be run as it stands.
     pub(crate) const RUN: Self = Self {
         prepare: |_| {},
-        check: Scene::problems,
+        check: Scene::problems_in_range,
     };
 }
 
@@ -78,7 +77,7 @@ pub(crate) fn base_of_tree(
     reading: Reading,
 ) -> Result<Scene, Vec<Problem>> {
     let mut problems = Vec::new();
-    SCENE.check(tree, "", &mut problems);
+    SCENE.kind.check(tree, "", &mut problems);
     if !problems.is_empty() {
         return Err(problems);
     }
@@ -90,14 +89,19 @@ pub(crate) fn base_of_tree(
     }
     let mut scene: Scene = serde_json::from_value(tree)
         .map_err(|error| vec![Problem::new("", format!("not a scene: {error}"))])?;
-    scene.read_files(folder, &mut problems);
-    if !problems.is_empty() {
-        return Err(problems);
+    if scene.names_files() {
+        scene.read_files(folder, &mut problems);
+        if problems.is_empty() {
+            problems = scene.problems_of_values();
+        }
+        if !problems.is_empty() {
+            return Err(problems);
+        }
     }
     (reading.prepare)(&mut scene);
     if is_auto {
         let safety_factor = *scene.time.safety_factor.get_or_insert(SAFETY_FACTOR);
-        scene = scene.with_chosen_step()?;
+        scene = scene.with_chosen_step_in_range()?;
         scene.time.safety_factor = Some(safety_factor);
         return Ok(scene);
     }

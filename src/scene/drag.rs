@@ -1,5 +1,6 @@
 //! The drag of air on a sphere: force from the difference of two velocities.
 
+use crate::document::quantity;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -9,9 +10,20 @@ use serde::{Deserialize, Serialize};
 pub struct Drag {
     /// Linear coefficient, with the unit that `law` says.
     #[serde(default)]
+    #[schemars(
+        transform = quantity("M_1", "kg/(m² s)", "linear drag coefficient")
+            .at_least(0.0)
+            .unit_where("law", "diameter", "kg/(m s)")
+            .unit_where("law", "constant", "kg/s")
+    )]
     pub linear: f64,
     /// Quadratic coefficient, with the unit that `law` says.
     #[serde(default)]
+    #[schemars(
+        transform = quantity("M_2", "kg/m³", "quadratic drag coefficient")
+            .at_least(0.0)
+            .unit_where("law", "constant", "kg/m")
+    )]
     pub quadratic: f64,
     /// How the coefficients scale with the sphere.
     pub law: DragLaw,

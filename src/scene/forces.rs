@@ -1,6 +1,8 @@
 //! What acts on single spheres: gravity, the air, the damping of spins.
 
 use super::one;
+use super::quantities::{fraction, place};
+use crate::document::quantity;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -9,10 +11,12 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Gravity {
     /// Acceleration g (m/s2).
+    #[schemars(transform = quantity("g", "m/s²", "acceleration of gravity").at_least(0.0))]
     pub acceleration: f64,
     /// Angle by which it leans from straight down towards +x (rad, default 0): the floor is then
     /// an incline that descends along x.
     #[serde(default, skip_serializing_if = "is_zero")]
+    #[schemars(transform = quantity("θ", "rad", "tilt of gravity"))]
     pub tilt: f64,
 }
 
@@ -40,6 +44,7 @@ impl Gravity {
 #[serde(deny_unknown_fields)]
 pub struct Swirl {
     /// Angular velocity Omega of the air (rad/s), counter-clockwise seen from above.
+    #[schemars(transform = quantity("Ω", "rad/s", "angular velocity of the air"))]
     pub omega: f64,
 }
 
@@ -48,19 +53,30 @@ pub struct Swirl {
 #[serde(deny_unknown_fields)]
 pub struct Updraught {
     /// Speed v_z of the rising air (m/s).
+    #[schemars(transform = quantity("v_z", "m/s", "speed of the rising air"))]
     pub speed: f64,
     /// Factor s on the force.
     #[serde(default = "one")]
+    #[schemars(transform = quantity("s", "", "strength of the updraught").at_least(0.0))]
     pub strength: f64,
     /// Decay beta of the force with height (1/m).
+    #[schemars(
+        transform = quantity("β", "1/m", "decay of the updraught with height").at_least(0.0)
+    )]
     pub decay: f64,
     /// Height z0 at which the decay is 1 (m).
+    #[schemars(transform = place("z_0", "height where the decay begins"))]
     pub origin: f64,
     /// Factor alpha per shielding sphere below, 0 to 1.
+    #[schemars(transform = fraction("α", "factor per shielding sphere"))]
     pub alpha: f64,
     /// Rotation Omega_0 (rad/s) of the swirl at which the force is as given; at another Omega it is
     /// (Omega / Omega_0)^2 times that (Rice, 2012, eq. 44). Absent: the swirl does not matter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(
+        transform = quantity("Ω_0", "rad/s", "rotation at which the updraught is as given")
+            .above(0.0)
+    )]
     pub reference_omega: Option<f64>,
 }
 
@@ -80,5 +96,6 @@ impl Updraught {
 #[serde(deny_unknown_fields)]
 pub struct SpinDamping {
     /// Torque per spin, c (kg m2/s).
+    #[schemars(transform = quantity("c_ω", "kg m²/s", "coefficient of spin damping").at_least(0.0))]
     pub coefficient: f64,
 }

@@ -1,20 +1,35 @@
 //! The numeric keys of a scene by their paths, so that a sweep can vary any of them.
 
-use super::schema::SCENE;
-use super::{LIST_KEY, Scene};
-use crate::document::schema::Kind;
-use crate::document::{Problem, any_of, number, one_of, suggest};
+use super::{LIST_KEY, SCENE, Scene};
+use crate::document::kind::{Key, Kind, Range, Table};
+use crate::document::{Problem, any_of, one_of, suggest};
 use serde_json::Value;
 use std::borrow::Cow;
 
 /// The key that only a scene with `dt = "auto"` has.
 const SAFETY_FACTOR_KEY: &str = "time.safety_factor";
 
+/// What list entries of a vector may be.
+static COMPONENT: Kind = Kind::Number(Range::ANY);
+
 /// A key that a sweep may vary.
-struct NumericKey {
-    path: String,
-    /// Whether it takes whole numbers only.
-    whole: bool,
+pub(super) struct NumericKey {
+    pub(super) path: String,
+    /// What it may hold.
+    pub(super) kind: &'static Kind,
+    /// How figures write it, in this scene.
+    notation: Option<Notation>,
+}
+
+/// How figures write a numeric key of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Notation {
+    /// Symbol; `_` makes a subscript of the next character or of a group in braces.
+    pub symbol: &'static str,
+    /// SI unit; empty for a pure number.
+    pub unit: &'static str,
+    /// Plain name, without the unit.
+    pub name: &'static str,
 }
 
 impl Scene {
@@ -29,9 +44,15 @@ impl Scene {
             .collect()
     }
 
-    fn all_numeric_keys(&self) -> Vec<NumericKey> {
+    /// How figures write a numeric key of this scene. Entries of lists have no notation.
+    pub fn notation(&self, key: &str) -> Option<Notation> {
+        let mut keys = self.for_keys(&[]).all_numeric_keys().into_iter();
+        keys.find(|known| known.path == key)?.notation
+    }
+
+    pub(super) fn all_numeric_keys(&self) -> Vec<NumericKey> {
         let mut keys = Vec::new();
-        collect(&SCENE, Some(&self.tree()), "", &mut keys);
+        collect(&SCENE.kind, None, Some(&self.tree()), "", &mut keys);
         keys.retain(|key| key.path != "seed" && !is_without_effect(&key.path));
         if self.time.safety_factor.is_none() {
             keys.retain(|key| key.path != SAFETY_FACTOR_KEY);
@@ -74,9 +95,9 @@ impl Scene {
                 .help("use `dt = \"auto\"` in [time] of the scene, or vary `time.dt`");
         }
         let table = key.split('.').next().unwrap_or(key);
-        if let Kind::Table(tables) = SCENE
+        if let Kind::Table(scene) = &SCENE.kind
             && table != key
-            && tables.iter().any(|known| known.name == table)
+            && scene.keys.iter().any(|known| known.name == table)
             && self.for_keys(&[]).tree().get(table).is_none()
         {
             return Problem::new("", format!("the scene has no [{table}] to vary `{key}` in"))
@@ -91,44 +112,9 @@ impl Scene {
         })
     }
 
-    /// This scene with other values at some numeric keys.
-    ///
-    /// # Errors
-    /// If a path is none of this scene's numeric keys, or the value is of the wrong kind for it.
-    pub fn with_values<'a>(
-        &self,
-        values: impl IntoIterator<Item = (&'a str, f64)>,
-    ) -> Result<Self, Problem> {
-        let values: Vec<(&str, f64)> = values.into_iter().collect();
-        let paths: Vec<&str> = values.iter().map(|(path, _)| *path).collect();
-        let scene = self.for_keys(&paths);
-        let keys = scene.all_numeric_keys();
-        let mut tree = scene.tree();
-        for (path, value) in values {
-            let Some(key) = keys.iter().find(|key| key.path == path) else {
-                return Err(Problem::new(path, format!("the scene has no key `{path}`")));
-            };
-            let number = if key.whole && value >= 0.0 && libm::trunc(value) == value {
-                Value::from(value as u64)
-            } else if key.whole {
-                let message = format!("`{path}` must be a whole number, but is {}", number(value));
-                return Err(Problem::new(path, message).help("use whole numbers, 0 or more"));
-            } else {
-                Value::from(value)
-            };
-            set(&mut tree, path, number);
-        }
-        let mut varied: Self = serde_json::from_value(tree)
-            .map_err(|error| Problem::new("", format!("not a scene: {error}")))?;
-        if let Cow::Owned(_) = scene {
-            varied.start = self.start.clone();
-        }
-        Ok(varied)
-    }
-
-    /// The scene, without the spheres that its start lists if none of these keys is theirs: a tree of values takes
-    /// more than a kilobyte for each.
-    fn for_keys(&self, keys: &[&str]) -> Cow<'_, Self> {
+    /// The scene, without the spheres that its start lists if none of these keys is theirs: a tree
+    /// of values takes more than a kilobyte for each.
+    pub(super) fn for_keys(&self, keys: &[&str]) -> Cow<'_, Self> {
         match self.apart_from_list() {
             Some((scene, _)) if !keys.iter().any(|key| key.starts_with(LIST_KEY)) => {
                 Cow::Owned(scene)
@@ -149,44 +135,46 @@ fn is_without_effect(key: &str) -> bool {
     key.starts_with("output.") || key.starts_with("neighbours.")
 }
 
-fn collect(kind: &Kind, value: Option<&Value>, path: &str, keys: &mut Vec<NumericKey>) {
-    let mut push = |whole| {
+fn collect(
+    kind: &'static Kind,
+    notation: Option<Notation>,
+    value: Option<&Value>,
+    path: &str,
+    keys: &mut Vec<NumericKey>,
+) {
+    let mut push = |path: String, kind: &'static Kind, notation: Option<Notation>| {
         keys.push(NumericKey {
-            path: path.to_owned(),
-            whole,
+            path,
+            kind,
+            notation,
         });
     };
     match kind {
-        Kind::Number(_) => push(false),
-        Kind::Whole(_) => push(true),
+        Kind::Number(_) | Kind::Whole(_) => push(path.to_owned(), kind, notation),
         Kind::Either(kinds) => {
             if kinds.iter().any(|kind| matches!(kind, Kind::Number(_))) {
-                push(false);
+                push(path.to_owned(), kind, notation);
             }
             let lists = kinds.iter().filter(|kind| matches!(kind, Kind::List(_)));
             for kind in lists.filter(|kind| value.is_some_and(|value| kind.fits_type_of(value))) {
-                collect(kind, value, path, keys);
+                collect(kind, None, value, path, keys);
             }
         }
         Kind::Table(table) => collect_table(table, value, path, keys),
         Kind::Tagged(tag, variants) => {
             let word = value.and_then(|value| value.get(tag)?.as_str());
-            let variant = variants.iter().find(|(name, _)| Some(*name) == word);
-            if let Some((_, table)) = variant {
-                collect_table(table, value, path, keys);
+            if let Some(variant) = variants.iter().find(|it| Some(it.word.as_str()) == word) {
+                collect_table(&variant.table, value, path, keys);
             }
         }
         Kind::List(entry) => {
             for (index, value) in entries(value) {
-                collect(entry, Some(value), &format!("{path}[{index}]"), keys);
+                collect(entry, None, Some(value), &format!("{path}[{index}]"), keys);
             }
         }
         Kind::Vector => {
             for (index, _) in entries(value) {
-                keys.push(NumericKey {
-                    path: format!("{path}[{index}]"),
-                    whole: false,
-                });
+                push(format!("{path}[{index}]"), &COMPONENT, None);
             }
         }
         Kind::Text | Kind::Flag | Kind::Choice(_) => {}
@@ -194,19 +182,29 @@ fn collect(kind: &Kind, value: Option<&Value>, path: &str, keys: &mut Vec<Numeri
 }
 
 fn collect_table(
-    table: &[crate::document::schema::Key],
+    table: &'static Table,
     value: Option<&Value>,
     path: &str,
     keys: &mut Vec<NumericKey>,
 ) {
     // The keys of a table that is not there would bring an effect that is not there.
     let Some(value) = value else { return };
-    for key in table {
-        let path = match path {
-            "" => key.name.to_owned(),
-            path => format!("{path}.{}", key.name),
-        };
-        collect(&key.kind, value.get(key.name), &path, keys);
+    for key in &table.keys {
+        let path = key.path(path);
+        let notation = Notation::of(key, value).filter(|_| !path.contains('['));
+        collect(&key.kind, notation, value.get(&key.name), &path, keys);
+    }
+}
+
+impl Notation {
+    /// That of a key in a table with these values.
+    fn of(key: &'static Key, table: &Value) -> Option<Self> {
+        let quantity = key.quantity.as_ref()?;
+        (!quantity.symbol.is_empty()).then(|| Self {
+            symbol: &quantity.symbol,
+            unit: quantity.unit_in(table),
+            name: &quantity.name,
+        })
     }
 }
 
@@ -218,27 +216,10 @@ fn entries(value: Option<&Value>) -> impl Iterator<Item = (usize, &Value)> {
         .enumerate()
 }
 
-/// Puts a value at a path whose tables and lists exist.
-fn set(tree: &mut Value, path: &str, new: Value) {
-    let mut place = tree;
-    for part in path.split(['.', '[']) {
-        place = match part.strip_suffix(']') {
-            Some(index) => {
-                let index: usize = index.parse().expect("the path was made from a list");
-                &mut place[index]
-            }
-            None => &mut place[part],
-        };
-    }
-    *place = new;
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Start, StartSphere};
     use std::path::Path;
-    use std::sync::Arc;
 
     fn scene() -> Scene {
         let text = r#"
@@ -248,43 +229,6 @@ mod tests {
             time = { dt = 1e-4, duration = 1.0, frame_interval = 1e-3 }
         "#;
         crate::scene::Scene::from_toml(text, Path::new("scene.toml")).unwrap()
-    }
-
-    #[test]
-    fn every_numeric_key_can_be_set() {
-        let scene = scene();
-        for key in scene.all_numeric_keys() {
-            let changed = scene.with_values([(key.path.as_str(), 7.0)]).unwrap();
-            assert_ne!(changed, scene, "{}", key.path);
-        }
-        let changed = scene
-            .with_values([("spheres.radius[1].share", 5.0)])
-            .unwrap();
-        assert!(matches!(
-            &changed.spheres.radius,
-            crate::scene::Radii::Shares(shares) if shares[1].share == 5.0
-        ));
-    }
-
-    /// Symptom: a sweep over a scene that lists many spheres held them once for each job. Cause: each job's scene was made
-    /// of a tree of values.
-    #[test]
-    fn listed_spheres_are_shared_unless_they_vary() {
-        let mut scene = scene();
-        scene.start = Start::list(vec![StartSphere::at([0.0; 3]); 3]);
-        let list = |scene: &Scene| match &scene.start {
-            Start::List { spheres } => Arc::clone(spheres),
-            other => panic!("{other:?}"),
-        };
-        let denser = scene.with_values([("spheres.density", 7.0)]).unwrap();
-        assert_eq!(denser.spheres.density, 7.0);
-        assert!(Arc::ptr_eq(&list(&denser), &list(&scene)));
-        let key = "start.spheres[1].position[2]";
-        assert_eq!(scene.resolve_key(key).unwrap(), key);
-        let moved = scene.with_values([("spheres.density", 7.0), (key, 0.5)]);
-        let moved = list(&moved.unwrap());
-        assert_eq!(moved[1], StartSphere::at([0.0, 0.0, 0.5]));
-        assert_eq!(moved[2], list(&scene)[2]);
     }
 
     #[test]
@@ -303,5 +247,20 @@ mod tests {
         ] {
             assert!(scene.resolve_key(key).is_err(), "{key}");
         }
+    }
+
+    #[test]
+    fn the_unit_of_a_key_depends_on_its_table() {
+        let mut scene = scene();
+        let unit = |scene: &Scene, key: &str| scene.notation(key).unwrap().unit;
+        assert_eq!(unit(&scene, "spheres.density"), "kg/m³");
+        scene.spheres.shape = crate::scene::Shape::Disc;
+        assert_eq!(unit(&scene, "spheres.density"), "kg/m²");
+        scene.contact = Some(crate::scene::Contact::Silbert {
+            stiffness: 1e6,
+            damping: 1.0,
+        });
+        assert_eq!(unit(&scene, "contact.stiffness"), "Pa");
+        assert_eq!(scene.notation("spheres.radius[0].share"), None);
     }
 }

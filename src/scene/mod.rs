@@ -13,8 +13,8 @@ mod identity;
 mod keys;
 mod neighbours;
 mod output;
+mod quantities;
 mod radius;
-pub(crate) mod schema;
 mod silo;
 mod spheres;
 mod start;
@@ -22,10 +22,12 @@ mod tank;
 mod time;
 mod tree;
 mod validate;
+mod vary;
 
 pub use contact::{Contact, ContactDrag, Friction};
 pub use drag::{Drag, DragForm, DragLaw};
 pub use forces::{Gravity, SpinDamping, Swirl, Updraught};
+pub use keys::Notation;
 pub(crate) use keys::leaf;
 pub use neighbours::Neighbours;
 pub use output::{Guards, Output};
@@ -34,13 +36,21 @@ pub(crate) use silo::MOST_HOPPER_SPHERES;
 pub use silo::{Door, FixedSphere, FixedSpheres, Geometry, Hopper, LengthUnit, Outlet, Rest};
 pub use spheres::{Shape, Spheres};
 pub(crate) use start::LIST_KEY;
+use start::START_SPHERE;
 pub use start::{Start, StartSphere};
 pub use tank::Tank;
+pub(crate) use time::AUTO;
 pub use time::{Integrator, Time};
 pub(crate) use validate::{plural, rounded};
+pub(crate) use vary::Template;
 
+use crate::document::{Schema, quantity};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::sync::LazyLock;
+
+/// The keys of a scene file.
+pub(crate) static SCENE: LazyLock<Schema> = LazyLock::new(Schema::of::<Scene>);
 
 /// One simulation, fully specified.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -51,6 +61,7 @@ pub struct Scene {
     pub title: Option<String>,
     /// Seed of everything random in this run (default 1).
     #[serde(default = "default_seed")]
+    #[schemars(transform = quantity("seed", "", "seed"))]
     pub seed: u64,
     /// The spheres: how many, how large, how heavy.
     pub spheres: Spheres,

@@ -1,5 +1,6 @@
 //! How the pairs that may touch are found.
 
+use super::quantities::length;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -18,12 +19,14 @@ pub enum Neighbours {
     /// the cells about it (Remmers, 2009).
     Cells {
         /// Side L of a cell (m), at least the largest sum of the radii of two spheres that may touch.
+        #[schemars(transform = length("L", "side of a cell"))]
         length: f64,
     },
     /// The same with the cells in a chained hash table, which takes memory for spheres alone however
     /// far apart they are: for domains without bounds.
     HashedCells {
         /// Side L of a cell (m), at least the largest sum of the radii of two spheres that may touch.
+        #[schemars(transform = length("L", "side of a cell"))]
         length: f64,
     },
 }

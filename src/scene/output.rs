@@ -1,6 +1,7 @@
 //! What is watched and what is stored on the way.
 
 use super::is_default;
+use crate::document::{quantity, unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -9,17 +10,24 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct Guards {
     /// Largest overlap, in radii of the smaller partner.
+    #[schemars(transform = quantity("ξ_{max} / r", "", "largest overlap, in radii").above(0.0))]
     pub overlap: f64,
     /// Largest displacement in one step, in radii of the sphere.
+    #[schemars(
+        transform = quantity("Δx_{max} / r", "", "largest displacement per step, in radii")
+            .above(0.0)
+    )]
     pub displacement: f64,
     /// Largest |x| and |y| of a centre (m). Default: twice the tank's radius, or the larger of its
     /// width and depth, if walls are all around.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = quantity("x_{max}", "m", "largest |x| and |y|").above(0.0))]
     pub horizontal: Option<f64>,
     /// Largest |z| of a centre (m). Default, if there is a floor: ten times the largest of the
     /// floor's depth, the start height, and the tank's radius, or half its
     /// width or depth (1 m without any).
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = quantity("z_{guard}", "m", "largest |z|").above(0.0))]
     pub vertical: Option<f64>,
 }
 
@@ -39,6 +47,7 @@ impl Default for Guards {
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
     /// Time between snapshots of all spheres (s); 0 for none but the last.
+    #[schemars(transform = quantity("Δt_{snapshot}", "s", "time between snapshots").at_least(0.0))]
     pub snapshot_interval: f64,
     /// Store position, velocity and spin of every sphere at every frame.
     pub trajectory: bool,
@@ -48,10 +57,15 @@ pub struct Output {
     pub ledger: bool,
     /// Radial bins of the surface profile. Default: round(R / 2r).
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(
+        transform = quantity("n_{bins}", "", "radial bins of the surface profile").at_least(1)
+    )]
     pub profile_bins: Option<usize>,
     /// Rise speeds, in radii per second above the mean, for which rising spheres are counted.
+    #[schemars(transform = unit("1/s"))]
     pub rise_speeds: Vec<f64>,
     /// Distances from the axis, over R, within which rising spheres are counted.
+    #[schemars(transform = unit("").above(0.0))]
     pub rise_radii: Vec<f64>,
 }
 

@@ -1,5 +1,7 @@
 //! Radii of the spheres: one value, shares of several, or a file.
 
+use super::quantities::length;
+use crate::document::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -10,16 +12,16 @@ use std::path::PathBuf;
 #[serde(untagged)]
 pub enum Radii {
     /// Every sphere has this radius (m).
-    One(f64),
+    One(#[schemars(transform = length("", ""))] f64),
     /// Shares of several radii, dealt to the spheres at random.
     Shares(Vec<RadiusShare>),
+    /// One radius per sphere (m); what a file is resolved to.
+    Each(#[schemars(transform = length("", ""))] Vec<f64>),
     /// One radius per sphere (m), one per line, from a file.
     File {
         /// Path of the file, relative to the scene file.
         file: PathBuf,
     },
-    /// One radius per sphere (m); what a file is resolved to.
-    Each(Vec<f64>),
 }
 
 /// A share of the spheres with one radius.
@@ -27,9 +29,11 @@ pub enum Radii {
 #[serde(deny_unknown_fields)]
 pub struct RadiusShare {
     /// Radius (m).
+    #[schemars(transform = length("", ""))]
     pub radius: f64,
     /// Relative share of the number of spheres; shares need not add up to one, and may be 0, but not
     /// all of them.
+    #[schemars(transform = unit("").at_least(0.0))]
     pub share: f64,
 }
 

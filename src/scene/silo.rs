@@ -1,5 +1,7 @@
 //! A silo: fixed spheres as walls and door, grains that are fed in, and when the door opens.
 
+use super::quantities::{length, place};
+use crate::document::{quantity, unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -34,18 +36,25 @@ pub enum Geometry {
 #[serde(deny_unknown_fields)]
 pub struct Hopper {
     /// Distance of the walls' centres from the middle (m).
+    #[schemars(transform = length("W / 2", "half the width of the silo"))]
     pub half_width: f64,
     /// Height of the top of the walls (m).
+    #[schemars(transform = place("z_{top}", "top of the walls"))]
     pub top: f64,
     /// Height of the foot of the walls, where the slopes begin (m).
+    #[schemars(transform = place("z_{foot}", "foot of the walls"))]
     pub foot: f64,
     /// Angle of the slopes against the horizontal (rad).
+    #[schemars(transform = quantity("φ", "rad", "angle of the slopes").at_least(0.0).at_most(1.5))]
     pub slope: f64,
     /// Clear width of the opening, between the surfaces of its edges (m).
+    #[schemars(transform = length("D", "clear width of the opening"))]
     pub opening: f64,
     /// Distance between neighbouring fixed spheres at most (m).
+    #[schemars(transform = length("Δ_{wall}", "distance between fixed spheres"))]
     pub spacing: f64,
     /// Radius of the fixed spheres (m).
+    #[schemars(transform = length("r_{wall}", "radius of the fixed spheres"))]
     pub radius: f64,
 }
 
@@ -54,8 +63,10 @@ pub struct Hopper {
 #[serde(deny_unknown_fields)]
 pub struct FixedSphere {
     /// Centre (m).
+    #[schemars(transform = unit("m"))]
     pub position: [f64; 3],
     /// Radius (m).
+    #[schemars(transform = length("", ""))]
     pub radius: f64,
 }
 
@@ -190,11 +201,17 @@ pub struct Rest {
     /// Kinetic energy of all grains together (J), translation and rotation, below which they may be
     /// at rest. No single grain may have more than a hundredth of it, or of fewer than a hundred
     /// grains more than its equal share.
+    #[schemars(
+        transform = quantity("E_{rest}", "J", "kinetic energy of spheres at rest").above(0.0)
+    )]
     pub kinetic_energy: f64,
     /// Time for which they must stay below that (s). A grain at the top of its bounce is slow for
     /// an instant, but not for long: g times this should be far above the speed of a grain with its
     /// share of the energy.
     #[serde(default = "default_hold")]
+    #[schemars(
+        transform = quantity("t_{rest}", "s", "time for which spheres must be slow").above(0.0)
+    )]
     pub hold: f64,
 }
 
@@ -209,6 +226,7 @@ pub struct Door {
     /// Time at which it opens (s). Absent: as soon as all grains are in and at rest, which needs
     /// `rest`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = quantity("t_{door}", "s", "time at which the door opens").at_least(0.0))]
     pub opens: Option<f64>,
 }
 
@@ -217,6 +235,7 @@ pub struct Door {
 #[serde(deny_unknown_fields)]
 pub struct Outlet {
     /// Height below which a grain's centre is out of the simulation (m).
+    #[schemars(transform = quantity("z_{out}", "m", "height below which spheres are out"))]
     pub height: f64,
 }
 

@@ -1,6 +1,7 @@
 //! The spheres, and the mass of one.
 
 use super::{Radii, is_default};
+use crate::document::quantity;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -9,10 +10,18 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Spheres {
     /// Number of spheres, n.
+    #[schemars(transform = quantity("n", "", "number of spheres").at_least(1))]
     pub count: usize,
     /// Radius r (m): one value, a list of `{ radius, share }`, or `{ file = "radii.txt" }`.
+    #[schemars(transform = quantity("r", "m", "radius of the spheres"))]
     pub radius: Radii,
     /// Density rho: of spheres that of the solid (kg/m3), of discs in kg/m2.
+    #[schemars(
+        transform = quantity("ρ", "kg/m³", "density of the spheres")
+            .at_least(1e-9)
+            .at_most(1e15)
+            .unit_where("shape", "disc", "kg/m²")
+    )]
     pub density: f64,
     /// What the mass of one is.
     #[serde(default, skip_serializing_if = "is_default")]

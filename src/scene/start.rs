@@ -1,13 +1,18 @@
 //! Where and how the spheres start.
 
 use super::Scene;
+use super::quantities::{length, place};
+use crate::document::{Schema, quantity, unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 /// The key of the spheres that a start lists.
 pub(crate) const LIST_KEY: &str = "start.spheres";
+
+/// The keys of a sphere that a start lists.
+pub(super) static START_SPHERE: LazyLock<Schema> = LazyLock::new(Schema::of::<StartSphere>);
 
 /// Where and how the spheres start.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -16,15 +21,24 @@ pub enum Start {
     /// Random positions without overlap, inside the tank's cylinder or its four sides.
     Random {
         /// Lowest start height of a centre (m).
+        #[schemars(transform = place("z_{min}", "lowest start height"))]
         z_min: f64,
         /// Highest start height of a centre (m).
+        #[schemars(transform = place("z_{max}", "highest start height"))]
         z_max: f64,
         /// Each velocity component is uniform in plus or minus this (m/s).
         #[serde(default)]
+        #[schemars(
+            transform = quantity("v_{start}", "m/s", "largest start velocity component")
+                .at_least(0.0)
+        )]
         speed: f64,
         /// Each spin component is uniform in plus or minus this (rad/s); no effect
         /// in a scene without friction.
         #[serde(default)]
+        #[schemars(
+            transform = quantity("ω_{start}", "rad/s", "largest start spin component").at_least(0.0)
+        )]
         spin: f64,
     },
     /// Every sphere listed in the scene.
@@ -36,15 +50,24 @@ pub enum Start {
     /// One sphere after the other, all at one place and with one velocity, from time zero on.
     Feed {
         /// Centre of a sphere when it comes in (m).
+        #[schemars(transform = unit("m"))]
         position: [f64; 3],
         /// Its velocity (m/s).
         #[serde(default)]
+        #[schemars(transform = unit("m/s"))]
         velocity: [f64; 3],
         /// Time between two spheres (s); a whole number of steps. One that finds its place taken
         /// waits for the next of these times.
+        #[schemars(
+            transform = quantity("Δt_{feed}", "s", "time between spheres that come in").above(0.0)
+        )]
         interval: f64,
         /// The place is moved along x by a random length, uniform in plus or minus this (m).
         #[serde(default)]
+        #[schemars(
+            transform = quantity("Δx_{feed}", "m", "random shift of where spheres come in")
+                .at_least(0.0)
+        )]
         spread: f64,
     },
     /// Every sphere from a CSV file: x, y, z, then optionally vx, vy, vz, wx, wy, wz, radius,
@@ -97,15 +120,19 @@ impl Scene {
 #[serde(deny_unknown_fields)]
 pub struct StartSphere {
     /// Centre (m).
+    #[schemars(transform = unit("m"))]
     pub position: [f64; 3],
     /// Velocity (m/s).
     #[serde(default)]
+    #[schemars(transform = unit("m/s"))]
     pub velocity: [f64; 3],
     /// Spin (rad/s).
     #[serde(default)]
+    #[schemars(transform = unit("rad/s"))]
     pub spin: [f64; 3],
     /// Radius (m), if it differs from `spheres.radius`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = length("", ""))]
     pub radius: Option<f64>,
 }
 

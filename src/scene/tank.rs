@@ -1,5 +1,6 @@
 //! The walls of a tank.
 
+use super::quantities::{length, place};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -10,17 +11,21 @@ use std::f64::consts::PI;
 pub struct Tank {
     /// Radius R of the cylindrical wall (m). Absent: no cylinder.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = length("R", "radius of the tank"))]
     pub radius: Option<f64>,
     /// Distance of two plane walls across x (m), at x = -width/2 and width/2; excludes `radius`. Absent:
     /// none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = length("W", "width of the tank"))]
     pub width: Option<f64>,
     /// Distance of two plane walls across y (m), at y = -depth/2 and depth/2; excludes `radius`. Absent:
     /// none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = length("W_y", "depth of the tank"))]
     pub depth: Option<f64>,
     /// Height of the floor (m). Absent: no floor.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = place("z_{floor}", "height of the floor"))]
     pub floor: Option<f64>,
 }
 

@@ -1,7 +1,12 @@
 //! Time step, duration, frames, integrator.
 
+use super::quantities::seconds;
+use crate::document::quantity;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+/// In the place of a time step: one that follows from the scene.
+pub(crate) const AUTO: &str = "auto";
 
 /// Time step, duration, frames, integrator.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -9,14 +14,20 @@ use serde::{Deserialize, Serialize};
 pub struct Time {
     /// Time step dt (s); or "auto", which chooses the largest that is at most `safety_factor` times
     /// every limit of the scene and that divides `frame_interval` and the interval of a feed.
+    #[schemars(transform = seconds("Δt", "time step").or(AUTO))]
     pub dt: f64,
     /// With `dt = "auto"` only: the largest step over the least limit, advised limits included
     /// (default 0.2). A scene that runs has a number for its step, and none here.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(
+        transform = quantity("f", "", "time step over its least limit").above(0.0).at_most(1.0)
+    )]
     pub safety_factor: Option<f64>,
     /// Duration of the run (s).
+    #[schemars(transform = seconds("T", "duration"))]
     pub duration: f64,
     /// Time between frames (s); a whole number of steps.
+    #[schemars(transform = seconds("Δt_{frame}", "time between frames"))]
     pub frame_interval: f64,
     /// Integration scheme.
     #[serde(default)]
@@ -60,14 +71,6 @@ impl Integrator {
         Self::VelocityVerlet,
         Self::SynchronisedVerlet,
         Self::AdaptiveVerlet,
-    ];
-
-    /// Names of all schemes.
-    pub(crate) const NAMES: [&str; 4] = [
-        Self::ALL[0].name(),
-        Self::ALL[1].name(),
-        Self::ALL[2].name(),
-        Self::ALL[3].name(),
     ];
 
     /// Name, as in a scene file.

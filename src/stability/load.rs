@@ -1,18 +1,18 @@
 //! From a study file to a study.
 
-use super::schema::STUDY;
 use super::{Study, fit_frames, output};
-use crate::document::{Document, LoadError, Problem};
+use crate::document::{Document, LoadError, Problem, Schema, unit};
 use crate::run::Reading;
 use crate::scene::{Integrator, Scene};
 use crate::sweep::{
     Axis, AxisEntry, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes,
-    grid, points,
+    grid, or_path, points,
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
 use std::path::Path;
+use std::sync::LazyLock;
 
 /// Most frames of a run: their observables are held in memory.
 const MOST_FRAMES: u64 = 1_000_000;
@@ -29,6 +29,9 @@ const RESERVED: [&str; 8] = [
     "sphere",
 ];
 
+/// The keys of a study file.
+pub(crate) static STUDY: LazyLock<Schema> = LazyLock::new(Schema::of::<StudyFile>);
+
 /// What a study file says.
 #[derive(Deserialize, JsonSchema)]
 pub(crate) struct StudyFile {
@@ -36,7 +39,7 @@ pub(crate) struct StudyFile {
     title: Option<String>,
     /// The scene that every run starts from: the path of its file, relative to this one, or the
     /// scene itself in the tables `[scene.spheres]` and so on. Its time step may be above the limit.
-    #[schemars(with = "Scene")]
+    #[schemars(with = "Scene", transform = or_path)]
     scene: Value,
     /// The two axes, any numeric keys of the scene: the horizontal one, then the vertical one.
     axis: Vec<AxisEntry>,
@@ -46,10 +49,12 @@ pub(crate) struct StudyFile {
     /// Frames of a run, at which energies are looked at. A run lasts the scene's `duration`, rounded to
     /// whole steps and frames, whatever its `frame_interval` says.
     #[serde(default = "hundred")]
+    #[schemars(range(min = 1))]
     frames: u64,
     /// Energy out of nothing above which a run is labelled "energy gain", over the largest energy in
     /// motion and contacts so far, or over what lifts every sphere by its radius, if that is more.
     #[serde(default = "five_percent")]
+    #[schemars(transform = unit("").above(0.0))]
     energy_gain: f64,
 }
 
@@ -97,7 +102,7 @@ pub fn from_str(text: &str, path: &Path) -> Result<Study, LoadError> {
 
 fn of_document(document: &Document) -> Result<Study, LoadError> {
     let mut problems = Vec::new();
-    STUDY.check(document.tree(), "", &mut problems);
+    STUDY.kind.check(document.tree(), "", &mut problems);
     document.accept(&problems)?;
     let file = StudyFile::deserialize(document.tree())
         .map_err(|error| document.refuse(&[Problem::new("", format!("not a study: {error}"))]))?;

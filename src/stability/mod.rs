@@ -7,11 +7,10 @@
 mod label;
 mod load;
 mod run;
-pub(crate) mod schema;
 mod table;
 
 pub use label::{Label, energy_gain};
-pub(crate) use load::StudyFile;
+pub(crate) use load::STUDY;
 pub use load::{from_str, load};
 pub use run::{Event, Report, Row, Trials, TrialsError};
 pub use table::{read_makers, read_stability, write_makers, write_stability};
@@ -19,7 +18,7 @@ pub use table::{read_makers, read_stability, write_makers, write_stability};
 use crate::dem::timestep::{Limit, limits};
 use crate::document::{Problem, number};
 use crate::scene::{Integrator, Output, Scene, Time};
-use crate::sweep::{Axis, Job, PointError, grid, points, scene_with};
+use crate::sweep::{Axis, Job, PointError, PointScenes, grid, points};
 
 /// A study of stability, fully resolved.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,7 +66,7 @@ impl Study {
     /// What is wrong with it, a time step above the limit excepted.
     pub fn scene_at(&self, values: &[f64], integrator: Integrator) -> Result<Scene, PointError> {
         let fail = |problems| PointError::new(&self.axes, values, problems);
-        let mut scene = scene_with(&self.scene, &self.axes, values)?;
+        let mut scene = PointScenes::new(&self.scene, &self.axes)?.unchecked(values)?;
         scene.time.integrator = integrator;
         scene.output = output();
         if scene.time.safety_factor.is_some() {

@@ -1,6 +1,7 @@
 //! One axis of a sweep.
 
 use super::spacing::{self, MOST_VALUES};
+use crate::document::unit;
 use crate::document::{Problem, number, one_of};
 use crate::scene::{Scene, leaf};
 use schemars::JsonSchema;
@@ -26,14 +27,19 @@ pub(crate) struct AxisEntry {
     name: Option<String>,
     /// All values one by one, in the unit of the key. Give these, or `from` and `to` with `step`
     /// or `count`.
+    #[schemars(transform = unit("of the key"))]
     values: Option<Vec<f64>>,
     /// First value, in the unit of the key.
+    #[schemars(transform = unit("of the key"))]
     from: Option<f64>,
     /// Last value, in the unit of the key.
+    #[schemars(transform = unit("of the key"))]
     to: Option<f64>,
     /// Distance between values, in the unit of the key.
+    #[schemars(transform = unit("of the key").above(0.0))]
     step: Option<f64>,
     /// Number of values, in place of `step`.
+    #[schemars(range(min = 2))]
     count: Option<usize>,
     /// How `count` values lie between `from` and `to` (default `linear`).
     spacing: Option<Spacing>,

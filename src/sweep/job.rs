@@ -3,7 +3,7 @@
 use super::{Axis, Sweep};
 use crate::document::{Problem, number};
 use crate::run::{self, Progress};
-use crate::scene::Scene;
+use crate::scene::{Scene, Template};
 
 /// One job of a sweep.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,8 +49,9 @@ impl Sweep {
     /// returned.
     pub fn jobs(&self) -> Result<Vec<Job>, PointError> {
         let mut jobs = Vec::with_capacity(self.points() * self.seeds.len());
+        let mut scenes = PointScenes::new(&self.scene, &self.axes)?;
         for values in self.grid() {
-            let scene = self.scene_at(&values)?;
+            let scene = scenes.checked(&values)?;
             for &seed in &self.seeds {
                 let scene = Scene {
                     seed,
@@ -79,9 +80,7 @@ impl Sweep {
 
     /// The scene of a point of the grid, checked.
     pub(crate) fn scene_at(&self, values: &[f64]) -> Result<Scene, PointError> {
-        let scene = scene_with(&self.scene, &self.axes, values)?;
-        let fail = |problems| PointError::new(&self.axes, values, problems);
-        scene.with_chosen_step().map_err(fail)
+        PointScenes::new(&self.scene, &self.axes)?.checked(values)
     }
 }
 
@@ -108,15 +107,32 @@ pub(crate) fn points(axes: &[Axis]) -> usize {
     sizes.fold(1, usize::saturating_mul)
 }
 
-/// A scene with the values of a point of the grid, not checked.
-pub(crate) fn scene_with(
-    scene: &Scene,
-    axes: &[Axis],
-    values: &[f64],
-) -> Result<Scene, PointError> {
-    let keys = axes.iter().map(|axis| axis.key.as_str());
-    let scene = scene.with_values(keys.zip(values.iter().copied()));
-    scene.map_err(|problem| PointError::new(axes, values, vec![problem]))
+/// The scenes of the points of a grid.
+pub(crate) struct PointScenes<'a> {
+    axes: &'a [Axis],
+    template: Template,
+}
+
+impl<'a> PointScenes<'a> {
+    /// Those that `scene` becomes at the points. Its numbers must be in their ranges.
+    pub(crate) fn new(scene: &Scene, axes: &'a [Axis]) -> Result<Self, PointError> {
+        let keys: Vec<&str> = axes.iter().map(|axis| axis.key.as_str()).collect();
+        let template = Template::new(scene, &keys)
+            .map_err(|problem| PointError::new(&[], &[], vec![problem]))?;
+        Ok(Self { axes, template })
+    }
+
+    /// The scene of a point, of which nothing is checked but the ranges of its numbers.
+    pub(crate) fn unchecked(&mut self, values: &[f64]) -> Result<Scene, PointError> {
+        let scene = self.template.with(values);
+        scene.map_err(|problems| PointError::new(self.axes, values, problems))
+    }
+
+    /// The scene that is run at a point.
+    pub(crate) fn checked(&mut self, values: &[f64]) -> Result<Scene, PointError> {
+        let scene = self.unchecked(values)?.with_chosen_step_in_range();
+        scene.map_err(|problems| PointError::new(self.axes, values, problems))
+    }
 }
 
 impl PointError {

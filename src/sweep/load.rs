@@ -1,23 +1,26 @@
 //! From a sweep file to a sweep.
 
 use super::axis::AxisEntry;
-use super::job::{PointError, points};
-use super::schema::SWEEP;
+use super::job::{PointError, PointScenes, points};
 use super::{Axis, PlotSettings, Sweep};
 use crate::classify::{Family, Sieves};
-use crate::document::{Document, LoadError, Problem, one_of, suggest};
+use crate::document::{Document, LoadError, Problem, Schema, one_of, suggest};
 use crate::run::{self, Reading};
 use crate::scene::{LARGEST_SEED, Scene};
 use schemars::JsonSchema;
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::path::Path;
+use std::sync::LazyLock;
 
 /// Largest number of axes.
 const MOST_AXES: usize = 4;
 
 /// Largest number of jobs: their scenes are held in memory.
 const MOST_JOBS: usize = 1_000_000;
+
+/// The keys of a sweep file.
+pub(crate) static SWEEP: LazyLock<Schema> = LazyLock::new(Schema::of::<SweepFile>);
 
 /// What a sweep file says.
 #[derive(Deserialize, JsonSchema)]
@@ -26,7 +29,7 @@ pub(crate) struct SweepFile {
     title: Option<String>,
     /// The scene that every job starts from: the path of its file, relative to this one, or the
     /// scene itself in the tables `[scene.spheres]` and so on.
-    #[schemars(with = "Scene")]
+    #[schemars(with = "Scene", transform = or_path)]
     scene: Value,
     /// The axes, four at most. The first varies slowest. None: only the seeds vary.
     #[serde(default)]
@@ -41,12 +44,21 @@ pub(crate) struct SweepFile {
     plot: PlotSettings,
 }
 
+/// For the key `scene`: the path of a file, or what the schema says.
+pub(crate) fn or_path(schema: &mut schemars::Schema) {
+    let description = schema.remove("description");
+    let scene = std::mem::take(schema);
+    schema.insert("anyOf".to_owned(), json!([{ "type": "string" }, scene]));
+    schema.insert("description".to_owned(), json!(description));
+}
+
 /// Seeds as a sweep file writes them: a list, or the first and their number.
 #[derive(Deserialize, JsonSchema)]
 struct SeedsEntry {
     /// The first seed (default 1); the others follow.
     first: Option<u64>,
     /// Number of seeds (default 1).
+    #[schemars(range(min = 1))]
     count: Option<u64>,
     /// All seeds one by one, in place of `first` and `count`.
     list: Option<Vec<u64>>,
@@ -71,7 +83,7 @@ pub fn from_str(text: &str, path: &Path) -> Result<Sweep, LoadError> {
 
 fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     let mut problems = Vec::new();
-    SWEEP.check(document.tree(), "", &mut problems);
+    SWEEP.kind.check(document.tree(), "", &mut problems);
     document.accept(&problems)?;
     let file = SweepFile::deserialize(document.tree())
         .map_err(|error| document.refuse(&[Problem::new("", format!("not a sweep: {error}"))]))?;
@@ -303,9 +315,13 @@ fn check_grid(sweep: &Sweep, document: &Document, problems: &mut Vec<Problem>) {
     if !check_jobs(jobs, "use fewer values or seeds", problems) {
         return;
     }
+    let mut scenes = match PointScenes::new(&sweep.scene, &sweep.axes) {
+        Ok(scenes) => scenes,
+        Err(error) => return problems.extend(error.problems),
+    };
     let errors = sweep
         .grid()
-        .filter_map(|values| sweep.scene_at(&values).err());
+        .filter_map(|values| scenes.checked(&values).err());
     check_points(errors, &sweep.axes, document.tree(), problems);
 }
 

@@ -10,7 +10,6 @@ mod labelling;
 mod load;
 mod plan;
 mod pool;
-pub(crate) mod schema;
 mod select;
 mod spacing;
 mod status;
@@ -24,10 +23,10 @@ pub use failure::{Failure, describe};
 pub use failures::{read_failures, write_failures};
 pub use folder::{Folder, FolderError};
 pub use job::{Job, PointError};
-pub(crate) use job::{grid, points, scene_with};
+pub(crate) use job::{PointScenes, grid, points};
 pub use labelling::{Labelled, Labelling, LabellingError, Since, refuse_to_lose_labels};
 pub(crate) use load::{
-    SweepFile, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes,
+    SWEEP, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes, or_path,
 };
 pub use load::{from_str, load};
 pub use plan::{Done, ForeignRecord, Plan, Standing};

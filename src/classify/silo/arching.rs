@@ -2,6 +2,7 @@
 
 use super::outflow::Outflow;
 use crate::classify::{ClassifyError, window};
+use crate::document::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -11,6 +12,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct ArchingSieve {
     /// Window (s). A slow outflow has pauses of 1 / rate between two grains, which must be shorter.
+    #[schemars(transform = unit("s").above(0.0))]
     pub window: f64,
 }
 

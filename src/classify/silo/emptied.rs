@@ -2,6 +2,7 @@
 
 use super::outflow::Outflow;
 use crate::classify::{ClassifyError, window};
+use crate::document::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -12,6 +13,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct EmptiedSieve {
     /// Share of all grains of the scene that must have left.
+    #[schemars(transform = unit("").at_least(0.0).at_most(1.0))]
     pub share: f64,
 }
 

@@ -2,6 +2,7 @@
 
 use super::outflow::Outflow;
 use crate::classify::{ClassifyError, window};
+use crate::document::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -11,8 +12,10 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct FlowingSieve {
     /// Window (s).
+    #[schemars(transform = unit("s").above(0.0))]
     pub window: f64,
     /// Least number of grains in the window.
+    #[schemars(range(min = 1))]
     pub least: usize,
 }
 

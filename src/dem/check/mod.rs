@@ -13,7 +13,17 @@ impl Scene {
     ///
     /// Radii and starts that are still the names of files are not looked into.
     pub fn problems(&self) -> Vec<Problem> {
-        let mut problems = self.problems_but_of_limit();
+        match self.problems_of_values() {
+            problems if problems.is_empty() => self.problems_in_range(),
+            problems => problems,
+        }
+    }
+
+    /// The same for a scene whose numbers are known to be in their ranges.
+    pub(crate) fn problems_in_range(&self) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        self.check_all_but_step(&mut problems);
+        self.check_whole_steps(&mut problems);
         if problems.is_empty() {
             self.check_time_step(&mut problems);
         }
@@ -31,15 +41,6 @@ impl Scene {
         problems
     }
 
-    /// What is wrong with this scene whatever its time step.
-    fn problems_but_of_step(&self) -> Vec<Problem> {
-        let mut problems = self.problems_of_values();
-        if problems.is_empty() {
-            self.check_all_but_step(&mut problems);
-        }
-        problems
-    }
-
     fn check_all_but_step(&self, problems: &mut Vec<Problem>) {
         self.check_relations(problems);
         self.check_room(problems);
@@ -53,14 +54,22 @@ impl Scene {
     /// # Errors
     /// [`Scene::problems`] of what comes back; and if a step is to be chosen, but nothing limits it, or
     /// no step divides both intervals.
-    pub fn with_chosen_step(mut self) -> Result<Self, Vec<Problem>> {
+    pub fn with_chosen_step(self) -> Result<Self, Vec<Problem>> {
+        accept(self.problems_of_values())?;
+        self.with_chosen_step_in_range()
+    }
+
+    /// The same for a scene whose numbers are known to be in their ranges.
+    pub(crate) fn with_chosen_step_in_range(mut self) -> Result<Self, Vec<Problem>> {
         if let Some(safety_factor) = self.time.safety_factor {
-            accept(self.problems_but_of_step())?;
+            let mut problems = Vec::new();
+            self.check_all_but_step(&mut problems);
+            accept(problems)?;
             let step = self.chosen_step(safety_factor);
             self.time.dt = step.map_err(|problem| vec![problem])?;
             self.time.safety_factor = None;
         }
-        accept(self.problems())?;
+        accept(self.problems_in_range())?;
         Ok(self)
     }
 }

@@ -3,7 +3,7 @@
 
 use super::FileError;
 use crate::document::text;
-use crate::scene::schema::LENGTHS;
+use crate::scene::quantities::LENGTHS;
 use crate::scene::{FixedSphere, FixedSpheres, LengthUnit};
 use std::path::Path;
 

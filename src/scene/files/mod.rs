@@ -53,6 +53,13 @@ impl FileError {
 }
 
 impl Scene {
+    /// Whether some of its values are still in files.
+    pub(crate) fn names_files(&self) -> bool {
+        matches!(self.spheres.radius, Radii::File { .. })
+            || matches!(self.geometry, Some(Geometry::File { .. }))
+            || matches!(self.start, Start::File { .. })
+    }
+
     /// Puts the contents of the files that the scene names, relative to `folder`, in the place of
     /// their names.
     pub(crate) fn read_files(&mut self, folder: &Path, problems: &mut Vec<Problem>) {

@@ -7,8 +7,10 @@ mod start;
 mod tank;
 mod time;
 
-use super::schema::{SCENE, START_SPHERE};
-use super::{Contact, Friction, Geometry, Radii, Scene, Spheres, Start, Updraught};
+use super::{
+    Contact, Friction, Geometry, LIST_KEY, Radii, SCENE, START_SPHERE, Scene, Spheres, Start,
+    Updraught,
+};
 use crate::document::{Problem, number};
 
 /// Largest number of spheres: each takes up to 600 bytes of memory.
@@ -19,14 +21,15 @@ impl Scene {
     pub(crate) fn problems_of_values(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
         let Some((without_them, spheres)) = self.apart_from_list() else {
-            SCENE.check(&self.tree(), "", &mut problems);
+            SCENE.kind.check(&self.tree(), "", &mut problems);
             return problems;
         };
         // Listed spheres one by one: a tree of all would take a kilobyte for each.
-        SCENE.check(&without_them.tree(), "", &mut problems);
+        SCENE.kind.check(&without_them.tree(), "", &mut problems);
         for (k, sphere) in spheres.iter().enumerate() {
             let sphere = serde_json::to_value(sphere).expect("a sphere holds no map");
-            START_SPHERE.check_entry(&sphere, "start.spheres", k, &mut problems);
+            let path = format!("{LIST_KEY}[{k}]");
+            START_SPHERE.kind.check(&sphere, &path, &mut problems);
         }
         problems
     }

@@ -1,0 +1,188 @@
+//! Which keys a file may have and what each may hold, as read from its schema.
+
+use super::number;
+use super::quantity::Quantity;
+use serde_json::Value;
+
+/// A key of a table.
+pub(crate) struct Key {
+    pub(crate) name: String,
+    pub(crate) kind: Kind,
+    /// Whether it must be there.
+    pub(crate) needed: bool,
+    /// What it means, one paragraph per line.
+    pub(crate) description: Option<String>,
+    /// The value that holds if it is left out.
+    pub(crate) default: Option<Value>,
+    /// What it measures, if it holds numbers.
+    pub(crate) quantity: Option<Quantity>,
+}
+
+impl Key {
+    /// Its path in a table at the path `table`.
+    pub(crate) fn path(&self, table: &str) -> String {
+        match table {
+            "" => self.name.clone(),
+            table => format!("{table}.{}", self.name),
+        }
+    }
+}
+
+/// The keys of a table, in the order of the struct.
+pub(crate) struct Table {
+    pub(crate) description: Option<String>,
+    pub(crate) keys: Vec<Key>,
+}
+
+/// A value of a tag, and the keys that go with it.
+pub(crate) struct Variant {
+    pub(crate) word: String,
+    pub(crate) table: Table,
+}
+
+/// What a value may be.
+pub(crate) enum Kind {
+    Text,
+    Flag,
+    Number(Range),
+    /// A whole number of at least this.
+    Whole(u64),
+    /// One of these words.
+    Choice(Vec<String>),
+    List(Box<Kind>),
+    /// A list of three numbers.
+    Vector,
+    Table(Table),
+    /// A table whose key `0` says which of the lists of further keys holds.
+    Tagged(String, Vec<Variant>),
+    /// Any of several kinds, told apart by their TOML type.
+    Either(Vec<Kind>),
+}
+
+/// Which numbers are allowed.
+#[derive(Clone, Copy)]
+pub(crate) struct Range {
+    pub(crate) low: f64,
+    pub(crate) low_allowed: bool,
+    pub(crate) high: f64,
+}
+
+impl Range {
+    /// Every number that could be meant.
+    pub(crate) const ANY: Self = Self {
+        low: -Self::HUGE,
+        low_allowed: true,
+        high: Self::HUGE,
+    };
+
+    /// A number of this size is beyond anything that could be meant; no message speaks of it.
+    pub(crate) const HUGE: f64 = 1e30;
+
+    pub(super) fn contains(self, value: f64) -> bool {
+        let high_enough = if self.low_allowed {
+            value >= self.low
+        } else {
+            value > self.low
+        };
+        high_enough && value <= self.high
+    }
+
+    /// What to use in place of a number that is outside.
+    pub(super) fn advice(self, value: f64) -> String {
+        match (value > self.high, self.low_allowed) {
+            (true, _) => format!("use {} or less", number(self.high)),
+            (false, true) => format!("use {} or more", number(self.low)),
+            (false, false) => format!("use a number above {}", number(self.low)),
+        }
+    }
+
+    fn words(self) -> String {
+        let low = if self.low_allowed {
+            format!("of at least {}", number(self.low))
+        } else {
+            format!("above {}", number(self.low))
+        };
+        match (self.low > -Self::HUGE, self.high < Self::HUGE) {
+            (false, false) => "a number".to_owned(),
+            (true, false) => format!("a number {low}"),
+            (false, true) => format!("a number of at most {}", number(self.high)),
+            (true, true) => format!("a number {low} and at most {}", number(self.high)),
+        }
+    }
+}
+
+impl Kind {
+    /// What a value of this kind is, as a noun.
+    pub(crate) fn words(&self) -> String {
+        match self {
+            Self::Text => "a text in quotes".to_owned(),
+            Self::Flag => "true or false".to_owned(),
+            Self::Number(range) => range.words(),
+            Self::Whole(least) => format!("a whole number of at least {least}"),
+            Self::Choice(words) => match words.as_slice() {
+                [word] => format!("\"{word}\""),
+                words => {
+                    let words: Vec<String> =
+                        words.iter().map(|word| format!("\"{word}\"")).collect();
+                    format!("one of {}", words.join(", "))
+                }
+            },
+            Self::List(entry) => match &**entry {
+                Self::Table(table) => format!("a list of {}", table.braces()),
+                Self::Number(_) | Self::Whole(_) => "a list of numbers".to_owned(),
+                _ => format!("a list, each entry {}", entry.words()),
+            },
+            Self::Vector => "a list of three numbers".to_owned(),
+            Self::Table(table) => format!("a table {}", table.braces()),
+            Self::Tagged(tag, _) => format!("a table with the key `{tag}`"),
+            Self::Either(kinds) => {
+                let kinds: Vec<String> = kinds.iter().map(Self::words).collect();
+                kinds.join(", or ")
+            }
+        }
+    }
+
+    /// Shows `see` every key with its path, `[]` for the entries of a list.
+    pub(crate) fn visit<'a>(&'a self, path: &str, see: &mut dyn FnMut(&str, &'a Key)) {
+        let mut visit_table = |table: &'a Table| {
+            for key in &table.keys {
+                let path = key.path(path);
+                see(&path, key);
+                key.kind.visit(&path, see);
+            }
+        };
+        match self {
+            Self::Table(table) => visit_table(table),
+            Self::Tagged(_, variants) => variants.iter().for_each(|it| visit_table(&it.table)),
+            Self::List(entry) => entry.visit(&format!("{path}[]"), see),
+            Self::Either(kinds) => kinds.iter().for_each(|kind| kind.visit(path, see)),
+            _ => {}
+        }
+    }
+
+    /// Whether the TOML type of `value` is that of this kind.
+    pub(crate) fn fits_type_of(&self, value: &Value) -> bool {
+        match self {
+            Self::Text | Self::Choice(_) => value.is_string(),
+            Self::Flag => value.is_boolean(),
+            Self::Number(_) => value.is_number(),
+            Self::Whole(_) => value.is_u64() || value.is_i64(),
+            Self::Vector => value.is_array(),
+            Self::List(entry) => match value.as_array().map(Vec::as_slice) {
+                Some([first, ..]) => entry.fits_type_of(first),
+                Some([]) => true,
+                None => false,
+            },
+            Self::Table(_) | Self::Tagged(..) => value.is_object(),
+            Self::Either(kinds) => kinds.iter().any(|kind| kind.fits_type_of(value)),
+        }
+    }
+}
+
+impl Table {
+    /// The keys, as the table would be written.
+    fn braces(&self) -> String {
+        let names: Vec<&str> = self.keys.iter().map(|key| key.name.as_str()).collect();
+        format!("{{ {} }}", names.join(", "))
+    }
+}

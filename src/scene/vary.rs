@@ -1,0 +1,155 @@
+//! A scene with other values at some of its keys.
+
+use super::keys::NumericKey;
+use super::{Scene, Start};
+use crate::document::Problem;
+use crate::document::kind::Kind;
+use serde::Deserialize;
+use serde_json::Value;
+use std::borrow::Cow;
+
+/// A scene whose values at some keys are set again and again. Keys are looked up once, and each
+/// scene is made of the tree of values without a copy of it.
+pub(crate) struct Template {
+    tree: Value,
+    keys: Vec<NumericKey>,
+    /// The start that all scenes share, where it lists spheres and none of the keys is theirs: a
+    /// tree of values takes more than a kilobyte for each.
+    start: Option<Start>,
+}
+
+impl Template {
+    /// For values at these paths.
+    ///
+    /// # Errors
+    /// If a path is none of the scene's numeric keys.
+    pub(crate) fn new(scene: &Scene, paths: &[&str]) -> Result<Self, Problem> {
+        let whole = scene;
+        let scene = whole.for_keys(paths);
+        let key = |path: &&str| {
+            let mut keys = scene.all_numeric_keys().into_iter();
+            let absent = || Problem::new(*path, format!("the scene has no key `{path}`"));
+            keys.find(|key| key.path == **path).ok_or_else(absent)
+        };
+        Ok(Self {
+            tree: scene.tree(),
+            keys: paths.iter().map(key).collect::<Result<_, _>>()?,
+            start: matches!(scene, Cow::Owned(_)).then(|| whole.start.clone()),
+        })
+    }
+
+    /// The scene with these values, one for each key.
+    ///
+    /// # Errors
+    /// The values that are of the wrong kind for their keys, or out of range.
+    pub(crate) fn with(&mut self, values: &[f64]) -> Result<Scene, Vec<Problem>> {
+        let mut problems = Vec::new();
+        for (key, &value) in self.keys.iter().zip(values) {
+            let is_count =
+                matches!(key.kind, Kind::Whole(_)) && value >= 0.0 && libm::trunc(value) == value;
+            let number = match is_count {
+                true => Value::from(value as u64),
+                false => Value::from(value),
+            };
+            key.kind.check(&number, &key.path, &mut problems);
+            set(&mut self.tree, &key.path, number);
+        }
+        if !problems.is_empty() {
+            return Err(problems);
+        }
+        let mut scene = Scene::deserialize(&self.tree)
+            .map_err(|error| vec![Problem::new("", format!("not a scene: {error}"))])?;
+        if let Some(start) = &self.start {
+            scene.start = start.clone();
+        }
+        Ok(scene)
+    }
+}
+
+/// Puts a value at a path whose tables and lists exist.
+fn set(tree: &mut Value, path: &str, new: Value) {
+    let mut place = tree;
+    for part in path.split(['.', '[']) {
+        place = match part.strip_suffix(']') {
+            Some(index) => {
+                let index: usize = index.parse().expect("the path was made from a list");
+                &mut place[index]
+            }
+            None => &mut place[part],
+        };
+    }
+    *place = new;
+}
+
+impl Scene {
+    /// This scene with other values at some numeric keys.
+    ///
+    /// # Errors
+    /// If a path is none of this scene's numeric keys, or the value is of the wrong kind for it or
+    /// out of range.
+    pub fn with_values<'a>(
+        &self,
+        values: impl IntoIterator<Item = (&'a str, f64)>,
+    ) -> Result<Self, Vec<Problem>> {
+        let (paths, values): (Vec<&str>, Vec<f64>) = values.into_iter().unzip();
+        let template = Template::new(self, &paths);
+        template.map_err(|problem| vec![problem])?.with(&values)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::StartSphere;
+    use std::path::Path;
+    use std::sync::Arc;
+
+    fn scene() -> Scene {
+        let text = r#"
+            spheres = { count = 3, radius = [{ radius = 0.004, share = 1 }, { radius = 0.005, share = 2 }], density = 1e3 }
+            tank = { radius = 0.06 }
+            start = { kind = "random", z_min = 0.0, z_max = 0.3 }
+            time = { dt = 1e-4, duration = 1.0, frame_interval = 1e-3 }
+        "#;
+        crate::scene::Scene::from_toml(text, Path::new("scene.toml")).unwrap()
+    }
+
+    #[test]
+    fn every_numeric_key_can_be_set() {
+        let scene = scene();
+        for key in scene.all_numeric_keys() {
+            // Not all of them may be as large as 7.
+            let changed = [7.0, 0.25].map(|value| scene.with_values([(key.path.as_str(), value)]));
+            let changed = changed.into_iter().find_map(Result::ok).unwrap();
+            assert_ne!(changed, scene, "{}", key.path);
+        }
+        let changed = scene
+            .with_values([("spheres.radius[1].share", 5.0)])
+            .unwrap();
+        assert!(matches!(
+            &changed.spheres.radius,
+            crate::scene::Radii::Shares(shares) if shares[1].share == 5.0
+        ));
+    }
+
+    /// Symptom: a sweep over a scene that lists many spheres held them once for each job. Cause:
+    /// each job's scene was made of a tree of values.
+    #[test]
+    fn listed_spheres_are_shared_unless_they_vary() {
+        let mut scene = scene();
+        scene.start = Start::list(vec![StartSphere::at([0.0; 3]); 3]);
+        let list = |scene: &Scene| match &scene.start {
+            Start::List { spheres } => Arc::clone(spheres),
+            other => panic!("{other:?}"),
+        };
+        let denser = scene.with_values([("spheres.density", 7.0)]).unwrap();
+        assert_eq!(denser.spheres.density, 7.0);
+        assert!(Arc::ptr_eq(&list(&denser), &list(&scene)));
+        let key = "start.spheres[1].position[2]";
+        assert_eq!(scene.resolve_key(key).unwrap(), key);
+        let moved = scene.with_values([("spheres.density", 7.0), (key, 0.5)]);
+        let moved = list(&moved.unwrap());
+        assert_eq!(moved[1], StartSphere::at([0.0, 0.0, 0.5]));
+        assert_eq!(moved[2], list(&scene)[2]);
+    }
+}
