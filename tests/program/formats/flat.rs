@@ -94,7 +94,7 @@ fn milestones_are_times() {
     place
         .phase(&["view", "coarse.h5", "--time", "at-rest"])
         .code(2)
-        .complains("no state after `at-rest` (1.58 s) and before `door-opened` (1.78 s)");
+        .complains("no state after `at-rest` (1.63 s) and before `door-opened` (1.83 s)");
     place.write("scene.toml", &scene_file());
     place
         .phase(&["run", "scene.toml", "--out", "tank.h5"])
