@@ -18,6 +18,7 @@ mod silo;
 mod spout;
 #[cfg(test)]
 mod synthetic;
+mod table;
 mod tank;
 mod window;
 
@@ -33,6 +34,7 @@ pub use silo::{
     packing_fraction,
 };
 pub use spout::SpoutSieve;
+pub use table::{LabelRow, LabelTable, Point};
 pub use tank::{Evidence, TankMeasures};
 
 use crate::record::{Outcome, RunRecord};

@@ -49,7 +49,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let (sweep, is_sweep) = kind::load_scene_or_sweep(&arguments.file)?;
     let jobs = sweep.jobs().map_err(Failure::refused)?;
     if is_sweep {
-        classify::check_sieves(&sweep, &jobs)?;
+        sweep.check_sieves(&jobs).map_err(classify::cannot_label)?;
     }
     console.result(describe_sweep(&sweep, jobs.len()));
     console.result(line("effects", effects(&sweep.scene).join(", ")));
@@ -63,7 +63,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     time_step::warn_of_jobs(&tightest, &sweep.axes, console);
     if is_sweep {
-        super::classify::warn_of_windows(&sweep, &jobs, console);
+        super::sweep::warn_of_windows(&sweep, &jobs, console);
     }
     let walls = walls::weakest(&jobs);
     if let Some(wall) = &walls {

@@ -6,15 +6,10 @@ mod dumps;
 use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
 use super::{format, kind};
-use phase::classify::{Label, Sieves};
-use phase::scene::Scene;
-use phase::store;
-use phase::sweep::{
-    Folder, Job, LabelRow, LabelTable, Labelling, PlotSettings, Sweep, changes, differing_keys,
-    irreplaceable, work,
-};
+use phase::classify::{ClassifyError, Label, LabelTable};
+use phase::sweep::{Folder, Job, Labelled, Labelling, LabellingError, Since, Sweep, work};
 use serde::Serialize;
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Label the runs of a results folder from their records, without any new simulation.
@@ -59,7 +54,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let folders = match &arguments.scene {
         Some(scene) => {
             let sieves = edited.map(|sweep| sweep.sieves).unwrap_or_default();
-            vec![dumps::label(&arguments.dir, scene, &sieves, workers, console)?.summary]
+            let labelled = dumps::label(&arguments.dir, scene, &sieves, workers, console)?;
+            vec![Summary::new(&Folder::new(&arguments.dir), &labelled)]
         }
         None => label_folders(&arguments.dir, edited.as_ref(), workers, console)?,
     };
@@ -87,73 +83,42 @@ fn label_folders(
         // The sweep is kept with its new thresholds, so that the labels are always those it says.
         let mut lock = None;
         if let Some(edited) = edited {
-            refuse_other_runs(&folder, &sweep, edited)?;
+            let keys = sweep.keys_of_other_runs(edited);
+            if !keys.is_empty() {
+                return Err(Failure::refused(format_args!(
+                    "{}: the runs in this folder are not those of the edited sweep; they differ in \
+                     {}. Thresholds may change, runs may not: `phase sweep` makes new ones",
+                    folder.root().display(),
+                    keys.join(", ")
+                )));
+            }
             lock = Some(folder.lock().map_err(Failure::refused)?);
             sweep = edited.clone();
         }
         let jobs = sweep.jobs().map_err(Failure::refused)?;
-        check_sieves(&sweep, &jobs)?;
+        sweep.check_sieves(&jobs).map_err(cannot_label)?;
         let labelled = label_folder(&folder, &sweep, &jobs, workers, console)?;
         if lock.is_some() {
             folder.write_sweep(&sweep).map_err(Failure::failed)?;
         }
-        folders.push(labelled.summary);
+        folders.push(Summary::new(&folder, &labelled));
     }
     Ok(folders)
 }
 
-/// Refuses an edited sweep whose runs are not those of the folder.
-fn refuse_other_runs(folder: &Folder, sweep: &Sweep, edited: &Sweep) -> Result<(), Failure> {
-    let runs = |sweep: &Sweep| Sweep {
-        title: None,
-        scene: Scene {
-            title: None,
-            ..sweep.scene.clone()
-        },
-        sieves: Sieves::default(),
-        plot: PlotSettings::default(),
-        ..sweep.clone()
-    };
-    let keys = differing_keys(&runs(sweep), &runs(edited));
-    if keys.is_empty() {
-        return Ok(());
+/// The failure of sieves that cannot judge the runs.
+pub(super) fn cannot_label(error: ClassifyError) -> Failure {
+    Failure::refused(format_args!(
+        "the sieves cannot label these runs: {error} (`phase sweep --no-classify` only runs them)"
+    ))
+}
+
+/// The failure of labels that cannot be written.
+pub(super) fn cannot_write(error: LabellingError) -> Failure {
+    match error {
+        LabellingError::Lost { .. } => Failure::refused(error),
+        _ => Failure::failed(error),
     }
-    Err(Failure::refused(format_args!(
-        "{}: the runs in this folder are not those of the edited sweep; they differ in {}. \
-         Thresholds may change, runs may not: `phase sweep` makes new ones",
-        folder.root().display(),
-        keys.join(", ")
-    )))
-}
-
-/// Warns of sieves that find nothing in any run, as these are too short.
-pub(super) fn warn_of_windows(sweep: &Sweep, jobs: &[Job], console: &Console) {
-    let scenes = jobs.iter().map(|job| &job.scene);
-    let longest = scenes.max_by(|one, other| one.time.duration.total_cmp(&other.time.duration));
-    let Some(scene) = longest else { return };
-    let duration = scene.time.duration;
-    for (name, window) in sweep.sieves.without_room(scene) {
-        console.warning(format_args!(
-            "the window of the sieve {name}, {window} s, is longer than the runs, {duration} s: it finds nothing in \
-             any of them; lengthen time.duration, or shorten `window` in [sieves.{name}]"
-        ));
-    }
-}
-
-/// Refuses sieves that cannot judge the runs of a sweep, before any time is spent on these.
-pub(super) fn check_sieves(sweep: &Sweep, jobs: &[Job]) -> Result<(), Failure> {
-    let check = |job: &Job| sweep.sieves.check(&job.scene);
-    jobs.iter().try_for_each(check).map_err(|error| {
-        Failure::refused(format_args!(
-            "the sieves cannot label these runs: {error} (`phase sweep --no-classify` only runs them)"
-        ))
-    })
-}
-
-/// The labels of a folder.
-pub(super) struct Labelled {
-    pub(super) table: LabelTable,
-    pub(super) summary: Summary,
 }
 
 /// What `--json` prints.
@@ -190,6 +155,25 @@ struct Change {
     runs: usize,
 }
 
+impl Summary {
+    pub(super) fn new(folder: &Folder, labelled: &Labelled) -> Self {
+        let labels = counts(&labelled.table).into_iter();
+        let (changes, new) = match &labelled.since {
+            Since::Labels { changes, new } => (Some(list(changes)), Some(*new)),
+            Since::Nothing | Since::Unreadable(_) => (None, None),
+        };
+        Self {
+            folder: folder.root().to_owned(),
+            labelled: labelled.table.rows.len(),
+            labels: labels.map(|(label, runs)| (label.name(), runs)).collect(),
+            not_run: labelled.missing,
+            problems: labelled.problems.clone(),
+            changes,
+            new,
+        }
+    }
+}
+
 /// Labels the runs of a folder, writes the tables and prints what they say.
 pub(super) fn label_folder(
     folder: &Folder,
@@ -207,32 +191,7 @@ pub(super) fn label_folder(
             format::count(jobs.len(), "job")
         ));
     }
-    let kept = labelling.table.rows.iter().map(|row| row.id.as_str());
-    refuse_to_lose_labels(folder, kept)?;
     write_tables(labelling, folder, console)
-}
-
-/// Refuses to replace a table of labels that cannot be made again, as of results that were published
-/// without their records. The new table has the runs that are `kept`.
-pub(super) fn refuse_to_lose_labels<'a>(
-    folder: &Folder,
-    kept: impl IntoIterator<Item = &'a str>,
-) -> Result<(), Failure> {
-    let path = folder.labels();
-    // What cannot be read is nothing to keep.
-    let Ok(table) = store::read_labels(&path) else {
-        return Ok(());
-    };
-    match irreplaceable(&table, folder, kept) {
-        0 => Ok(()),
-        lost => Err(Failure::refused(format_args!(
-            "{}: the records of {lost} of its {} labels are not in {}, so that these labels would \
-             be lost; bring the records back, use another folder, or remove the table first",
-            path.display(),
-            table.rows.len(),
-            folder.records().display()
-        ))),
-    }
 }
 
 /// Writes labels.csv and points.csv of a folder and prints what they say.
@@ -241,53 +200,24 @@ fn write_tables(
     folder: &Folder,
     console: &Console,
 ) -> Result<Labelled, Failure> {
-    let before = read_labels_before(folder, console);
-    let Labelling {
-        table,
-        problems,
-        missing,
-    } = labelling;
-    name_first(&problems, |problem| {
+    name_first(&labelling.problems, |problem| {
         console.error(format_args!("no label: {problem}"))
     });
-    store::write_labels(&table, &folder.labels()).map_err(Failure::failed)?;
-    store::write_points(&table, &folder.points()).map_err(Failure::failed)?;
-    let labels = counts(&table);
-    console.result(describe_counts(&labels, table.rows.len()));
-    let new = before.as_ref().map(|before| new_rows(before, &table));
-    let changes = before.map(|before| changes_since(&before, &table));
-    if let (Some(changes), Some(new)) = (&changes, new) {
-        console.result(describe_changes(changes, table.rows.len() - new, new));
+    let labelled = labelling.write(folder).map_err(cannot_write)?;
+    let runs = labelled.table.rows.len();
+    console.result(describe_counts(&counts(&labelled.table), runs));
+    match &labelled.since {
+        Since::Nothing => {}
+        Since::Unreadable(error) => console.note(format_args!(
+            "cannot compare with the labels before: {error}"
+        )),
+        Since::Labels { changes, new } => {
+            console.result(describe_changes(&list(changes), runs - new, *new));
+        }
     }
     console.file(&folder.labels());
     console.file(&folder.points());
-    let summary = Summary {
-        folder: folder.root().to_owned(),
-        labelled: table.rows.len(),
-        labels: labels
-            .into_iter()
-            .map(|(label, runs)| (label.name(), runs))
-            .collect(),
-        not_run: missing,
-        problems,
-        changes,
-        new,
-    };
-    Ok(Labelled { table, summary })
-}
-
-fn read_labels_before(folder: &Folder, console: &Console) -> Option<LabelTable> {
-    let path = folder.labels();
-    if !path.exists() {
-        return None;
-    }
-    store::read_labels(&path)
-        .map_err(|error| {
-            console.note(format_args!(
-                "cannot compare with the labels before: {error}"
-            ))
-        })
-        .ok()
+    Ok(labelled)
 }
 
 /// How many runs have each label.
@@ -312,22 +242,13 @@ fn describe_counts(counts: &[(Label, usize)], runs: usize) -> String {
     text
 }
 
-fn changes_since(before: &LabelTable, after: &LabelTable) -> Vec<Change> {
-    let changes = changes(before, after).into_iter();
-    changes
-        .map(|((from, to), runs)| Change {
-            from: from.name(),
-            to: to.name(),
-            runs,
-        })
-        .collect()
-}
-
-/// How many rows are of runs that had none before.
-fn new_rows(before: &LabelTable, after: &LabelTable) -> usize {
-    let known: HashSet<&str> = before.rows.iter().map(|row| row.id.as_str()).collect();
-    let is_new = |row: &&LabelRow| !known.contains(row.id.as_str());
-    after.rows.iter().filter(is_new).count()
+fn list(changes: &BTreeMap<(Label, Label), usize>) -> Vec<Change> {
+    let change = |(&(from, to), &runs): (&(Label, Label), &usize)| Change {
+        from: from.name(),
+        to: to.name(),
+        runs,
+    };
+    changes.iter().map(change).collect()
 }
 
 /// How many labels of the runs that had one changed, and from what to what; and how many runs had

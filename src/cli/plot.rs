@@ -2,11 +2,13 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
+use super::folders;
 use phase::classify::Family;
+use phase::classify::LabelTable;
 use phase::plot::{self, PlotError, Svg};
 use phase::record::{Program, RunRecord};
 use phase::store;
-use phase::sweep::{Folder, FolderError, LabelTable, Sweep, parse_point};
+use phase::sweep::{Folder, FolderError, Sweep, parse_point};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -21,8 +23,8 @@ Example: the speeds in two runs
   phase plot results/quick --figure speeds --point radius=0.002,omega=8 --point radius=0.006,omega=8
 Example: the paths of the spheres in one record, which needs `trajectory = true` in its scene
   phase plot results/collisions/cradle.h5
-Example: where the energy went, in a record of `phase run --ledger`
-  phase plot tank.h5 --figure ledger")]
+Example: where the energy went, in a record of `phase run --ledger`; energies and speeds of any record
+  phase plot tank.h5 --figure ledger,energies,speeds --out figures")]
 pub(crate) struct Arguments {
     /// A results folder of `phase sweep`, a folder that holds several, or a record (.h5).
     #[arg(required_unless_present = "list")]
@@ -35,6 +37,9 @@ pub(crate) struct Arguments {
     /// single runs; may be given several times.
     #[arg(short, long = "point", value_name = "POINT", requires = "figure")]
     points: Vec<String>,
+    /// Folder for the figures [default: the results folder, or that of the record].
+    #[arg(short, long, value_name = "DIR", conflicts_with = "list")]
+    out: Option<PathBuf>,
     /// Print the names of all figures, or of those that can be drawn of DIR, and what they show; draw
     /// nothing.
     #[arg(short, long)]
@@ -58,7 +63,7 @@ struct RecordFigure {
 }
 
 /// The figures of a single run.
-const OF_RECORD: [RecordFigure; 2] = [
+const OF_RECORD: [RecordFigure; 5] = [
     RecordFigure {
         name: "tracks",
         description: "paths of the spheres, from the record of one run with its trajectory",
@@ -69,13 +74,31 @@ const OF_RECORD: [RecordFigure; 2] = [
         description: "where the energy went, from the record of one run with its ledger",
         draw: plot::draw_ledger,
     },
+    RecordFigure {
+        name: "energies",
+        description: "energies over time, of one run",
+        draw: |record| plot::draw_single("energies", record),
+    },
+    RecordFigure {
+        name: "speeds",
+        description: "speeds of spheres and air over time, of one run",
+        draw: |record| plot::draw_single("speeds", record),
+    },
+    RecordFigure {
+        name: "states",
+        description: "the spheres at the end of one run",
+        draw: |record| plot::draw_single("states", record),
+    },
 ];
+
+/// Those of them that are drawn if none is asked for, as far as the record holds them.
+const DEFAULT_OF_RECORD: [&str; 2] = ["tracks", "ledger"];
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let (mut figures, mut fits) = (Vec::new(), Vec::new());
     match &arguments.dir {
         dir if arguments.list => figures = list(dir.as_deref(), console)?,
-        Some(path) if path.is_file() => draw_record(path, &arguments.figure, console)?,
+        Some(path) if path.is_file() => draw_record(path, arguments, console)?,
         Some(dir) => fits = draw_folders(dir, arguments, console)?,
         None => {}
     }
@@ -200,7 +223,15 @@ fn draw_folders(
     let points = arguments.points.iter().map(|point| parse_point(point));
     let points: Vec<Point> = points.collect::<Result<_, _>>().map_err(Failure::refused)?;
     let mut fits = Vec::new();
-    for folder in Folder::find(dir).map_err(Failure::refused)? {
+    let found = Folder::find(dir).map_err(Failure::refused)?;
+    let several = found.len() > 1;
+    for folder in found {
+        let place = match (&arguments.out, folder.root().file_name()) {
+            (None, _) => folder.root().to_owned(),
+            (Some(out), Some(name)) if several => out.join(name),
+            (Some(out), _) => out.clone(),
+        };
+        folders::make(&place)?;
         let sweep = folder.read_sweep().map_err(Failure::failed)?;
         let path = folder.labels();
         if !path.exists() {
@@ -217,10 +248,10 @@ fn draw_folders(
             ))
         })?;
         if arguments.figure.is_empty() {
-            draw_default_figures(&folder, &sweep, &table, console)?;
+            draw_default_figures(&folder, &place, &sweep, &table, console)?;
         }
         for name in &arguments.figure {
-            draw(name, &folder, &sweep, &table, &points, console)?;
+            draw(name, &folder, &place, &sweep, &table, &points, console)?;
             if name == BEVERLOO {
                 fits.extend(print_fits(&folder, &sweep, &table, console)?);
             }
@@ -282,6 +313,7 @@ fn print_fits(
 /// Draws what is drawn if nothing else is asked for.
 pub(super) fn draw_default_figures(
     folder: &Folder,
+    place: &Path,
     sweep: &Sweep,
     table: &LabelTable,
     console: &Console,
@@ -292,13 +324,14 @@ pub(super) fn draw_default_figures(
     }
     plot::default_figures(table.family)
         .iter()
-        .try_for_each(|name| draw(name, folder, sweep, table, &[], console))
+        .try_for_each(|name| draw(name, folder, place, sweep, table, &[], console))
 }
 
-/// Draws a figure, writes it as SVG and PNG and prints their paths.
+/// Draws a figure, writes it to the folder `place` as SVG and PNG and prints their paths.
 fn draw(
     name: &str,
     folder: &Folder,
+    place: &Path,
     sweep: &Sweep,
     table: &LabelTable,
     points: &[Point],
@@ -316,7 +349,8 @@ fn draw(
         },
     );
     let figure = figure.map_err(refused_or_failed)?;
-    write(&figure, |extension| folder.figure(name, extension), console)
+    let file = |extension: &str| place.join(format!("{name}.{extension}"));
+    write(&figure, file, console)
 }
 
 fn refused_or_failed(error: PlotError) -> Failure {
@@ -327,14 +361,15 @@ fn refused_or_failed(error: PlotError) -> Failure {
     }
 }
 
-/// Draws figures of a record beside it, NAME.h5 gives NAME-tracks.svg and .png: those that are asked
-/// for, or else all that it holds.
-fn draw_record(path: &Path, names: &[String], console: &Console) -> Result<(), Failure> {
+/// Draws figures of a record beside it, or to the folder that is asked for: NAME.h5 gives
+/// NAME-tracks.svg and .png.
+fn draw_record(path: &Path, arguments: &Arguments, console: &Console) -> Result<(), Failure> {
+    let names = &arguments.figure[..];
     let known = |name: &String| OF_RECORD.iter().find(|figure| figure.name == name);
     if let Some(name) = names.iter().find(|name| known(name).is_none()) {
         let known = OF_RECORD.map(|figure| figure.name).join("`, `");
         return Err(Failure::refused(format_args!(
-            "`{name}` is no figure of a single record; there are `{known}`"
+            "`{name}` is not a figure of a single record; available: `{known}`"
         )));
     }
     let record = store::read_record(path).map_err(Failure::refused)?;
@@ -342,7 +377,11 @@ fn draw_record(path: &Path, names: &[String], console: &Console) -> Result<(), F
     let mut missing = None;
     let mut drawn = 0;
     for figure in &OF_RECORD {
-        if !names.is_empty() && !names.iter().any(|name| name == figure.name) {
+        let is_wanted = match names {
+            [] => DEFAULT_OF_RECORD.contains(&figure.name),
+            names => names.iter().any(|name| name == figure.name),
+        };
+        if !is_wanted {
             continue;
         }
         match (figure.draw)(&record) {
@@ -353,8 +392,10 @@ fn draw_record(path: &Path, names: &[String], console: &Console) -> Result<(), F
             image => {
                 let mut stem = path.file_stem().unwrap_or_default().to_owned();
                 stem.push(format!("-{}", figure.name));
-                let place =
-                    |extension: &str| path.with_file_name(&stem).with_added_extension(extension);
+                let beside = path.parent().unwrap_or(Path::new(""));
+                let folder = arguments.out.as_deref().unwrap_or(beside);
+                folders::make(folder)?;
+                let place = |extension: &str| folder.join(&stem).with_added_extension(extension);
                 write(&image.map_err(refused)?, place, console)?;
                 drawn += 1;
             }

@@ -68,7 +68,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let known = if arguments.force {
         Vec::new()
     } else {
-        store::read_stability(&study.axes, &table).map_err(Failure::refused)?
+        stability::read_stability(&study.axes, &table).map_err(Failure::refused)?
     };
     let trials = Trials {
         study: &study,
@@ -201,7 +201,7 @@ fn run(trials: &Trials<'_>, known: Vec<Row>, console: &Console) -> Result<(Repor
     if jobs_done > 0 {
         let runs = format::count(trials.jobs.len(), "run");
         console.note(format_args!("{jobs_done} of {runs} are done already"));
-        let makers = store::read_makers(trials.table).map_err(Failure::refused)?;
+        let makers = stability::read_makers(trials.table).map_err(Failure::refused)?;
         let done = trials.jobs.iter().filter(is_known);
         builds::tell_of_others("row", done.map(|job| makers.get(&job.id)), console);
     }

@@ -9,7 +9,7 @@ use phase::record::Outcome;
 use phase::resume::DEFAULT_INTERVAL;
 use phase::sweep::{
     Event, Failure as JobFailure, Folder, FolderError, Job, Plan, Pool, PoolError, Report,
-    Standing, Sweep, describe, differing_keys, work,
+    Standing, Sweep, describe, differing_keys, refuse_to_lose_labels, work,
 };
 use serde::Serialize;
 use std::collections::{HashMap, HashSet};
@@ -85,7 +85,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
     let jobs = sweep.jobs().map_err(Failure::refused)?;
     if !arguments.no_classify {
-        classify::check_sieves(&sweep, &jobs)?;
+        sweep.check_sieves(&jobs).map_err(classify::cannot_label)?;
     }
     let folder = Folder::new(
         arguments
@@ -101,7 +101,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         _ => Failure::failed(error),
     })?;
     if !arguments.force && !arguments.no_classify {
-        classify::refuse_to_lose_labels(&folder, jobs.iter().map(|job| job.id.as_str()))?;
+        let kept = jobs.iter().map(|job| job.id.as_str());
+        refuse_to_lose_labels(&folder, kept).map_err(classify::cannot_write)?;
     }
     tell_of_other_sweep(&folder, &sweep, console);
     let plan = if arguments.force {
@@ -112,7 +113,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     tell_of_plan(&plan, console);
     time_step::tell_of_jobs(&jobs, &sweep.axes, console);
     if !arguments.no_classify {
-        classify::warn_of_windows(&sweep, &jobs, console);
+        warn_of_windows(&sweep, &jobs, console);
     }
     let pool = Pool {
         folder: &folder,
@@ -142,15 +143,26 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let mut failed = !run.report.failures.is_empty();
     if !arguments.no_classify {
         let labelled = classify::label_folder(&folder, &sweep, &jobs, workers, console)?;
-        failed |= !labelled.summary.problems.is_empty();
+        failed |= !labelled.problems.is_empty();
         if !arguments.no_plot {
-            plot::draw_default_figures(&folder, &sweep, &labelled.table, console)?;
+            let place = folder.root();
+            plot::draw_default_figures(&folder, place, &sweep, &labelled.table, console)?;
         }
-        answer.labels = Some(labelled.summary);
+        answer.labels = Some(classify::Summary::new(&folder, &labelled));
     }
     answer.files = console.files();
     console.answer(&answer);
     Ok(if failed { Exit::Failed } else { Exit::Done })
+}
+
+/// Warns of sieves that find nothing in any run, as these are too short.
+pub(super) fn warn_of_windows(sweep: &Sweep, jobs: &[Job], console: &Console) {
+    for (name, window, duration) in sweep.sieves_without_room(jobs) {
+        console.warning(format_args!(
+            "the window of the sieve {name}, {window} s, is longer than the runs, {duration} s: it finds \
+             nothing in any of them; lengthen time.duration, or shorten `window` in [sieves.{name}]"
+        ));
+    }
 }
 
 /// Seeds, each of which is there once.

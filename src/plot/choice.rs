@@ -2,8 +2,8 @@
 
 use super::{PlotError, Source, grid};
 use crate::classify::Label;
+use crate::classify::{LabelRow, Point};
 use crate::record::RunRecord;
-use crate::sweep::{LabelRow, Point};
 
 /// A run of the table of labels, chosen to be shown.
 #[derive(Clone, Copy)]

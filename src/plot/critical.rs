@@ -129,9 +129,10 @@ mod tests {
     use super::super::Source;
     use super::*;
     use crate::classify::{Family, Label, Measures, Sieves, Verdict};
+    use crate::classify::{LabelRow, LabelTable};
     use crate::record::Program;
     use crate::scene::RadiusShare;
-    use crate::sweep::{Axis, LabelRow, LabelTable, PlotSettings, Sweep};
+    use crate::sweep::{Axis, PlotSettings, Sweep};
     use serde_json::json;
 
     const RADIUS: &str = "spheres.radius";

@@ -9,7 +9,7 @@ use super::scale::Scale;
 use super::style::{self, Drawn, Fill, LABEL, SMALL, Sheet, TITLE, letters, px};
 use super::svg::Svg;
 use super::{PlotError, Source, canvas, critical};
-use crate::sweep::Point;
+use crate::classify::Point;
 use plotters::drawing::IntoDrawingArea;
 use plotters::element::PathElement;
 use plotters::style::text_anchor::{HPos, VPos};

@@ -1,8 +1,9 @@
 //! The grid of a figure: which axes it shows where, and the point in every cell.
 
 use super::{PlotError, Source};
+use crate::classify::{LabelTable, Point};
 use crate::scene::Scene;
-use crate::sweep::{Axis, LabelTable, Point, Sweep};
+use crate::sweep::{Axis, Sweep};
 
 /// An axis of a figure.
 #[derive(Clone, Debug)]

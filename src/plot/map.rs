@@ -7,9 +7,9 @@ use super::grid::Grid;
 use super::style::Fill;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
+use crate::classify::Point;
 use crate::classify::{Family, Verdict};
 use crate::statistics::Estimate;
-use crate::sweep::Point;
 
 /// A map of one number of the verdicts.
 pub(super) struct Map {

@@ -29,6 +29,7 @@ mod palette;
 mod phase;
 mod scale;
 mod series;
+mod single;
 mod speeds;
 pub mod stability;
 mod states;
@@ -41,13 +42,15 @@ pub mod verification;
 
 pub use beverloo::{FittedLine, fitted_lines};
 pub use ledger::draw as draw_ledger;
+pub use single::draw_single;
 pub use svg::Svg;
 pub use tracks::draw as draw_tracks;
 
 use crate::classify::Family;
+use crate::classify::LabelTable;
 use crate::record::{Program, RunRecord};
 use crate::store::StoreError;
-use crate::sweep::{LabelTable, SelectError, Sweep};
+use crate::sweep::{SelectError, Sweep};
 use plotters::drawing::DrawingAreaErrorKind;
 use std::convert::Infallible;
 
@@ -195,7 +198,7 @@ pub enum PlotError {
         known: String,
     },
     /// The figure is for the other family of scenes.
-    #[error("the figure `{name}` is none of a {family}; those are {known}")]
+    #[error("`{name}` is not a figure of a {family}; available: {known}")]
     OtherFamily {
         /// The name asked for.
         name: &'static str,

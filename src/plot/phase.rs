@@ -7,7 +7,7 @@ use super::style::Fill;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, palette};
 use crate::classify::Label;
-use crate::sweep::Point;
+use crate::classify::Point;
 
 /// The phase diagram.
 pub(super) struct PhaseDiagram;

@@ -2,7 +2,7 @@
 
 use super::grid::GridAxis;
 use super::{PlotError, Source, choice, grid, palette};
-use crate::sweep::Point;
+use crate::classify::Point;
 use plotters::style::RGBColor;
 
 /// The points of a sweep along one axis.

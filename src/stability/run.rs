@@ -1,10 +1,11 @@
 //! Runs what is left of a study and keeps its table.
 
+use super::table;
 use super::{Label, Study, Theory, energy_gain};
 use crate::record::{Guard, Outcome, Program};
 use crate::run::{self, RunError};
 use crate::scene::Integrator;
-use crate::store::{self, StoreError};
+use crate::store::StoreError;
 use crate::sweep::{Failure, Job, panic_message, work};
 use std::collections::{BTreeMap, HashMap};
 use std::ops::ControlFlow;
@@ -104,7 +105,7 @@ impl Trials<'_> {
             .map(|job| Some(self.labelled_again(known.remove(&job.id)?)))
             .collect();
         let count = rows.iter().flatten().count();
-        let mut makers = store::read_makers(self.table)?;
+        let mut makers = table::read_makers(self.table)?;
         makers.retain(|id, _| rows.iter().flatten().any(|row| row.id == *id));
         let pending: Vec<usize> = (0..rows.len())
             .filter(|&index| rows[index].is_none())
@@ -207,8 +208,8 @@ impl Trials<'_> {
 
     fn write(&self, state: &State) -> Result<(), StoreError> {
         // First, so that no row has another maker than is noted, whenever the process is ended.
-        store::write_makers(&state.makers, self.table)?;
-        store::write_stability(&self.study.axes, state.rows.iter().flatten(), self.table)
+        table::write_makers(&state.makers, self.table)?;
+        table::write_stability(&self.study.axes, state.rows.iter().flatten(), self.table)
     }
 }
 

@@ -7,11 +7,10 @@
 
 use super::{StoreError, write_atomic};
 use crate::classify::{
-    Evidence, Family, Label, Measures, OrderParameters, SiloEvidence, SiloMeasures, SiloOrder,
-    TankMeasures, Verdict,
+    Evidence, Family, Label, LabelRow, LabelTable, Measures, OrderParameters, SiloEvidence,
+    SiloMeasures, SiloOrder, TankMeasures, Verdict,
 };
 use crate::document::text;
-use crate::sweep::{LabelRow, LabelTable};
 use csv::StringRecord;
 use serde::Serialize;
 use std::path::Path;

@@ -6,13 +6,11 @@ mod atomic;
 mod checkpoint;
 mod dump;
 mod export;
-mod failures;
 mod hashed;
 mod labels;
 mod lock;
 mod record;
 mod rows;
-mod stability;
 
 pub use crate::document::advice;
 pub use atomic::{remove_leftovers, write_atomic};
@@ -24,7 +22,6 @@ pub use export::{
     PAGE_SIGNATURE, SPHERES_SIGNATURE, frame_name, write_arrays, write_fixed, write_fixed_xyz,
     write_observations, write_page, write_spheres, write_svg, write_vtk, write_xyz,
 };
-pub use failures::{read_failures, write_failures};
 pub use labels::{read_labels, write_labels, write_points};
 pub use lock::Lock;
 pub use record::{
@@ -32,7 +29,6 @@ pub use record::{
     write_record, write_record_and_drop_states,
 };
 pub use rows::write_rows;
-pub use stability::{read_makers, read_stability, write_makers, write_stability};
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -143,7 +139,7 @@ pub enum StoreError {
 }
 
 impl StoreError {
-    fn reading(path: &Path, source: io::Error) -> Self {
+    pub(crate) fn reading(path: &Path, source: io::Error) -> Self {
         Self::Read {
             path: path.to_owned(),
             source,
@@ -166,14 +162,14 @@ impl StoreError {
         }
     }
 
-    fn content(path: &Path, reason: impl ToString) -> Self {
+    pub(crate) fn content(path: &Path, reason: impl ToString) -> Self {
         Self::Content {
             path: path.to_owned(),
             reason: reason.to_string(),
         }
     }
 
-    fn text(path: &Path, line: u64, reason: impl ToString) -> Self {
+    pub(crate) fn text(path: &Path, line: u64, reason: impl ToString) -> Self {
         Self::Text {
             path: path.to_owned(),
             line,

@@ -1,7 +1,7 @@
 //! Labels the runs of a folder of dumps, as the thesis's analysis did.
 
-use super::{LabelRow, LabelTable, Labelling, work};
-use crate::classify::{self, Family, Sieves};
+use super::{Labelling, work};
+use crate::classify::{self, Family, LabelRow, LabelTable, Sieves};
 use crate::document::Problem;
 use crate::replay;
 use crate::scene::{Radii, Scene};

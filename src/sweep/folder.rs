@@ -155,11 +155,6 @@ impl Folder {
         self.root.join("failed.csv")
     }
 
-    /// A figure, such as `phase` with extension `svg`.
-    pub fn figure(&self, name: &str, extension: &str) -> PathBuf {
-        self.root.join(format!("{name}.{extension}"))
-    }
-
     /// Makes the folder and the one for records, if they are not there.
     ///
     /// # Errors

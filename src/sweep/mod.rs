@@ -3,10 +3,10 @@
 mod axis;
 mod dumps;
 mod failure;
+mod failures;
 mod folder;
 mod job;
-mod label;
-mod labels;
+mod labelling;
 mod load;
 mod plan;
 mod pool;
@@ -20,11 +20,11 @@ pub use axis::Axis;
 pub(crate) use axis::AxisEntry;
 pub use dumps::find_dumps;
 pub use failure::{Failure, describe};
+pub use failures::{read_failures, write_failures};
 pub use folder::{Folder, FolderError};
 pub use job::{Job, PointError};
 pub(crate) use job::{PointScenes, grid, points};
-pub use label::{Labelling, changes, irreplaceable};
-pub use labels::{LabelRow, LabelTable, Point};
+pub use labelling::{Labelled, Labelling, LabellingError, Since, refuse_to_lose_labels};
 pub(crate) use load::{
     SWEEP, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes, or_path,
 };

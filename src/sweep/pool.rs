@@ -1,6 +1,6 @@
 //! Runs the jobs of a sweep on all cores.
 
-use super::{Failure, Folder, FolderError, ForeignRecord, Job, Plan, Sweep, work};
+use super::{Failure, Folder, FolderError, ForeignRecord, Job, Plan, Sweep, work, write_failures};
 use crate::record::RunRecord;
 use crate::resume::{self, Checkpoints};
 use crate::run::{Progress, Run};
@@ -219,7 +219,7 @@ impl Pool<'_> {
         tally.failures.insert(position, failure);
         let failures: Vec<_> = tally.failures.values().cloned().collect();
         let path = self.folder.failures();
-        if let Err(error) = store::write_failures(&self.sweep.axes, &failures, &path) {
+        if let Err(error) = write_failures(&self.sweep.axes, &failures, &path) {
             tally.halted = Some(error);
         }
     }
@@ -273,7 +273,7 @@ mod tests {
     use crate::classify::Sieves;
     use crate::dem;
     use crate::scene::Scene;
-    use crate::sweep::{Axis, PlotSettings};
+    use crate::sweep::{Axis, PlotSettings, read_failures};
 
     const SCENE: &str = r#"
         spheres = { count = 1, radius = 0.004, density = 1000.0 }
@@ -349,10 +349,7 @@ mod tests {
                 .reason
                 .contains("the scene has no contact law")
         );
-        assert_eq!(
-            store::read_failures(&folder.failures()).unwrap(),
-            report.failures
-        );
+        assert_eq!(read_failures(&folder.failures()).unwrap(), report.failures);
 
         // The failed ones, and only these, are run again, and then no failure is left.
         let plan = Plan::new(&folder, jobs, 2).unwrap();

@@ -1,6 +1,6 @@
 //! How far the sweep of a results folder is.
 
-use super::{Failure, Folder, FolderError, Job, Plan, Standing};
+use super::{Failure, Folder, FolderError, Job, Plan, Standing, read_failures};
 use crate::record::Outcome;
 use crate::run;
 use crate::store;
@@ -67,7 +67,7 @@ impl Status {
     /// If the table of failed jobs cannot be read.
     pub fn of(folder: &Folder, plan: &Plan) -> Result<Self, FolderError> {
         let left_ids: HashSet<_> = plan.pending().map(|job| &job.id).collect();
-        let mut failures = store::read_failures(&folder.failures())?;
+        let mut failures = read_failures(&folder.failures())?;
         failures.retain(|failure| left_ids.contains(&failure.id));
         let is_bad =
             |standing: &Standing| !matches!(standing, Standing::Done(_) | Standing::Missing);

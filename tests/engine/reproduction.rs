@@ -12,11 +12,11 @@
 )]
 
 use phase::classify::{Label, Sieves, classify};
+use phase::classify::{LabelRow, LabelTable};
 use phase::record::RunRecord;
 use phase::run::run;
 use phase::scene::{self, Radii};
 use phase::store::read_labels;
-use phase::sweep::{LabelRow, LabelTable};
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 use std::path::Path;

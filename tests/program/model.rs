@@ -155,8 +155,8 @@ impl Simulation for Weights {
 
     fn save(&self, to: &mut dyn Write) -> std::io::Result<()> {
         to.write_all(&self.step.to_le_bytes())?;
-        let numbers = self.height.iter().chain(&self.speed);
-        numbers.map(|it| to.write_all(&it.to_le_bytes())).collect()
+        let mut numbers = self.height.iter().chain(&self.speed);
+        numbers.try_for_each(|it| to.write_all(&it.to_le_bytes()))
     }
 
     fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {

@@ -4,10 +4,11 @@
 
 use phase::beverloo::Bed;
 use phase::classify::{Family, Label, Measures, Sieves, SiloMeasures, SiloOrder, Verdict};
+use phase::classify::{LabelRow, LabelTable};
 use phase::plot::{self, PlotError, Source, fitted_lines};
 use phase::record::Program;
 use phase::scene::Scene;
-use phase::sweep::{Axis, LabelRow, LabelTable, PlotSettings, Sweep};
+use phase::sweep::{Axis, PlotSettings, Sweep};
 use serde_json::json;
 use std::f64::consts::PI;
 use std::fs;

@@ -61,7 +61,7 @@ fn the_quick_sweep_has_all_states_and_its_figures() {
     place
         .phase(&["plot", FOLDER, "--figure", "settle-time"])
         .code(2)
-        .complains("is none of a silo");
+        .complains("is not a figure of a silo");
 
     place
         .phase(&["classify", FOLDER])
@@ -102,5 +102,5 @@ fn a_tank_is_offered_no_figure_of_a_silo() {
     place
         .phase(&["plot", "results/tiny", "--figure", "packing-fraction"])
         .code(2)
-        .complains("is none of a tank");
+        .complains("is not a figure of a tank");
 }

@@ -3,8 +3,8 @@
 
 use crate::support::Workplace;
 use phase::scene::Integrator;
+use phase::stability::read_stability;
 use phase::stability::{self, Event, Label, Report, Row, Study, Theory, Trials};
-use phase::store::read_stability;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 

@@ -1,11 +1,11 @@
 //! Labels of a folder of dumps.
 
-use super::{Labelled, write_tables};
+use super::write_tables;
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
 use crate::cli::kind;
 use phase::classify::Sieves;
-use phase::sweep::{Folder, FolderError, Labelling, find_dumps};
+use phase::sweep::{Folder, FolderError, Labelled, Labelling, find_dumps};
 use std::path::{Path, PathBuf};
 
 /// Labels the dumps of a folder, writes the tables there and prints what they say.

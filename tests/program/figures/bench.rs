@@ -2,12 +2,13 @@
 
 use ndarray::{Array2, Array3};
 use phase::classify::{Family, Label, Measures, Sieves, TankMeasures, Verdict};
+use phase::classify::{LabelRow, LabelTable};
 use phase::observe::{Observations, Snapshot};
 use phase::plot::{self, PlotError, Source, Svg};
 use phase::record::{Outcome, Program, RunRecord};
 use phase::scene::Scene;
 use phase::store::StoreError;
-use phase::sweep::{Axis, LabelRow, LabelTable, PlotSettings, Sweep, parse_point};
+use phase::sweep::{Axis, PlotSettings, Sweep, parse_point};
 use serde_json::json;
 use std::cell::RefCell;
 use std::fs;

@@ -205,3 +205,55 @@ fn a_missing_record_is_named() {
     let start = "the run at radius = 0.002, omega = 2, seed = 2: cannot read nowhere/2-2-2: ";
     assert!(message.starts_with(start), "{message}");
 }
+
+/// Symptom: `phase plot RECORD` could not draw energies or speeds of one record, and no figure could
+/// be drawn elsewhere than beside its data.
+#[test]
+fn figures_of_one_record_go_where_they_are_asked_for() {
+    let place = crate::support::Workplace::new();
+    place.write("tank.toml", &crate::support::scene_file());
+    place.write("silo.toml", &crate::support::silo_file());
+    for run in ["tank", "silo"] {
+        let record = format!("{run}.h5");
+        place
+            .phase(&["run", &format!("{run}.toml"), "--out", &record])
+            .code(0);
+        let figures = ["energies", "speeds", "states"];
+        let figures = if run == "tank" {
+            &figures[..]
+        } else {
+            &figures[..1]
+        };
+        let names = figures.join(",");
+        place
+            .phase(&["plot", &record, "--figure", &names, "--out", "figures"])
+            .code(0);
+        for figure in figures {
+            for extension in ["svg", "png"] {
+                assert!(
+                    place
+                        .path(&format!("figures/{run}-{figure}.{extension}"))
+                        .exists()
+                );
+            }
+        }
+    }
+    let text = place.read("figures/tank-energies.svg");
+    assert!(text.contains("time (s)"));
+    place
+        .phase(&["plot", "tank.h5", "--figure", "phase"])
+        .code(2)
+        .complains("`phase` is not a figure of a single record; available: `tracks`");
+    place.write("tiny.toml", &crate::support::TinySweep::default().text());
+    place.phase(&["sweep", "tiny.toml"]).code(0);
+    let folder = [
+        "plot",
+        "results/tiny",
+        "--figure",
+        "phase",
+        "--out",
+        "elsewhere",
+    ];
+    place.phase(&folder).code(0);
+    assert!(place.path("elsewhere/phase.png").exists());
+}

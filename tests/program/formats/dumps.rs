@@ -2,8 +2,8 @@
 
 use crate::support::{TinySweep, Workplace, scene_file};
 use phase::classify::Label;
+use phase::classify::LabelRow;
 use phase::store::read_labels;
-use phase::sweep::LabelRow;
 use std::collections::BTreeMap;
 
 /// A sweep of every kind of run that eight spheres can give, the last one unstable.

@@ -1,10 +1,11 @@
 //! What the tests share: synthetic tables, and what an SVG shows.
 
 use phase::classify::{Family, Label, Measures, OrderParameters, Sieves, TankMeasures, Verdict};
+use phase::classify::{LabelRow, LabelTable};
 use phase::plot::{self, PlotError, Source, Svg};
 use phase::record::Program;
 use phase::scene::Scene;
-use phase::sweep::{Axis, LabelRow, LabelTable, PlotSettings, Sweep};
+use phase::sweep::{Axis, PlotSettings, Sweep};
 use serde_json::json;
 use std::fs;
 use std::path::Path;

@@ -2,8 +2,8 @@
 //!
 //! Columns: `id`, the axes by their names, `seed`, `reason`.
 
-use super::{StoreError, write_atomic};
-use crate::sweep::{Axis, Failure};
+use super::{Axis, Failure};
+use crate::store::{StoreError, write_atomic};
 use std::path::Path;
 
 /// Writes the table of failed jobs of a sweep with these axes.

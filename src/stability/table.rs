@@ -7,10 +7,10 @@
 //! `stability.makers.csv` beside it: which build made each row, in the columns `id`, `version` and `commit`.
 //! It is a file of its own because the same study gives the same table, whatever build makes it.
 
-use super::{StoreError, write_atomic};
+use super::{Label, Row};
 use crate::record::{Guard, Program};
 use crate::scene::Integrator;
-use crate::stability::{Label, Row};
+use crate::store::{StoreError, write_atomic};
 use crate::sweep::Axis;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

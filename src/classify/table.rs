@@ -1,6 +1,6 @@
 //! The table of labels: one row per job, and the points where replicates are put together.
 
-use crate::classify::{Family, Label, Verdict};
+use super::{Family, Label, Verdict};
 
 /// Labels of all jobs of a sweep.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,0 +1,247 @@
+//! Labels every run of a results folder from its record.
+
+use super::{Folder, Job, PlotSettings, Sweep, work};
+use crate::classify::{self, ClassifyError, Family, Label, LabelRow, LabelTable, Sieves};
+use crate::document::differing_keys;
+use crate::scene::Scene;
+use crate::store::{self, StoreError};
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::path::PathBuf;
+
+/// Labels of the runs in a results folder.
+#[derive(Clone, Debug)]
+pub struct Labelling {
+    /// One row per job whose record can be read, in the sweep's order.
+    pub table: LabelTable,
+    /// Number of jobs without a record.
+    pub missing: usize,
+    /// What is wrong with records that cannot be labelled.
+    pub problems: Vec<String>,
+}
+
+impl Labelling {
+    /// Labels the jobs of a sweep from the records in `folder`, with that many workers.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub fn new(
+        folder: &Folder,
+        sweep: &Sweep,
+        jobs: &[Job],
+        workers: usize,
+    ) -> Result<Self, rayon::ThreadPoolBuildError> {
+        let found = work::map(workers, jobs, |job| label(folder, sweep, job))?;
+        let mut labelling = Self {
+            table: LabelTable {
+                family: Family::of(&sweep.scene),
+                axes: sweep.axes.iter().map(|axis| axis.name.clone()).collect(),
+                rows: Vec::new(),
+            },
+            missing: 0,
+            problems: Vec::new(),
+        };
+        for row in found {
+            match row {
+                Ok(Some(row)) => labelling.table.rows.push(row),
+                Ok(None) => labelling.missing += 1,
+                Err(problem) => labelling.problems.push(problem),
+            }
+        }
+        Ok(labelling)
+    }
+}
+
+fn label(folder: &Folder, sweep: &Sweep, job: &Job) -> Result<Option<LabelRow>, String> {
+    let path = folder.record(&job.id);
+    if !path.exists() {
+        return Ok(None);
+    }
+    let record = folder
+        .read_record(&job.id)
+        .map_err(|error| error.to_string())?;
+    let verdict = classify::classify(&record, &sweep.sieves)
+        .map_err(|error| format!("{}: {error}", path.display()))?;
+    Ok(Some(LabelRow {
+        id: job.id.clone(),
+        values: job.values.clone(),
+        seed: job.seed,
+        verdict,
+    }))
+}
+
+/// What became of the labels of a results folder.
+#[derive(Clone, Debug)]
+pub struct Labelled {
+    /// The labels, as written.
+    pub table: LabelTable,
+    /// Number of jobs without a record.
+    pub missing: usize,
+    /// What is wrong with records that cannot be labelled.
+    pub problems: Vec<String>,
+    /// How the labels differ from those that were there.
+    pub since: Since,
+}
+
+/// How labels differ from those of before.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Since {
+    /// There were no labels before.
+    Nothing,
+    /// Those of before cannot be read, for this reason.
+    Unreadable(String),
+    /// Runs that went from one label to another, and runs that had none.
+    Labels {
+        /// Number of runs, by label before and after.
+        changes: BTreeMap<(Label, Label), usize>,
+        /// Runs that only the new table has.
+        new: usize,
+    },
+}
+
+/// Why a folder has no new labels.
+#[derive(Debug, thiserror::Error)]
+pub enum LabellingError {
+    /// Labels would be lost that cannot be made again.
+    #[error(
+        "{}: the records of {lost} of its {rows} labels are not in {}, so that these labels would \
+         be lost; bring the records back, use another folder, or remove the table first",
+        table.display(), records.display()
+    )]
+    Lost {
+        /// The table.
+        table: PathBuf,
+        /// Its rows.
+        rows: usize,
+        /// Those without a record.
+        lost: usize,
+        /// Where the records should be.
+        records: PathBuf,
+    },
+    /// The system gives no threads.
+    #[error("cannot start the workers: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+    /// A table cannot be written.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+impl Labelling {
+    /// Writes `labels.csv` and `points.csv` of a folder, unless labels would be lost.
+    ///
+    /// # Errors
+    /// [`LabellingError::Lost`], or if a table cannot be written.
+    pub fn write(self, folder: &Folder) -> Result<Labelled, LabellingError> {
+        let kept = self.table.rows.iter().map(|row| row.id.as_str());
+        refuse_to_lose_labels(folder, kept)?;
+        let since = match folder.labels() {
+            path if !path.exists() => Since::Nothing,
+            path => match store::read_labels(&path) {
+                Ok(before) => Since::Labels {
+                    changes: changes(&before, &self.table),
+                    new: new_rows(&before, &self.table),
+                },
+                Err(error) => Since::Unreadable(error.to_string()),
+            },
+        };
+        store::write_labels(&self.table, &folder.labels())?;
+        store::write_points(&self.table, &folder.points())?;
+        Ok(Labelled {
+            table: self.table,
+            missing: self.missing,
+            problems: self.problems,
+            since,
+        })
+    }
+}
+
+/// Refuses to replace a table of labels that cannot be made again, as of results that were published
+/// without their records. The new table has the runs that are `kept`.
+///
+/// # Errors
+/// [`LabellingError::Lost`].
+pub fn refuse_to_lose_labels<'a>(
+    folder: &Folder,
+    kept: impl IntoIterator<Item = &'a str>,
+) -> Result<(), LabellingError> {
+    // What cannot be read is nothing to keep.
+    let Ok(table) = store::read_labels(&folder.labels()) else {
+        return Ok(());
+    };
+    let kept: HashSet<&str> = kept.into_iter().collect();
+    let is_lost = |id: &str| !kept.contains(id) && !folder.record(id).exists();
+    match table.rows.iter().filter(|row| is_lost(&row.id)).count() {
+        0 => Ok(()),
+        lost => Err(LabellingError::Lost {
+            table: folder.labels(),
+            rows: table.rows.len(),
+            lost,
+            records: folder.records(),
+        }),
+    }
+}
+
+/// How many rows are of runs that had none before.
+fn new_rows(before: &LabelTable, after: &LabelTable) -> usize {
+    let known: HashSet<&str> = before.rows.iter().map(|row| row.id.as_str()).collect();
+    let is_new = |row: &&LabelRow| !known.contains(row.id.as_str());
+    after.rows.iter().filter(is_new).count()
+}
+
+impl Sweep {
+    /// Whether the sieves of the sweep can judge all of its jobs.
+    ///
+    /// # Errors
+    /// What keeps them from it.
+    pub fn check_sieves(&self, jobs: &[Job]) -> Result<(), ClassifyError> {
+        jobs.iter()
+            .try_for_each(|job| self.sieves.check(&job.scene))
+    }
+
+    /// Sieves that find nothing in any run, because these are too short: their names and windows (s),
+    /// and the duration of the longest run (s).
+    pub fn sieves_without_room(&self, jobs: &[Job]) -> Vec<(&'static str, f64, f64)> {
+        let scenes = jobs.iter().map(|job| &job.scene);
+        let longest = scenes.max_by(|a, b| a.time.duration.total_cmp(&b.time.duration));
+        let sieves = longest.map(|scene| (scene.time.duration, self.sieves.without_room(scene)));
+        let (duration, sieves) = sieves.unwrap_or_default();
+        let sieves = sieves.into_iter();
+        sieves
+            .map(|(name, window)| (name, window, duration))
+            .collect()
+    }
+
+    /// Keys in which the runs of this sweep differ from those of an edited one. Titles, thresholds
+    /// and plot settings may differ.
+    pub fn keys_of_other_runs(&self, edited: &Self) -> Vec<String> {
+        let runs = |sweep: &Self| Self {
+            title: None,
+            scene: Scene {
+                title: None,
+                ..sweep.scene.clone()
+            },
+            sieves: Sieves::default(),
+            plot: PlotSettings::default(),
+            ..sweep.clone()
+        };
+        differing_keys(&runs(self), &runs(edited))
+    }
+}
+
+/// How many runs went from one label to another, by label. Runs that only one of the tables has
+/// do not count.
+fn changes(before: &LabelTable, after: &LabelTable) -> BTreeMap<(Label, Label), usize> {
+    let labels: HashMap<_, _> = before
+        .rows
+        .iter()
+        .map(|row| (&row.id, row.verdict.label))
+        .collect();
+    let mut changes = BTreeMap::new();
+    for row in &after.rows {
+        if let Some(&label) = labels.get(&row.id)
+            && label != row.verdict.label
+        {
+            *changes.entry((label, row.verdict.label)).or_default() += 1;
+        }
+    }
+    changes
+}
