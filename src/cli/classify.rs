@@ -191,19 +191,21 @@ pub(super) fn label_folder(
             format::count(jobs.len(), "job")
         ));
     }
-    write_tables(labelling, folder, console)
+    tell_of_problems(&labelling, console);
+    let labelled = labelling.write(folder).map_err(cannot_write)?;
+    tell_of_labels(&labelled, folder, console);
+    Ok(labelled)
 }
 
-/// Writes labels.csv and points.csv of a folder and prints what they say.
-fn write_tables(
-    labelling: Labelling,
-    folder: &Folder,
-    console: &Console,
-) -> Result<Labelled, Failure> {
+/// Says which records have no label, and why.
+fn tell_of_problems(labelling: &Labelling, console: &Console) {
     name_first(&labelling.problems, |problem| {
         console.error(format_args!("no label: {problem}"))
     });
-    let labelled = labelling.write(folder).map_err(cannot_write)?;
+}
+
+/// Prints what the tables of a folder say.
+fn tell_of_labels(labelled: &Labelled, folder: &Folder, console: &Console) {
     let runs = labelled.table.rows.len();
     console.result(describe_counts(&counts(&labelled.table), runs));
     match &labelled.since {
@@ -217,7 +219,6 @@ fn write_tables(
     }
     console.file(&folder.labels());
     console.file(&folder.points());
-    Ok(labelled)
 }
 
 /// How many runs have each label.

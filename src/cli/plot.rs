@@ -207,15 +207,14 @@ fn draw_folders(
     arguments: &Arguments,
     console: &Console,
 ) -> Result<Vec<FitEntry>, Failure> {
-    let of_record = |name: &&String| OF_RECORD.iter().any(|known| known.name == *name);
-    if let Some(name) = arguments.figure.iter().find(of_record) {
-        return Err(Failure::refused(format_args!(
-            "`{name}` is drawn from the record of one run; name its .h5 file instead of {}",
-            dir.display()
-        )));
-    }
     let is_known = |name: &String| plot::figures().iter().any(|known| known.name == name);
     if let Some(name) = arguments.figure.iter().find(|name| !is_known(name)) {
+        if OF_RECORD.iter().any(|known| known.name == *name) {
+            return Err(Failure::refused(format_args!(
+                "`{name}` is drawn from the record of one run; name its .h5 file instead of {}",
+                dir.display()
+            )));
+        }
         return Err(Failure::refused(format_args!(
             "there is no figure `{name}`; `phase plot --list` names them all"
         )));

@@ -181,7 +181,7 @@ pub fn draw(name: &str, source: &Source<'_>) -> Result<Svg, PlotError> {
         });
     }
     if figure.default_runs().is_none() && !source.points.is_empty() {
-        return Err(PlotError::NoPoints(figure.name()));
+        return Err(PlotError::NoPoints(figure.name().to_owned()));
     }
     figure.draw(source)
 }
@@ -245,7 +245,7 @@ pub enum PlotError {
     TooManyAxes,
     /// Points are asked for in a figure of all of them.
     #[error("the figure `{0}` shows no single runs, so it takes no points")]
-    NoPoints(&'static str),
+    NoPoints(String),
     /// The sweep has no such point.
     #[error(transparent)]
     Select(#[from] SelectError),

@@ -1,15 +1,15 @@
 //! Figures of single runs, drawn of one record without a sweep.
 
-use super::{PlotError, Source, Svg, draw};
+use super::{PlotError, Source, Svg, all};
 use crate::classify::{Family, Label, Measures, Sieves, Verdict, classify};
 use crate::classify::{LabelRow, LabelTable};
 use crate::record::RunRecord;
 use crate::sweep::{PlotSettings, Sweep};
 
-/// Draws the figure `name`, one of those that take points, of a single run.
+/// Draws the figure `name`, one of those that take points, of a single run of any family.
 ///
 /// # Errors
-/// Those of [`draw`].
+/// Those of [`draw`](super::draw), but that of another family.
 pub fn draw_single(name: &str, record: &RunRecord) -> Result<Svg, PlotError> {
     let scene = record.scene.clone();
     let (id, seed, family) = (scene.identity(), scene.seed, Family::of(&scene));
@@ -45,5 +45,10 @@ pub fn draw_single(name: &str, record: &RunRecord) -> Result<Svg, PlotError> {
         points: &[],
         program: &record.program,
     };
-    draw(name, &source)
+    let figures = all().into_iter();
+    let mut figures = figures.filter(|figure| figure.default_runs().is_some());
+    match figures.find(|figure| figure.name() == name) {
+        Some(figure) => figure.draw(&source),
+        None => Err(PlotError::NoPoints(name.to_owned())),
+    }
 }

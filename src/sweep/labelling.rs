@@ -126,13 +126,21 @@ pub enum LabellingError {
 }
 
 impl Labelling {
-    /// Writes `labels.csv` and `points.csv` of a folder, unless labels would be lost.
+    /// Writes `labels.csv` and `points.csv` of a folder of results, unless labels would be lost.
     ///
     /// # Errors
     /// [`LabellingError::Lost`], or if a table cannot be written.
     pub fn write(self, folder: &Folder) -> Result<Labelled, LabellingError> {
         let kept = self.table.rows.iter().map(|row| row.id.as_str());
         refuse_to_lose_labels(folder, kept)?;
+        self.replace(folder)
+    }
+
+    /// The same for a folder of dumps, from which labels can always be made again.
+    ///
+    /// # Errors
+    /// If a table cannot be written.
+    pub fn replace(self, folder: &Folder) -> Result<Labelled, LabellingError> {
         let since = match folder.labels() {
             path if !path.exists() => Since::Nothing,
             path => match store::read_labels(&path) {

@@ -260,7 +260,7 @@ fn a_killed_export_leaves_whole_files_and_the_next_one_cleans_up() {
         .phase(&["run", "scene.toml", "--out", "run.h5"])
         .code(0);
     let export = ["export", "run.h5", "--to", "svg", "--out", "pictures"];
-    let pictures = place.path("pictures");
+    let pictures = place.path("pictures/run");
     let names = || {
         let files = pictures.read_dir().into_iter().flatten();
         let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());

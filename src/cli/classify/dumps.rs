@@ -1,6 +1,6 @@
 //! Labels of a folder of dumps.
 
-use super::write_tables;
+use super::{cannot_write, tell_of_labels, tell_of_problems};
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
 use crate::cli::kind;
@@ -21,7 +21,11 @@ pub(super) fn label(
     let dumps = dumps_in(folder)?;
     let labelling =
         Labelling::of_dumps(&dumps, &scene, sieves, workers).map_err(Failure::failed)?;
-    write_tables(labelling, &Folder::new(folder), console)
+    tell_of_problems(&labelling, console);
+    let folder = Folder::new(folder);
+    let labelled = labelling.replace(&folder).map_err(cannot_write)?;
+    tell_of_labels(&labelled, &folder, console);
+    Ok(labelled)
 }
 
 fn dumps_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {

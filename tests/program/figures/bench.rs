@@ -6,6 +6,7 @@ use phase::classify::{LabelRow, LabelTable};
 use phase::observe::{Observations, Snapshot};
 use phase::plot::{self, PlotError, Source, Svg};
 use phase::record::{Outcome, Program, RunRecord};
+use phase::scene::Friction;
 use phase::scene::Scene;
 use phase::store::StoreError;
 use phase::sweep::{Axis, PlotSettings, Sweep, parse_point};
@@ -95,6 +96,11 @@ impl Tank {
     /// The same tank with two more axes.
     pub(crate) fn of_four_axes() -> Self {
         let mut tank = Self::settled();
+        // An axis is a key of the scene.
+        tank.sweep.scene.friction = Some(Friction::Coulomb {
+            coefficient: 0.0,
+            regularisation: 1e-3,
+        });
         let more = [
             ("spheres.density", "density", [2500.0, 7500.0]),
             ("friction.coefficient", "friction", [0.0, 0.05]),

@@ -104,7 +104,7 @@ fn svg_shows_what_is_in_to_scale() {
             .collect();
         same(&circles(&document, "grains"), &grains);
         same(&circles(&document, "walls"), &walls);
-        let is_open = state.time >= 1.78;
+        let is_open = state.time >= 1.83;
         same(
             &circles(&document, "door"),
             if is_open { &[] } else { &door },
@@ -259,7 +259,7 @@ fn a_page_holds_the_whole_run() {
     let run = check(&page, &record);
     assert_eq!((&run["axes"], &run["quantum"]), (&2.into(), &1e-4.into()));
     assert_eq!(run["title"], "Small <silo> & more");
-    assert_eq!(run["opened"], 1.78);
+    assert_eq!(run["opened"], 1.83);
     let names = ["filled", "at rest", "door opened", "emptied"];
     let milestones = run["milestones"].as_array().unwrap();
     assert!(milestones.iter().map(|it| &it[0]).eq(names.iter()));

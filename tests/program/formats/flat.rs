@@ -58,8 +58,8 @@ fn milestones_are_times() {
     };
     for (name, time, is_closed) in [
         ("filled", "1.2", true),
-        ("at-rest", "1.6", true),
-        ("door-opened", "1.8", false),
+        ("at-rest", "1.8", true),
+        ("door-opened", "2", false),
         ("emptied", "3.6", false),
     ] {
         view(name, &[])
@@ -76,7 +76,7 @@ fn milestones_are_times() {
     }
     view("at-rest,0.4", &[])
         .code(0)
-        .complains("shows t = 0.4, 1.6 s");
+        .complains("shows t = 0.4, 1.8 s");
     view("late", &[])
         .code(2)
         .complains("neither a time in seconds nor one of filled, at-rest, door-opened, emptied");
@@ -118,7 +118,7 @@ fn captions_name_what_happened() {
         let dark = |row: &[u8]| row.chunks(4).filter(|pixel| pixel[0] < 100).count();
         rows.map(dark).sum::<usize>()
     };
-    let (plain, named) = (dark("1.4"), dark("1.6"));
+    let (plain, named) = (dark("1.6"), dark("1.8"));
     assert!(
         plain > 50 && named as f64 > 1.5 * plain as f64,
         "{plain} {named}"
