@@ -44,10 +44,12 @@ impl Scene {
             .collect()
     }
 
-    /// How figures write a numeric key of this scene. Entries of lists have no notation.
+    /// How figures write a numeric key, with the unit that it has in this scene. Entries of lists
+    /// have no notation.
     pub fn notation(&self, key: &str) -> Option<Notation> {
         let mut keys = self.for_keys(&[]).all_numeric_keys().into_iter();
-        keys.find(|known| known.path == key)?.notation
+        let own = keys.find(|known| known.path == key);
+        own.map_or_else(|| Notation::anywhere(key), |known| known.notation)
     }
 
     pub(super) fn all_numeric_keys(&self) -> Vec<NumericKey> {
@@ -197,6 +199,17 @@ fn collect_table(
 }
 
 impl Notation {
+    /// That of a key in any scene that has it.
+    fn anywhere(path: &str) -> Option<Self> {
+        let mut found = None;
+        SCENE.kind.visit("", &mut |known, key| {
+            if known == path && found.is_none() {
+                found = Self::of(key, &Value::Null);
+            }
+        });
+        found
+    }
+
     /// That of a key in a table with these values.
     fn of(key: &'static Key, table: &Value) -> Option<Self> {
         let quantity = key.quantity.as_ref()?;
