@@ -39,6 +39,26 @@ impl Estimate {
     }
 }
 
+/// Ends of the interval of [`CONFIDENCE`] for a share that was found in so many independent trials:
+/// Wilson's score interval (E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927)). It stays between 0
+/// and 1. For the mean of shares it is wide enough, because no distribution on [0, 1] scatters more
+/// than that of yes and no.
+///
+/// ```
+/// let [low, high] = phase::statistics::share_interval(1.0, 12);
+/// assert!((low - 0.757_5).abs() < 1e-4 && high == 1.0);
+/// ```
+pub fn share_interval(share: f64, trials: usize) -> [f64; 2] {
+    // The normal quantile of the confidence, as the limit of Student's t.
+    const Z: f64 = 1.959_963_984_540_054;
+    let count = trials as f64;
+    let square = Z * Z / count;
+    let centre = (share + 0.5 * square) / (1.0 + square);
+    let scatter = share * (1.0 - share) / count + 0.25 * square / count;
+    let half = Z * scatter.sqrt() / (1.0 + square);
+    [(centre - half).max(0.0), (centre + half).min(1.0)]
+}
+
 /// The t of Student's distribution with `freedom` (1 or more) degrees of freedom for which |T| <= t
 /// with this probability, by bisection.
 ///

@@ -189,11 +189,8 @@ fn bars(source: &Source<'_>, line: &Series, factor: f64) -> Vec<Bar> {
     openings
         .filter_map(|opening| {
             let mean = mean(opening)?;
-            Some(Bar {
-                at: (opening * factor, mean.value),
-                half: mean.half_width,
-                color: line.color,
-            })
+            let at = (opening * factor, mean.value);
+            Some(Bar::about(at, mean.half_width, line.color))
         })
         .collect()
 }

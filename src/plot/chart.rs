@@ -29,20 +29,26 @@ pub(super) struct Line {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bar {
     pub(super) at: (f64, f64),
-    /// Half the length of the interval; none is drawn where it is infinite.
-    pub(super) half: f64,
+    /// Ends of the interval, the lower first; both at the point where there is none.
+    ends: [f64; 2],
     pub(super) color: RGBColor,
 }
 
 impl Bar {
+    /// An interval that reaches as far down as up; none if that is infinite.
+    pub(super) fn about(at: (f64, f64), half: f64, color: RGBColor) -> Self {
+        let half = if half.is_finite() { half } else { 0.0 };
+        Self::between(at, [at.1 - half, at.1 + half], color)
+    }
+
+    /// An interval between two ends, the lower first.
+    pub(super) fn between(at: (f64, f64), ends: [f64; 2], color: RGBColor) -> Self {
+        Self { at, ends, color }
+    }
+
     /// Ends of what is drawn, the lower first.
     pub(super) fn ends(&self) -> [f64; 2] {
-        let half = if self.half.is_finite() {
-            self.half
-        } else {
-            0.0
-        };
-        [self.at.1 - half, self.at.1 + half]
+        self.ends
     }
 }
 

@@ -14,6 +14,8 @@ pub(super) struct GridAxis {
     pub(super) values: Vec<f64>,
     /// Shown value over value.
     pub(super) factor: f64,
+    /// Of an axis over one of several shares: the sum of the others. Shown is its part of all.
+    pub(super) other_shares: Option<f64>,
     /// Symbol with markup, and unit, of the shown values.
     pub(super) symbol: String,
     pub(super) unit: String,
@@ -47,10 +49,12 @@ impl GridAxis {
                 (share.unwrap_or_else(|| axis.name.clone()), String::new())
             }
         };
+        let other_shares = share_index(axis).map(|index| other_shares(index, scene));
         let mut shown = Self {
             key: axis.key.clone(),
             values,
             factor: 1.0,
+            other_shares,
             symbol,
             unit,
             index,
@@ -74,17 +78,22 @@ impl GridAxis {
 
     /// `symbol = value unit`, the head of a panel.
     pub(super) fn at(&self, value: f64) -> String {
-        let number = super::scale::number(value * self.factor);
+        let number = super::scale::number(self.show(value));
         let text = format!("{} = {number} {}", self.symbol, self.unit);
         text.trim_end().to_owned()
     }
 
     /// Values as shown.
     pub(super) fn shown(&self) -> Vec<f64> {
-        self.values
-            .iter()
-            .map(|value| value * self.factor)
-            .collect()
+        self.values.iter().map(|&value| self.show(value)).collect()
+    }
+
+    /// A value as shown.
+    pub(super) fn show(&self, value: f64) -> f64 {
+        match self.other_shares {
+            Some(others) => value / (value + others),
+            None => value * self.factor,
+        }
     }
 
     /// Whether the values are spaced by ratios rather than by differences.
@@ -121,11 +130,13 @@ impl GridAxis {
             .windows(2)
             .map(|pair| 0.5 * (pair[1] - pair[0]))
             .collect();
-        // A single value has no neighbour: any width serves.
+        // A single value has no neighbour: any width serves. Beyond the ends cells reach no farther
+        // than the narrowest ones, as nothing is known there.
         let alone = if first == 0.0 { 0.5 } else { 0.5 * first.abs() };
-        let mut edges = vec![first - halves.first().unwrap_or(&alone)];
+        let outer = halves.iter().copied().reduce(f64::min).unwrap_or(alone);
+        let mut edges = vec![first - outer];
         edges.extend(places.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])));
-        edges.push(last + halves.last().unwrap_or(&alone));
+        edges.push(last + outer);
         edges.into_iter().map(back).collect()
     }
 
@@ -165,13 +176,25 @@ fn scale(key: &str, axes: &[Axis], scene: &Scene) -> Option<(f64, &'static str)>
     }
 }
 
+/// Of an axis over the share of one of several radii: which of them.
+fn share_index(axis: &Axis) -> Option<usize> {
+    let index = axis.key.strip_prefix("spheres.radius[")?;
+    index.strip_suffix("].share")?.parse().ok()
+}
+
+/// The shares of all radii but one.
+fn other_shares(index: usize, scene: &Scene) -> f64 {
+    let shares = scene.spheres.radius.shares().iter().enumerate();
+    let others = shares.filter(|(other, _)| *other != index);
+    others.map(|(_, share)| share.share).sum()
+}
+
 /// What an axis over the share of one of several radii is called.
 fn share_of(axis: &Axis, scene: &Scene) -> Option<String> {
-    let index = axis.key.strip_prefix("spheres.radius[")?;
-    let index: usize = index.strip_suffix("].share")?.parse().ok()?;
+    let index = share_index(axis)?;
     let radius = scene.spheres.radius.shares().get(index)?.radius;
     let radius = super::scale::number(radius * 1e3);
-    Some(format!("relative share of grains of $r$ = {radius} mm"))
+    Some(format!("share of grains of $r$ = {radius} mm"))
 }
 
 /// One of the small multiples; its cells hold points of a sweep, or of something else.
@@ -341,6 +364,7 @@ mod tests {
             key: "swirl.omega".to_owned(),
             values: values.to_vec(),
             factor: 1.0,
+            other_shares: None,
             symbol: "$Ω$".to_owned(),
             unit: "rad/s".to_owned(),
             index: 0,

@@ -22,6 +22,8 @@ pub(super) struct Map {
     signed: bool,
     /// Whether it says how clearly a sieve decided, and not what the run did.
     evidence: bool,
+    /// Whether it is a share of something, from 0 to 1.
+    share: bool,
     family: Family,
     value: fn(&Verdict) -> Option<f64>,
 }
@@ -51,7 +53,7 @@ pub(super) static MAPS: [Map; 30] = [
     silo(map("coordination", "contacts of a grain at rest", "", |verdict| verdict.silo()?.order.coordination)),
     silo(map("discharge-rate", "discharge rate", "grains/s", |verdict| verdict.silo()?.order.discharge_rate)),
     silo(map("mass-rate", "discharge rate", "kg/s", |verdict| verdict.silo()?.order.mass_rate)),
-    silo(map("discharged-share", "share of the grains that left", "", |verdict| verdict.silo()?.order.discharged_share)),
+    silo(share(map("discharged-share", "share of the grains that left", "", |verdict| verdict.silo()?.order.discharged_share))),
     silo(map("emptying-time", "time to empty", "s", |verdict| verdict.silo()?.order.emptying_time)),
     silo(evidence(signed(map("emptied-margin", "margin of the emptied sieve", "", |verdict| verdict.silo()?.evidence.emptied_margin)))),
     silo(evidence(map("over-opening", "grains over the opening at the end", "", |verdict| verdict.silo()?.evidence.over_opening))),
@@ -79,6 +81,7 @@ const fn map(
         unit,
         signed: false,
         evidence: false,
+        share: false,
         family: Family::Tank,
         value,
     }
@@ -98,6 +101,10 @@ const fn evidence(map: Map) -> Map {
     }
 }
 
+const fn share(map: Map) -> Map {
+    Map { share: true, ..map }
+}
+
 const fn silo(map: Map) -> Map {
     Map {
         family: Family::Silo,
@@ -112,6 +119,11 @@ impl Map {
             "" => self.quantity.to_owned(),
             unit => format!("{} ({unit})", self.quantity),
         }
+    }
+
+    /// Whether it is a share of something, from 0 to 1.
+    pub(super) fn is_share(&self) -> bool {
+        self.share
     }
 
     /// Values of the seeds of a point that have one. One that is not a number is none.

@@ -1,13 +1,13 @@
 //! Every measure of a sweep over its horizontal axis: means over the seeds, with their intervals.
 
 use super::chart::{self, Bar, Chart, Line, Panel};
-use super::grid::Grid;
+use super::grid::{Grid, GridAxis};
 use super::map::{self, Map};
 use super::series::{self, Series};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
-use crate::statistics::Estimate;
+use crate::statistics::{Estimate, share_interval};
 
 /// Every measure over the horizontal axis.
 pub(super) struct MeasuresFigure;
@@ -31,7 +31,7 @@ impl Figure for MeasuresFigure {
         let shown = axis.shown();
         let x = chart::range(shown.iter().copied()).unwrap_or((0.0, 1.0));
         let panels: Vec<Panel> = map::of_measures(source.table.family)
-            .filter_map(|map| panel(source, map, &lines, axis.factor, x))
+            .filter_map(|map| panel(source, map, &lines, &axis, x))
             .collect();
         if panels.is_empty() {
             return Err(PlotError::NoMeasures);
@@ -40,7 +40,7 @@ impl Figure for MeasuresFigure {
         let seeds = source.sweep.seeds.len();
         let note = format!(
             "Points: means over {seeds} seeds, or over those that have a value. Bars: 95 % intervals \
-             of the means (Student's t)."
+             of the means (Student's t; of shares Wilson's)."
         );
         Chart {
             name: self.name(),
@@ -62,7 +62,7 @@ fn panel(
     source: &Source<'_>,
     map: &Map,
     lines: &[Series],
-    factor: f64,
+    axis: &GridAxis,
     x: (f64, f64),
 ) -> Option<Panel> {
     let mut panel = Panel {
@@ -72,26 +72,27 @@ fn panel(
     };
     for (index, line) in lines.iter().enumerate() {
         let aside = ASIDE * (x.1 - x.0) * (index as f64 - 0.5 * (lines.len() - 1) as f64);
-        let means: Vec<(f64, Estimate)> = line
+        let bars: Vec<Bar> = line
             .points
             .iter()
             .filter_map(|(at, point)| {
-                let mean = Estimate::of_mean(&map.values(source, point))?;
-                Some((at * factor + aside, mean))
+                let values = map.values(source, point);
+                let mean = Estimate::of_mean(&values)?;
+                let at = (axis.show(*at) + aside, mean.value);
+                Some(match map.is_share() {
+                    true => Bar::between(at, share_interval(mean.value, values.len()), line.color),
+                    false => Bar::about(at, mean.half_width, line.color),
+                })
             })
             .collect();
         // A line between two points would only repeat them.
-        if means.len() > 2 {
+        if bars.len() > 2 {
             panel.lines.push(Line {
-                points: means.iter().map(|(at, mean)| (*at, mean.value)).collect(),
+                points: bars.iter().map(|bar| bar.at).collect(),
                 color: line.color,
             });
         }
-        panel.bars.extend(means.iter().map(|(at, mean)| Bar {
-            at: (*at, mean.value),
-            half: mean.half_width,
-            color: line.color,
-        }));
+        panel.bars.extend(bars);
     }
     panel.y = chart::range(panel.bars.iter().flat_map(Bar::ends))?;
     Some(panel)

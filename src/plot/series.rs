@@ -34,15 +34,20 @@ pub(super) fn lines(
             None => groups.push((others, vec![(at, point)])),
         }
     }
-    let (all, most) = (groups.len(), palette::LINES.len());
+    let all = groups.len();
+    let colors: &[RGBColor] = match all <= palette::LINES.len() {
+        true => &palette::LINES,
+        false => &palette::DISTINCT,
+    };
+    let most = colors.len();
     let chosen =
         |index: usize| all <= most || (0..most).any(|line| line * (all - 1) / (most - 1) == index);
     let left_out = (all > most).then(|| format!("{most} of {all} lines are shown."));
     let groups = groups.into_iter().enumerate();
     let shown = groups.filter(|(index, _)| chosen(*index));
     let lines = shown
-        .zip(palette::LINES)
-        .map(|((_, (values, mut points)), color)| {
+        .zip(colors)
+        .map(|((_, (values, mut points)), &color)| {
             points.sort_by(|one, other| one.0.total_cmp(&other.0));
             Series {
                 name: name(source, axis, &values),

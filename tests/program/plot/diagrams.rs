@@ -176,6 +176,6 @@ fn measures_of_a_tank_have_a_line_for_up_to_four_values() {
     for text in ["settle time (s)", "Ω = 0 rad/s", "Ω = 30 rad/s"] {
         assert!(has(&svg, text), "{text} not in {:?}", texts(&svg));
     }
-    assert!(has(&svg, "4 of 7 lines are shown."));
+    assert!(has(&svg, "6 of 7 lines are shown."));
     assert!(!has(&svg, "margin of the spout sieve") && !has(&svg, "packing height / R"));
 }
