@@ -47,7 +47,8 @@ impl Scene {
     }
 
     /// The scene that is run, checked. Where `time.safety_factor` is there, the time step is chosen:
-    /// the largest that is at most that factor times every limit of [`timestep::limits`] and of which
+    /// the largest that is at most that factor times every limit of
+    /// [`timestep::limits`](crate::dem::timestep::limits) and of which
     /// the intervals of frames and of the feed are whole multiples. What comes back has a number for
     /// its step and no safety factor.
     ///
