@@ -1,10 +1,10 @@
 //! The law of Beverloo for the discharge of a silo in two dimensions, fitted to measured rates.
 //!
 //! W = C sqrt(g) n (D - k d)^(3/2) grains per second leave through an opening of width D: Beverloo,
-//! Leniger and van de Velde, Chemical Engineering Science 15, 260 (1961), with the exponent of a flat
-//! silo instead of their 5/2: Franklin and Johanson, Chemical Engineering Progress 51, 119 (1955);
-//! Mankoc et al., Granular Matter 9, 407 (2007). n is the number of grains per area of the bed, d
-//! their diameter.
+//! Leniger and van de Velde, Chemical Engineering Science 15, 260 (1961), with the exponent of a
+//! flat silo instead of their 5/2: Franklin and Johanson, Chemical Engineering Progress 51, 119
+//! (1955); Mankoc et al., Granular Matter 9, 407 (2007). n is the number of grains per area of the
+//! bed, d their diameter.
 
 use crate::statistics::{CONFIDENCE, Estimate, student_t};
 
@@ -71,12 +71,12 @@ const MOST_STEPS: usize = 200;
 /// Least share by which a step must lower the sum of squares.
 const PROGRESS: f64 = 1e-13;
 
-/// Fits C and k to discharges from one bed by least squares of the rates (Gauss-Newton, steps halved
-/// while they do not pay).
+/// Fits C and k to discharges from one bed by least squares of the rates (Gauss-Newton, steps
+/// halved while they do not pay).
 ///
-/// The intervals are those of the linearised fit: plus and minus t s sqrt(V_ii), with Student's t of
-/// 95 % and two less than the number of discharges, the residual s, and V the inverse of J^T J. They
-/// take the scatter for the same at all openings, and the bed for known exactly.
+/// The intervals are those of the linearised fit: plus and minus t s sqrt(V_ii), with Student's t
+/// of 95 % and two less than the number of discharges, the residual s, and V the inverse of J^T J.
+/// They take the scatter for the same at all openings, and the bed for known exactly.
 ///
 /// # Errors
 /// If there are too few discharges, or they do not follow the law.

@@ -8,7 +8,8 @@ use std::sync::{Arc, LazyLock};
 pub(crate) const FAMILY: &str = "DejaVu Sans";
 
 /// DejaVu Sans (TTF).
-// Statics, because the compiler puts one more copy of the file wherever it sees through a function that returns it.
+// Statics, because the compiler puts one more copy of the file wherever it sees through a function
+// that returns it.
 pub(crate) static REGULAR: LazyLock<&[u8]> = LazyLock::new(dejavu::sans::regular);
 
 /// DejaVu Sans, oblique (TTF).

@@ -18,7 +18,8 @@
 //! | records and tables as files | [`store`] |
 //! | laws that results are compared with | [`theory`], [`beverloo`] |
 //!
-//! SI units throughout, angles in radians, z up. The same scene gives the same bits on every machine.
+//! SI units throughout, angles in radians, z up. The same scene gives the same bits on every
+//! machine.
 //!
 //! # A scene, its run, its label
 //!

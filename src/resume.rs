@@ -76,11 +76,11 @@ impl Checkpoints {
     }
 
     /// Runs to the end, and leaves checkpoints on the way. `control` is asked after every frame
-    /// whether to go on; `warn` is told of a checkpoint that could not be written, without which the
-    /// run goes on.
+    /// whether to go on; `warn` is told of a checkpoint that could not be written, without which
+    /// the run goes on.
     ///
-    /// A run from the start replaces the checkpoint of an earlier run, but not before the first one is
-    /// due: whoever started it by mistake may stop it and loses nothing.
+    /// A run from the start replaces the checkpoint of an earlier run, but not before the first one
+    /// is due: whoever started it by mistake may stop it and loses nothing.
     pub fn run(
         &self,
         mut run: Run,

@@ -80,8 +80,8 @@ pub fn student_t(probability: f64, freedom: usize) -> f64 {
     }
 }
 
-/// P(|T| <= sqrt(freedom) tan(angle)), a finite sum: Abramowitz and Stegun, Handbook of Mathematical
-/// Functions (1964), 26.7.3 and 26.7.4.
+/// P(|T| <= sqrt(freedom) tan(angle)), a finite sum: Abramowitz and Stegun, Handbook of
+/// Mathematical Functions (1964), 26.7.3 and 26.7.4.
 fn within(angle: f64, freedom: usize) -> f64 {
     let (sine, cosine) = libm::sincos(angle);
     let odd = freedom % 2 == 1;

@@ -25,7 +25,8 @@ pub fn critical_rotation(count: f64, radius: f64, tank_radius: f64, gravity: f64
         * (SQRT_2 / PI * count * radius * radius * radius * gravity).sqrt()
 }
 
-/// Force of the updraught (N) on a resting sphere that none shields: Rice (2012), eq. 24 with n = 0,
+/// Force of the updraught (N) on a resting sphere that none shields: Rice (2012), eq. 24 with n =
+/// 0,
 ///
 /// F_z = s exp(-beta (z - z0)) (c1 v_z + c2 v_z^2).
 ///

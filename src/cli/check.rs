@@ -20,9 +20,9 @@ use std::time::Duration;
 ///
 /// A short trial of a few jobs tells how long it will take and how much memory and disk it needs.
 ///
-/// The time step is compared with its limits (docs/time-step.md; --verbose lists all, with formulas).
-/// Above a limit that decides about stability a scene is refused; above half of it, and above an
-/// advised one, there is a warning.
+/// The time step is compared with its limits (docs/time-step.md; --verbose lists all, with
+/// formulas). Above a limit that decides about stability a scene is refused; above half of it, and
+/// above an advised one, there is a warning.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: what will the full diagram cost on 16 cores?

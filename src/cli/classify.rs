@@ -27,14 +27,15 @@ x 4 of x, y, z and energy). Radius, density and Omega come from the names, the r
 A dump has no velocities, spins or contact energies: the sieves get along without them, but the
 order parameters rotation and mobility are then those of displacements from frame to frame.")]
 pub(crate) struct Arguments {
-    /// A results folder of `phase sweep`, or a folder that holds several; or, with --scene, a folder
-    /// of dumps.
+    /// A results folder of `phase sweep`, or a folder that holds several; or, with --scene, a
+    /// folder of dumps.
     dir: PathBuf,
     /// The folder holds dumps (.npy) of runs of this scene.
     #[arg(long, value_name = "FILE")]
     scene: Option<PathBuf>,
     /// Take the thresholds, the title and the plot settings from this sweep file from now on. The
-    /// scene, the axes and the seeds must be those that were run. With --scene, the thresholds only.
+    /// scene, the axes and the seeds must be those that were run. With --scene, the thresholds
+    /// only.
     #[arg(long, value_name = "FILE")]
     sweep: Option<PathBuf>,
     /// Records to read at the same time [default: all cores].

@@ -17,8 +17,8 @@ pub(super) fn make(folder: &Path) -> Result<(), Failure> {
     })
 }
 
-/// Refuses to write over a file that does not begin with `signature`, as far as it goes: it is something other
-/// than `kind`, which the command would write there.
+/// Refuses to write over a file that does not begin with `signature`, as far as it goes: it is
+/// something other than `kind`, which the command would write there.
 pub(super) fn refuse_to_replace(path: &Path, kind: &str, signature: &[u8]) -> Result<(), Failure> {
     let Ok(file) = File::open(path) else {
         return Ok(());

@@ -83,8 +83,8 @@ fn is_sweep(file: &Path) -> bool {
         .any(|key| table.contains_key(*key))
 }
 
-/// Whether a file is a study of stability rather than a sweep: it has keys of its own, or it could be
-/// both and its steps are too long for a sweep.
+/// Whether a file is a study of stability rather than a sweep: it has keys of its own, or it could
+/// be both and its steps are too long for a sweep.
 pub(super) fn is_study(file: &Path) -> bool {
     let table = keys(file);
     let has = |names: &[&str]| names.iter().any(|key| table.contains_key(*key));

@@ -12,8 +12,8 @@ use phase::sweep::{Folder, FolderError, Sweep, parse_point};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Draw the figures of a results folder, as SVG and PNG, from its labels.csv and records, or those of
-/// the record of one run: the tracks of its spheres, the ledger of its energy.
+/// Draw the figures of a results folder, as SVG and PNG, from its labels.csv and records, or those
+/// of the record of one run: the tracks of its spheres, the ledger of its energy.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: what can be drawn of a folder, and one of it
@@ -29,19 +29,20 @@ pub(crate) struct Arguments {
     /// A results folder of `phase sweep`, a folder that holds several, or a record (.h5).
     #[arg(required_unless_present = "list")]
     dir: Option<PathBuf>,
-    /// A figure to draw; may be given several times [default: phase and settle-time of a tank's folder,
-    /// phase and discharge-rate of a silo's, of a record what it holds of tracks and ledger].
+    /// A figure to draw; may be given several times [default: phase and settle-time of a tank's
+    /// folder, phase and discharge-rate of a silo's, of a record what it holds of tracks and
+    /// ledger].
     #[arg(short, long, value_name = "NAME", value_delimiter = ',')]
     figure: Vec<String>,
-    /// A point of the grid, such as `radius=0.003,omega=6`, and if you like `seed=2`, for figures of
-    /// single runs; may be given several times.
+    /// A point of the grid, such as `radius=0.003,omega=6`, and if you like `seed=2`, for figures
+    /// of single runs; may be given several times.
     #[arg(short, long = "point", value_name = "POINT", requires = "figure")]
     points: Vec<String>,
     /// Folder for the figures [default: the results folder, or that of the record].
     #[arg(short, long, value_name = "DIR", conflicts_with = "list")]
     out: Option<PathBuf>,
-    /// Print the names of all figures, or of those that can be drawn of DIR, and what they show; draw
-    /// nothing.
+    /// Print the names of all figures, or of those that can be drawn of DIR, and what they show;
+    /// draw nothing.
     #[arg(short, long)]
     list: bool,
     /// Print the result as one JSON object (docs/json.md) instead of text.

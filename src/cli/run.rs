@@ -70,15 +70,15 @@ pub(crate) struct Arguments {
     /// Time between snapshots of all spheres (s); 0 for none but the last.
     #[arg(long, value_name = "SECONDS")]
     snapshot_interval: Option<f64>,
-    /// Go on from the checkpoint that an interrupted run of this record left; without one start from the
-    /// beginning.
+    /// Go on from the checkpoint that an interrupted run of this record left; without one start
+    /// from the beginning.
     #[arg(short, long)]
     resume: bool,
     /// Time between two checkpoints (s); 0 for one at every frame [default: 120].
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     checkpoint_interval: Option<Duration>,
-    /// Threads for the one simulation. Pays from 4096 spheres on, none of which come or go; fewer stay on one.
-    /// The bits do not depend on it.
+    /// Threads for the one simulation. Pays from 4096 spheres on, none of which come or go; fewer
+    /// stay on one. The bits do not depend on it.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = threads)]
     threads: usize,
     /// Print the result as one JSON object (docs/json.md) instead of text.
@@ -176,8 +176,8 @@ fn lock(record: &Path) -> Result<Lock, Failure> {
     })
 }
 
-/// Writes the record, into its folder made anew if somebody removed it. Where that fails, what is left
-/// of the run is its latest checkpoint. The record loses its states if it need not keep them.
+/// Writes the record, into its folder made anew if somebody removed it. Where that fails, what is
+/// left of the run is its latest checkpoint. The record loses its states if it need not keep them.
 fn write(
     record: &mut RunRecord,
     path: &Path,

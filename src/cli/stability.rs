@@ -15,8 +15,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
-/// Try integrators over two keys of a scene, such as time step and stiffness: a phase diagram of the
-/// numerics.
+/// Try integrators over two keys of a scene, such as time step and stiffness: a phase diagram of
+/// the numerics.
 ///
 /// Every point is labelled stable, energy-gain, lost-sphere or not-a-number, and the figure has the
 /// theoretical limit of the time step over it. The step may be above the limit at which scenes are

@@ -9,8 +9,8 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// Say how far a sweep is: jobs done, failed and left, how far runs with a checkpoint are, and the time
-/// left.
+/// Say how far a sweep is: jobs done, failed and left, how far runs with a checkpoint are, and the
+/// time left.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: all sweeps in ./results

@@ -126,7 +126,8 @@ fn try_job(job: &Job, budget: Duration, leaves: Leaves) -> Result<Trial, Forecas
         id: job.id.clone(),
         source,
     };
-    // The rest of the budget is for runs that end, since only these tell the size of a whole record.
+    // The rest of the budget is for runs that end, since only these tell the size of a whole
+    // record.
     let cost = RunCost::measure(&job.scene, budget / 2).map_err(failed)?;
     let disk = match (leaves, cost.whole) {
         (Leaves::Nothing, _) => 0.0,

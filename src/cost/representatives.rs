@@ -14,8 +14,9 @@ pub(super) struct Representative<'a> {
     pub(super) work: u64,
 }
 
-/// The jobs at the corners and in the middle of the grid, of the first seed and each integrator. The others, of all seeds,
-/// are shared out among them: each to the nearest, counted in steps of the grid over its width.
+/// The jobs at the corners and in the middle of the grid, of the first seed and each integrator.
+/// The others, of all seeds, are shared out among them: each to the nearest, counted in steps of
+/// the grid over its width.
 pub(super) fn representatives(jobs: &[Job]) -> Vec<Representative<'_>> {
     let (Some(first), Some(last)) = (jobs.first(), jobs.last()) else {
         return Vec::new();
@@ -141,13 +142,13 @@ mod tests {
         let steps: u64 = chosen.iter().map(|it| it.work).sum();
         assert_eq!(steps, 9 * 9 * 3 * 3 * 1000);
         assert_eq!(chosen.iter().map(|it| it.jobs).sum::<usize>(), 9 * 9 * 3);
-        // The middle has those less than four steps away, 1 + 4 + 8 + 12 points; at four steps corners
-        // are as near, and come first.
+        // The middle has those less than four steps away, 1 + 4 + 8 + 12 points; at four steps
+        // corners are as near, and come first.
         assert_eq!(chosen[4].jobs, 25 * 3);
     }
 
-    /// Symptom: the forecast of a study depended on the order of its integrators. Cause: jobs of all of them
-    /// were given to the first.
+    /// Symptom: the forecast of a study depended on the order of its integrators. Cause: jobs of
+    /// all of them were given to the first.
     #[test]
     fn jobs_of_an_integrator_stand_for_its_own() {
         let mut jobs = Vec::new();

@@ -37,8 +37,8 @@ impl Tried<'_> {
 }
 
 impl<'a> SweepCost<'a> {
-    /// Measures the jobs at the corners and in the middle of the grid one after the other, with so much
-    /// processor time for all of them. Each stands for the jobs nearest to it.
+    /// Measures the jobs at the corners and in the middle of the grid one after the other, with so
+    /// much processor time for all of them. Each stands for the jobs nearest to it.
     ///
     /// # Errors
     /// If a job cannot be run.

@@ -87,8 +87,8 @@ impl Columns {
         } else {
             let eight = |column: &[f64]| f64x8::from_slice(simd, column);
             let (x, y, z) = (eight(first), eight(second), eight(third));
-            // With a number of no meaning: a row whose last one is known would be written in pieces, which takes
-            // longer, and longer still to read them as one.
+            // With a number of no meaning: a row whose last one is known would be written in
+            // pieces, which takes longer, and longer still to read them as one.
             let (low, more_low) = (x.zip_low(z), y.zip_low(y));
             let (high, more_high) = (x.zip_high(z), y.zip_high(y));
             let (a, b) = low.zip_low(more_low).split();
@@ -100,8 +100,8 @@ impl Columns {
     }
 }
 
-/// Rows as columns, without their fourth numbers. Spelled out, as closures given to array methods would be
-/// calls of functions that are compiled without these vectors.
+/// Rows as columns, without their fourth numbers. Spelled out, as closures given to array methods
+/// would be calls of functions that are compiled without these vectors.
 #[inline(always)]
 pub(in crate::dem) fn turned<S: Simd>(row: impl Fn(usize) -> f64x4<S>) -> [f64x8<S>; 3] {
     let (a, b, c, d) = (row(0), row(1), row(2), row(3));

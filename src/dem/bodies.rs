@@ -1,5 +1,5 @@
-//! Spheres in blocks, one column per quantity: what acts on single spheres is computed for all of a block at
-//! once.
+//! Spheres in blocks, one column per quantity: what acts on single spheres is computed for all of a
+//! block at once.
 
 use super::block::{BLOCK, Column, Columns, ROWS, row};
 use super::neighbours::Reference;

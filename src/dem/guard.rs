@@ -10,7 +10,8 @@ use crate::simulation::{Guard, Instability};
 pub(super) struct Limits {
     /// Largest overlap, in radii of the smaller partner.
     pub(super) overlap: f64,
-    /// A sphere none of whose components of velocity is beyond this is slow enough, whichever it is (m/s).
+    /// A sphere none of whose components of velocity is beyond this is slow enough, whichever it is
+    /// (m/s).
     pub(super) slow: f64,
     displacement: f64,
     horizontal: f64,
@@ -75,7 +76,8 @@ impl Limits {
         self.displacement * radius / dt
     }
 
-    /// Refuses positions that are not a number or out of bounds, and spins whose squares are not finite.
+    /// Refuses positions that are not a number or out of bounds, and spins whose squares are not
+    /// finite.
     pub(super) fn check_positions(
         &self,
         particles: &Particles,
@@ -123,8 +125,8 @@ impl Limits {
         })
     }
 
-    /// The first sphere that is too fast for its limit, of those with these velocities and radii; their indices
-    /// begin at `first`.
+    /// The first sphere that is too fast for its limit, of those with these velocities and radii;
+    /// their indices begin at `first`.
     pub(super) fn first_too_fast(
         &self,
         first: usize,

@@ -9,8 +9,8 @@ use super::system::{Engine, Parts, System};
 use super::timestep;
 use crate::scene::{Contact, Friction, Scene};
 
-/// The engine compiled for the scene's contact and friction. Each pair of laws costs time to compile,
-/// so only those are here that go together.
+/// The engine compiled for the scene's contact and friction. Each pair of laws costs time to
+/// compile, so only those are here that go together.
 pub(super) fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
     fn boxed<N: NormalLaw, T: TangentialLaw>(
         normal: N,

@@ -27,12 +27,12 @@ pub fn exp(x: f64) -> f64 {
     }
 }
 
-/// 1 / sqrt(x), within 2 units in the last place for 1e-290 < x < 1e290; that of zero is a large number, whose
-/// product with zero is zero.
+/// 1 / sqrt(x), within 2 units in the last place for 1e-290 < x < 1e290; that of zero is a large
+/// number, whose product with zero is zero.
 ///
-/// Four steps of Newton's method from a guess that halves the exponent (Lomont (2003), for double precision). A
-/// processor finds roots and quotients one after the other, while it multiplies many numbers at once: a loop over
-/// contacts is faster for it.
+/// Four steps of Newton's method from a guess that halves the exponent (Lomont (2003), for double
+/// precision). A processor finds roots and quotients one after the other, while it multiplies many
+/// numbers at once: a loop over contacts is faster for it.
 #[inline(always)]
 pub fn inverse_square_root(x: f64) -> f64 {
     const GUESS: u64 = 0x5fe6_eb50_c7b5_37a9;
@@ -46,7 +46,8 @@ pub fn inverse_square_root(x: f64) -> f64 {
     root
 }
 
-/// The series up to r^13, in pairs of pairs (Estrin (1960)): Horner's way would be to wait for every term.
+/// The series up to r^13, in pairs of pairs (Estrin (1960)): Horner's way would be to wait for
+/// every term.
 #[inline(always)]
 fn series(r: f64) -> f64 {
     const C: [f64; 14] = INVERSE_FACTORIALS;

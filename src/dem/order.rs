@@ -1,18 +1,19 @@
 //! The order of many spheres in memory: near in space, near in memory.
 //!
 //! A pair fetches its partners from memory. Where spheres stand in the order of a scene that was
-//! filled at random, partners are anywhere, and a bed of 55,000 spheres takes three times as long per
-//! sphere as one of 256, whose spheres are all at hand. So spheres of large scenes are sorted by cells
-//! as wide as the largest of them, and again when they have mixed.
+//! filled at random, partners are anywhere, and a bed of 55,000 spheres takes three times as long
+//! per sphere as one of 256, whose spheres are all at hand. So spheres of large scenes are sorted
+//! by cells as wide as the largest of them, and again when they have mixed.
 //!
-//! The order of indices is that in which forces are summed up. So it must follow from the motion alone:
-//! spheres are looked at after fixed numbers of steps, and their order is part of a checkpoint.
+//! The order of indices is that in which forces are summed up. So it must follow from the motion
+//! alone: spheres are looked at after fixed numbers of steps, and their order is part of a
+//! checkpoint.
 
 use super::particles::Particles;
 use super::vector::Vector;
 
-/// Spheres from which on they are sorted. Fewer fit into the caches of a processor, and keep the order of
-/// the scene.
+/// Spheres from which on they are sorted. Fewer fit into the caches of a processor, and keep the
+/// order of the scene.
 pub const MANY: usize = 4096;
 
 /// Steps between two looks at the order.
@@ -21,16 +22,16 @@ pub(super) const INTERVAL: u64 = 250;
 /// Spheres are sorted anew when one of so many stands in a cell before that of the one before it.
 const TOLERATED: usize = 64;
 
-/// Rows of cells side by side that are gone through layer by layer, before the next ones: what a layer of
-/// so few rows holds is still in the cache when the layer above it asks for it.
+/// Rows of cells side by side that are gone through layer by layer, before the next ones: what a
+/// layer of so few rows holds is still in the cache when the layer above it asks for it.
 const ROWS: u64 = 16;
 
 /// Cells along an axis; spheres beyond share the last one.
 const MOST: u64 = (1 << 20) - 1;
 
-/// The indices of all spheres in a new order; none while the present order is good enough. Fixed spheres
-/// keep their places. Spheres of one cell are sorted by their coordinates, so that the order does not
-/// depend on how the scene numbers them.
+/// The indices of all spheres in a new order; none while the present order is good enough. Fixed
+/// spheres keep their places. Spheres of one cell are sorted by their coordinates, so that the
+/// order does not depend on how the scene numbers them.
 pub(super) fn found_anew(particles: &Particles) -> Option<Vec<u32>> {
     let moving = particles.fixed..particles.len();
     let position = &particles.position;

@@ -11,8 +11,8 @@ pub struct Particles {
     /// How many of the spheres, the first ones, never move.
     pub fixed: usize,
     /// Number of each sphere in the scene, counted from 0, fixed ones by themselves; empty where no
-    /// sphere comes or goes and there are fewer than [`MANY`](super::order::MANY), which makes numbers
-    /// and indices the same.
+    /// sphere comes or goes and there are fewer than [`MANY`](super::order::MANY), which makes
+    /// numbers and indices the same.
     pub number: Vec<u32>,
     /// Centres (m).
     pub position: Vec<Vector>,
@@ -170,8 +170,8 @@ impl Particles {
         }
     }
 
-    /// The least index of a partner that sphere `i` may have in a list of pairs: pairs stand with the
-    /// lower index first, and two fixed spheres are none.
+    /// The least index of a partner that sphere `i` may have in a list of pairs: pairs stand with
+    /// the lower index first, and two fixed spheres are none.
     #[inline]
     pub(super) fn first_partner(&self, i: usize) -> usize {
         (i + 1).max(self.fixed)

@@ -35,7 +35,8 @@ pub enum Part {
     Kick,
     /// Moving spheres by their velocities.
     Drift,
-    /// What a step does besides: forces cleared, groups of touching spheres and their sub-steps, velocities foretold.
+    /// What a step does besides: forces cleared, groups of touching spheres and their sub-steps,
+    /// velocities foretold.
     Rest,
     /// Feed, door, outlet, and the watches over them.
     Process,

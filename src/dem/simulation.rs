@@ -43,8 +43,8 @@ pub struct Simulation {
     pub(super) engine: Box<dyn Engine>,
     /// Absent where no sphere comes or goes.
     pub(super) process: Option<Process>,
-    /// Radius (m), mass (kg) and moment of inertia (kg m2) of every sphere of the scene, those included that are not
-    /// in yet; empty where all are alike and sorted.
+    /// Radius (m), mass (kg) and moment of inertia (kg m2) of every sphere of the scene, those
+    /// included that are not in yet; empty where all are alike and sorted.
     pub(super) radius: Vec<f64>,
     pub(super) mass: Vec<f64>,
     pub(super) inertia: Vec<f64>,
@@ -206,8 +206,8 @@ impl Simulation {
         self.engine.use_baseline_instructions();
     }
 
-    /// Advances on so many threads from now on, where it pays: in scenes of [`MANY`](order::MANY) spheres or
-    /// more, where none comes or goes. The bits do not depend on it.
+    /// Advances on so many threads from now on, where it pays: in scenes of [`MANY`](order::MANY)
+    /// spheres or more, where none comes or goes. The bits do not depend on it.
     ///
     /// # Errors
     /// If the system gives no threads.
@@ -226,9 +226,9 @@ impl Simulation {
             .sum()
     }
 
-    /// The spheres that are in the simulation, the fixed ones first. The order of the others is that of
-    /// the scene while there are fewer than [`MANY`](order::MANY) or spheres come and go, else that of
-    /// their places: see [`number`](Particles::number).
+    /// The spheres that are in the simulation, the fixed ones first. The order of the others is
+    /// that of the scene while there are fewer than [`MANY`](order::MANY) or spheres come and go,
+    /// else that of their places: see [`number`](Particles::number).
     pub fn particles(&self) -> &Particles {
         self.engine.particles()
     }

@@ -210,8 +210,8 @@ impl Room {
         })
     }
 
-    /// A random place, uniform in the box that holds the room: within sides one that keeps a sphere of
-    /// that radius (m) off them.
+    /// A random place, uniform in the box that holds the room: within sides one that keeps a sphere
+    /// of that radius (m) off them.
     fn place(&self, radius: f64, random: &mut impl Rng) -> Vector {
         let [x, y] = match self.is_round {
             true => self.reach,

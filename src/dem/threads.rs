@@ -3,8 +3,8 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// How long a thread that is done looks whether the others are: about what it takes to wake one that went to sleep
-/// instead, of which a step of a few thousand spheres would have several.
+/// How long a thread that is done looks whether the others are: about what it takes to wake one
+/// that went to sleep instead, of which a step of a few thousand spheres would have several.
 const PATIENCE: Duration = Duration::from_micros(200);
 
 /// Does the work of each item, on the threads of the pool that runs this, if one does.
@@ -19,7 +19,8 @@ pub(in crate::dem) fn in_parallel<I: Send>(items: &mut [I], work: &(impl Fn(&mut
         begun.fetch_add(1, Ordering::Relaxed);
         work(item);
         done.fetch_add(1, Ordering::Relaxed);
-        // Nothing but time depends on these numbers. While an item has not begun, there is work to be found.
+        // Nothing but time depends on these numbers. While an item has not begun, there is work to
+        // be found.
         let since = Instant::now();
         while begun.load(Ordering::Relaxed) == all
             && done.load(Ordering::Relaxed) < all

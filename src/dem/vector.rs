@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
-/// A vector in space. In memory it is a row of four numbers, which a processor takes and adds up in one go.
+/// A vector in space. In memory it is a row of four numbers, which a processor takes and adds up in
+/// one go.
 #[derive(Clone, Copy, Default, Serialize, Deserialize)]
 #[repr(C, align(32))]
 pub struct Vector {

@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 ///
 /// What refers to the axis (hole, rotation, fluctuation) is measured in a round tank or in swirling
 /// air; the speed of the air in swirling air; elastic energy where there are contacts; flow where
-/// spheres come and go; the energy ledger on request. Sums run over the spheres in the order of their indices, so equal states give equal bits.
+/// spheres come and go; the energy ledger on request. Sums run over the spheres in the order of
+/// their indices, so equal states give equal bits.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Observer {
     /// Components of gravity along x and z, 0 without it (m/s2).

@@ -32,8 +32,8 @@ impl Animation {
         }
     }
 
-    /// The animation as a PNG file (APNG), with texts (keyword, text) in its metadata. Programs that
-    /// know no animations show the first picture.
+    /// The animation as a PNG file (APNG), with texts (keyword, text) in its metadata. Programs
+    /// that know no animations show the first picture.
     ///
     /// # Errors
     /// What the encoder says, of a picture without pixels, say.

@@ -205,8 +205,8 @@ impl Shader<'_> {
         if inside { GLASS } else { PAPER }
     }
 
-    /// Whether the ray through that point leaves the box between plane sides, on its way from the viewer,
-    /// through one of them, or would through one of those below if it looks straight down.
+    /// Whether the ray through that point leaves the box between plane sides, on its way from the
+    /// viewer, through one of them, or would through one of those below if it looks straight down.
     fn is_before_side(&self, origin: Vector) -> bool {
         let near = self.view.rays.axes[2];
         let [low, high] = self.stage.seen;

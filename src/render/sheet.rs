@@ -48,7 +48,8 @@ impl Sheet {
         panel::panel(&views, width, caption)
     }
 
-    /// Height of a picture of `count` panels of that width (pixels), with so many lines of a caption.
+    /// Height of a picture of `count` panels of that width (pixels), with so many lines of a
+    /// caption.
     pub fn height(&self, count: usize, lines: usize, width: usize) -> usize {
         let words = Words::new(self, count, width);
         let panel = panel::height(&self.stage, self.flat.is_some(), lines, width);

@@ -45,7 +45,8 @@ impl Stage {
         }
     }
 
-    /// The stage with plane sides that far from the axis along x and along y (m), where there are any.
+    /// The stage with plane sides that far from the axis along x and along y (m), where there are
+    /// any.
     #[must_use]
     pub fn with_sides(mut self, sides: [Option<f64>; 2]) -> Self {
         self.sides = sides;
@@ -62,8 +63,8 @@ impl Stage {
         self.sides.iter().any(Option::is_some)
     }
 
-    /// Least and largest x, and the same of y, of what plane sides bound (m): where there are none, of
-    /// what is seen.
+    /// Least and largest x, and the same of y, of what plane sides bound (m): where there are none,
+    /// of what is seen.
     pub(super) fn between_sides(&self) -> [[f64; 2]; 2] {
         [0, 1].map(|axis| {
             let seen = [self.seen[0][axis], self.seen[1][axis]];

@@ -5,8 +5,8 @@ use crate::fonts;
 use crate::markup::escape;
 use resvg::{tiny_skia, usvg};
 
-/// SVG elements, with letters that are part of the program, in a white picture of that size. What is
-/// too large to be drawn stays white.
+/// SVG elements, with letters that are part of the program, in a white picture of that size. What
+/// is too large to be drawn stays white.
 pub(super) fn drawing(elements: &str, width: usize, height: usize) -> Image {
     let mut image = Image::white(width, height);
     if let Some(pixels) = draw(elements, width, height) {

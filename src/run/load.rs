@@ -69,8 +69,8 @@ impl Reading {
     };
 }
 
-/// The scene that a tree of values describes, as [`Scene::load_base`] returns it; files it names are
-/// relative to `folder`.
+/// The scene that a tree of values describes, as [`Scene::load_base`] returns it; files it names
+/// are relative to `folder`.
 pub(crate) fn base_of_tree(
     tree: &Value,
     folder: &Path,

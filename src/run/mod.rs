@@ -170,7 +170,8 @@ impl Run {
         self.look();
     }
 
-    /// Advances on that many threads from now on, where it pays. No bit of the record depends on it.
+    /// Advances on that many threads from now on, where it pays. No bit of the record depends on
+    /// it.
     ///
     /// # Errors
     /// If the system gives no threads.
@@ -287,8 +288,8 @@ impl Run {
 mod tests {
     use super::*;
 
-    /// Symptom: a run that was asked for the last snapshot alone stored the first one too. Cause: frame 0 is a
-    /// multiple of any number.
+    /// Symptom: a run that was asked for the last snapshot alone stored the first one too. Cause:
+    /// frame 0 is a multiple of any number.
     #[test]
     fn snapshots_are_those_that_are_asked_for() {
         let times = |interval: f64| {

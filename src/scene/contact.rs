@@ -41,8 +41,8 @@ pub enum Contact {
         #[schemars(transform = quantity("c", "", "factor of the dissipative term").above(0.0))]
         dissipation_factor: f64,
     },
-    /// Spring and dashpot, both linear (Cundall and Strack, 1979; Remmers, 2009): F = k delta + b times
-    /// the rate of the overlap. Attractive at the end of a contact.
+    /// Spring and dashpot, both linear (Cundall and Strack, 1979; Remmers, 2009): F = k delta + b
+    /// times the rate of the overlap. Attractive at the end of a contact.
     Linear {
         /// Spring constant k (N/m).
         #[schemars(transform = quantity("k", "N/m", "spring constant of a contact").above(0.0))]
@@ -54,8 +54,9 @@ pub enum Contact {
         #[serde(default)]
         drag: ContactDrag,
     },
-    /// Hertzian spring and a dashpot that grows with the masses (Silbert et al., 2001; `gran/hertz/history`
-    /// of LAMMPS): F = sqrt(R_eff xi) (k_n xi + gamma_n m_eff dxi/dt). Attractive at the end of a contact.
+    /// Hertzian spring and a dashpot that grows with the masses (Silbert et al., 2001;
+    /// `gran/hertz/history` of LAMMPS): F = sqrt(R_eff xi) (k_n xi + gamma_n m_eff dxi/dt).
+    /// Attractive at the end of a contact.
     Silbert {
         /// Stiffness k_n (Pa).
         #[schemars(transform = quantity("k", "Pa", "spring constant of a contact").above(0.0))]
@@ -75,8 +76,8 @@ pub enum ContactDrag {
     /// The part along the line of centres.
     #[default]
     Normal,
-    /// All of it (Remmers, 2009), which also slows spheres that slide along each other. Spins do not
-    /// count.
+    /// All of it (Remmers, 2009), which also slows spheres that slide along each other. Spins do
+    /// not count.
     Whole,
 }
 
@@ -120,9 +121,9 @@ pub enum Friction {
         #[schemars(transform = quantity("μ", "", "coefficient of friction").at_least(0.0))]
         coefficient: f64,
     },
-    /// A history spring sqrt(R_eff xi) k_t by increments and a dashpot sqrt(R_eff xi) gamma_t m_eff, together
-    /// capped at mu F_n (Silbert et al., 2001); needs the silbert contact. The spring keeps its force, where
-    /// LAMMPS keeps the displacement.
+    /// A history spring sqrt(R_eff xi) k_t by increments and a dashpot sqrt(R_eff xi) gamma_t
+    /// m_eff, together capped at mu F_n (Silbert et al., 2001); needs the silbert contact. The
+    /// spring keeps its force, where LAMMPS keeps the displacement.
     Silbert {
         /// Coefficient mu.
         #[schemars(transform = quantity("μ", "", "coefficient of friction").at_least(0.0))]

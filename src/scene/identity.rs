@@ -3,9 +3,9 @@
 use super::{Neighbours, Output, Scene};
 
 impl Scene {
-    /// Sixteen hexadecimal digits that stand for everything which determines the
-    /// motion: all keys but `title`, `neighbours` and `output`. Runs of equal identity have equal bits, and
-    /// every random number of a run derives from it.
+    /// Sixteen hexadecimal digits that stand for everything which determines the motion: all keys
+    /// but `title`, `neighbours` and `output`. Runs of equal identity have equal bits, and every
+    /// random number of a run derives from it.
     pub fn identity(&self) -> String {
         let scene = Scene {
             title: None,

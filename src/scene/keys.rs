@@ -35,8 +35,8 @@ pub struct Notation {
 impl Scene {
     /// Paths of the keys that a sweep may vary: the numeric ones in the tables that this scene has,
     /// set or left to their defaults. Without `seed`, which has its own table in a sweep, without
-    /// the keys of `output`, which change nothing, and without entries of lists, which may be varied
-    /// too (`spheres.radius[1].share`).
+    /// the keys of `output`, which change nothing, and without entries of lists, which may be
+    /// varied too (`spheres.radius[1].share`).
     pub fn numeric_keys(&self) -> Vec<String> {
         let keys = self.for_keys(&[]).all_numeric_keys().into_iter();
         keys.map(|key| key.path)

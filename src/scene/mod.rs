@@ -81,8 +81,8 @@ pub struct Scene {
     /// The silo's door, which opens once. Absent: it stays closed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub door: Option<Door>,
-    /// When the spheres count as at rest. With it a run ends as soon as they are, all are in, and no
-    /// door is left to open. Absent: a run ends at its duration, or when all spheres have left.
+    /// When the spheres count as at rest. With it a run ends as soon as they are, all are in, and
+    /// no door is left to open. Absent: a run ends at its duration, or when all spheres have left.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rest: Option<Rest>,
     /// Where spheres leave the simulation. Absent: nowhere.

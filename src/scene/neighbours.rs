@@ -15,17 +15,19 @@ pub enum Neighbours {
     VerletList,
     /// Every sphere against every other in every step: time grows with the square of their number.
     AllPairs,
-    /// Square cells, filled anew in every step: a sphere can only touch those in its own cell and in
-    /// the cells about it (Remmers, 2009).
+    /// Square cells, filled anew in every step: a sphere can only touch those in its own cell and
+    /// in the cells about it (Remmers, 2009).
     Cells {
-        /// Side L of a cell (m), at least the largest sum of the radii of two spheres that may touch.
+        /// Side L of a cell (m), at least the largest sum of the radii of two spheres that may
+        /// touch.
         #[schemars(transform = length("L", "side of a cell"))]
         length: f64,
     },
-    /// The same with the cells in a chained hash table, which takes memory for spheres alone however
-    /// far apart they are: for domains without bounds.
+    /// The same with the cells in a chained hash table, which takes memory for spheres alone
+    /// however far apart they are: for domains without bounds.
     HashedCells {
-        /// Side L of a cell (m), at least the largest sum of the radii of two spheres that may touch.
+        /// Side L of a cell (m), at least the largest sum of the radii of two spheres that may
+        /// touch.
         #[schemars(transform = length("L", "side of a cell"))]
         length: f64,
     },

@@ -31,8 +31,8 @@ pub struct RadiusShare {
     /// Radius (m).
     #[schemars(transform = length("", ""))]
     pub radius: f64,
-    /// Relative share of the number of spheres; shares need not add up to one, and may be 0, but not
-    /// all of them.
+    /// Relative share of the number of spheres; shares need not add up to one, and may be 0, but
+    /// not all of them.
     #[schemars(transform = unit("").at_least(0.0))]
     pub share: f64,
 }

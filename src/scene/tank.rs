@@ -13,13 +13,13 @@ pub struct Tank {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = length("R", "radius of the tank"))]
     pub radius: Option<f64>,
-    /// Distance of two plane walls across x (m), at x = -width/2 and width/2; excludes `radius`. Absent:
-    /// none.
+    /// Distance of two plane walls across x (m), at x = -width/2 and width/2; excludes `radius`.
+    /// Absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = length("W", "width of the tank"))]
     pub width: Option<f64>,
-    /// Distance of two plane walls across y (m), at y = -depth/2 and depth/2; excludes `radius`. Absent:
-    /// none.
+    /// Distance of two plane walls across y (m), at y = -depth/2 and depth/2; excludes `radius`.
+    /// Absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = length("W_y", "depth of the tank"))]
     pub depth: Option<f64>,
@@ -30,8 +30,8 @@ pub struct Tank {
 }
 
 impl Tank {
-    /// How far from the axis its walls are along x and along y (m): the radius, or half of width and
-    /// depth. None where there is no wall.
+    /// How far from the axis its walls are along x and along y (m): the radius, or half of width
+    /// and depth. None where there is no wall.
     pub fn reach(&self) -> [Option<f64>; 2] {
         [self.width, self.depth].map(|side| self.radius.or(side.map(|side| 0.5 * side)))
     }

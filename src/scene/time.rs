@@ -56,8 +56,9 @@ pub enum Integrator {
     /// Velocity Verlet, forces at the half-step velocity: second order without
     /// velocity-dependent forces, first order with them.
     VelocityVerlet,
-    /// Velocity Verlet with forces from places and velocities of one moment, the middle of the step:
-    /// second order, and no sticking between spheres of very different sizes (Vyas et al., 2025).
+    /// Velocity Verlet with forces from places and velocities of one moment, the middle of the
+    /// step: second order, and no sticking between spheres of very different sizes (Vyas et al.,
+    /// 2025).
     SynchronisedVerlet,
     /// The same with sub-steps for spheres that touch, as many as their impacts need: the time step
     /// has to resolve all but the contacts.

@@ -42,8 +42,8 @@ pub struct FrameView<'a> {
     pub elastic_energy: f64,
     /// Where the energy went; absent if the scene's output does not ask for it.
     pub ledger: Option<Ledger>,
-    /// Number of each sphere among all of the scene, counted from 0, in rising order; absent where none comes or
-    /// goes.
+    /// Number of each sphere among all of the scene, counted from 0, in rising order; absent where
+    /// none comes or goes.
     pub number: Option<&'a [u32]>,
     /// How spheres come and go; absent where none does.
     pub flow: Option<Flow>,
@@ -148,8 +148,8 @@ impl Rows {
                 let sphere = block.number.map_or(first + at, |it| it[at] as usize);
                 for (axis, component) in components.iter().enumerate() {
                     let (entry, value) = (&mut rows[[sphere, axis]], component[at]);
-                    // What is zero already is left alone: memory that was never written takes none, and many
-                    // spheres start at rest.
+                    // What is zero already is left alone: memory that was never written takes none,
+                    // and many spheres start at rest.
                     if entry.to_bits() != value.to_bits() {
                         *entry = value;
                     }

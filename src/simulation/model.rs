@@ -106,8 +106,8 @@ pub trait Simulation {
     /// Begins to measure what the parts of a step take. Never changes the motion.
     fn keep_profile(&mut self) {}
 
-    /// What was measured since [`keep_profile`](Self::keep_profile); none from a model that does not
-    /// measure.
+    /// What was measured since [`keep_profile`](Self::keep_profile); none from a model that does
+    /// not measure.
     fn profile(&self) -> Option<&Profile> {
         None
     }

@@ -16,8 +16,8 @@ pub struct PartOfStep {
 /// A profile of a running engine.
 ///
 /// The total is the processor time of the thread. How it divides into parts is found in some of the
-/// steps, in which the clock is read between the parts; the others run as they always do. What reading the
-/// clock takes is left out of all times.
+/// steps, in which the clock is read between the parts; the others run as they always do. What
+/// reading the clock takes is left out of all times.
 #[derive(Clone, Debug)]
 pub struct Profile {
     /// What one reading of the clock takes (s).
@@ -108,11 +108,11 @@ impl Profile {
     #[inline(never)]
     pub fn begin(&mut self, step: u64, spheres: usize) {
         self.work += spheres as u64;
-        // The clock is read a dozen times for 128 spheres, half a microsecond each, in a step of some 50 ns per
-        // sphere: with one step of 16 at most that adds some percent to it.
+        // The clock is read a dozen times for 128 spheres, half a microsecond each, in a step of
+        // some 50 ns per sphere: with one step of 16 at most that adds some percent to it.
         let period = (8192 / spheres.max(1) as u64).clamp(16, 256);
-        // Multiples of the golden ratio are spread evenly over any rhythm of steps, such as that of the
-        // neighbour list.
+        // Multiples of the golden ratio are spread evenly over any rhythm of steps, such as that of
+        // the neighbour list.
         let spread = (step + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
         self.latest = (spread < u64::MAX / period).then(|| {
             self.readings += 1;

@@ -53,11 +53,11 @@ impl Label {
 /// The largest energy that came out of nothing until a frame, over what there was to come from: the
 /// residual of the books over the larger of two energies.
 ///
-/// The first is the largest sum of the kinetic, rotational and elastic energies and of the tangential
-/// springs of the frames so far. An instability cannot hide behind its own growth: the sum then grows
-/// with the residual, and their ratio tends to 1. The second is the sum of m g r, what lifts each
-/// sphere by its radius: spheres at rest hold next to no energy, of which errors that nobody sees would
-/// be many times as much.
+/// The first is the largest sum of the kinetic, rotational and elastic energies and of the
+/// tangential springs of the frames so far. An instability cannot hide behind its own growth: the
+/// sum then grows with the residual, and their ratio tends to 1. The second is the sum of m g r,
+/// what lifts each sphere by its radius: spheres at rest hold next to no energy, of which errors
+/// that nobody sees would be many times as much.
 ///
 /// Zero if energy was only lost. Needs a record with the books of energy.
 pub fn energy_gain(record: &RunRecord) -> f64 {

@@ -38,7 +38,8 @@ pub(crate) struct StudyFile {
     /// Free text, the title of the figure.
     title: Option<String>,
     /// The scene that every run starts from: the path of its file, relative to this one, or the
-    /// scene itself in the tables `[scene.spheres]` and so on. Its time step may be above the limit.
+    /// scene itself in the tables `[scene.spheres]` and so on. Its time step may be above the
+    /// limit.
     #[schemars(with = "Scene", transform = or_path)]
     scene: Value,
     /// The two axes, any numeric keys of the scene: the horizontal one, then the vertical one.
@@ -46,13 +47,14 @@ pub(crate) struct StudyFile {
     /// The integrators, each of which runs at every point (default: all).
     #[serde(default = "all_integrators")]
     integrators: Vec<Integrator>,
-    /// Frames of a run, at which energies are looked at. A run lasts the scene's `duration`, rounded to
-    /// whole steps and frames, whatever its `frame_interval` says.
+    /// Frames of a run, at which energies are looked at. A run lasts the scene's `duration`,
+    /// rounded to whole steps and frames, whatever its `frame_interval` says.
     #[serde(default = "hundred")]
     #[schemars(range(min = 1))]
     frames: u64,
-    /// Energy out of nothing above which a run is labelled "energy gain", over the largest energy in
-    /// motion and contacts so far, or over what lifts every sphere by its radius, if that is more.
+    /// Energy out of nothing above which a run is labelled "energy gain", over the largest energy
+    /// in motion and contacts so far, or over what lifts every sphere by its radius, if that is
+    /// more.
     #[serde(default = "five_percent")]
     #[schemars(transform = unit("").above(0.0))]
     energy_gain: f64,

@@ -1,5 +1,5 @@
-//! Phase diagrams of the numerics: over any two keys of a scene, and for each integrator, whether its
-//! runs are stable, gain energy, lose a sphere, or end in what is not a number.
+//! Phase diagrams of the numerics: over any two keys of a scene, and for each integrator, whether
+//! its runs are stable, gain energy, lose a sphere, or end in what is not a number.
 //!
 //! A study differs from a sweep in that the time step may be above the limit at which scenes are
 //! refused: that is what it looks at. Nothing else that is wrong with a scene is let through.
@@ -59,8 +59,9 @@ impl Study {
         Ok(jobs)
     }
 
-    /// The scene that is run at a point with an integrator. It lasts the duration of the study's scene
-    /// but for rounding to whole steps and frames, keeps the books of energy, and stores nothing else.
+    /// The scene that is run at a point with an integrator. It lasts the duration of the study's
+    /// scene but for rounding to whole steps and frames, keeps the books of energy, and stores
+    /// nothing else.
     ///
     /// # Errors
     /// What is wrong with it, a time step above the limit excepted.
@@ -101,8 +102,8 @@ fn output() -> Output {
     }
 }
 
-/// Makes frames whole numbers of steps, and the duration a whole number of frames: about as many as are
-/// asked for, fewer if the step is longer than they are.
+/// Makes frames whole numbers of steps, and the duration a whole number of frames: about as many as
+/// are asked for, fewer if the step is longer than they are.
 fn fit_frames(time: &mut Time, frames: u64) {
     let steps = libm::round(time.duration / time.dt / frames as f64).max(1.0);
     let interval = steps * time.dt;
@@ -116,7 +117,8 @@ fn fit_frames(time: &mut Time, frames: u64) {
 pub struct Theory {
     /// The least of those that decide; none if nothing in the scene can become unstable.
     pub decisive: Option<Limit>,
-    /// That of a sphere with twelve contacts, which is advice; none with sub-steps or without contacts.
+    /// That of a sphere with twelve contacts, which is advice; none with sub-steps or without
+    /// contacts.
     pub twelve_contacts: Option<Limit>,
 }
 

@@ -91,8 +91,9 @@ pub struct Trials<'a> {
 const BETWEEN_WRITINGS: Duration = Duration::from_secs(5);
 
 impl Trials<'_> {
-    /// Makes the runs of which `known` has no row of the same identity, and keeps the table up to date,
-    /// and beside it which build made each row. Labels of known rows follow the study's threshold.
+    /// Makes the runs of which `known` has no row of the same identity, and keeps the table up to
+    /// date, and beside it which build made each row. Labels of known rows follow the study's
+    /// threshold.
     ///
     /// # Errors
     /// If the files cannot be read or written, or there are no threads.

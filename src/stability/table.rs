@@ -1,11 +1,12 @@
 //! `stability.csv`: what became of the runs of a study, one row per run.
 //!
-//! Columns: `integrator`, the axes by their names, `time_step` (s), `step_over_limit` and `limit` (both
-//! empty where nothing limits the step), `label`, `energy_gain`, `guard`, `step` and `sphere` (empty
-//! where no guard was broken), `id`.
+//! Columns: `integrator`, the axes by their names, `time_step` (s), `step_over_limit` and `limit`
+//! (both empty where nothing limits the step), `label`, `energy_gain`, `guard`, `step` and `sphere`
+//! (empty where no guard was broken), `id`.
 //!
-//! `stability.makers.csv` beside it: which build made each row, in the columns `id`, `version` and `commit`.
-//! It is a file of its own because the same study gives the same table, whatever build makes it.
+//! `stability.makers.csv` beside it: which build made each row, in the columns `id`, `version` and
+//! `commit`. It is a file of its own because the same study gives the same table, whatever build
+//! makes it.
 
 use super::{Label, Row};
 use crate::record::{Guard, Program};
@@ -57,8 +58,8 @@ pub fn write_stability<'a>(
     write_atomic(path, &bytes)
 }
 
-/// Reads the table of a study with these axes. There are no rows where there is no file, or where it
-/// is one of other axes.
+/// Reads the table of a study with these axes. There are no rows where there is no file, or where
+/// it is one of other axes.
 ///
 /// # Errors
 /// If the file cannot be read or is no such table.
@@ -128,7 +129,8 @@ fn parse(row: &csv::StringRecord, axes: usize) -> Option<Row> {
     })
 }
 
-/// The builds that made the rows of the table `table`, by the identities of their runs, are in this file.
+/// The builds that made the rows of the table `table`, by the identities of their runs, are in this
+/// file.
 fn makers_of(table: &Path) -> PathBuf {
     table.with_extension("makers.csv")
 }

@@ -25,8 +25,8 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
         .map_err(|error| StoreError::writing(path, error))
 }
 
-/// The same for one of many files that can be made again: it is not made durable, which takes longer
-/// than all the rest. After a crash of the machine, not of the program, it may be empty.
+/// The same for one of many files that can be made again: it is not made durable, which takes
+/// longer than all the rest. After a crash of the machine, not of the program, it may be empty.
 ///
 /// # Errors
 /// Those of [`write_atomic`].
@@ -230,8 +230,8 @@ mod tests {
         assert_eq!(mode("ours"), mode("ordinary"));
     }
 
-    /// Symptom: files `.phase-*.tmp` of killed commands stayed for ever. Cause: only a sweep removed
-    /// them, in its own folder.
+    /// Symptom: files `.phase-*.tmp` of killed commands stayed for ever. Cause: only a sweep
+    /// removed them, in its own folder.
     #[cfg(target_os = "linux")]
     #[test]
     fn what_the_dead_left_goes_when_somebody_writes_there() {

@@ -10,8 +10,9 @@
 //! ```
 //!
 //! Version, header and state are in the encoding of postcard, in which a number keeps all its bits,
-//! also one that is not a number. Only the very program that wrote a checkpoint reads it: another one
-//! might go on with other bits. Signature, version and checksum stay where they are in all versions.
+//! also one that is not a number. Only the very program that wrote a checkpoint reads it: another
+//! one might go on with other bits. Signature, version and checksum stay where they are in all
+//! versions.
 
 use super::StoreError;
 use super::atomic::write_atomic_with;
@@ -97,7 +98,8 @@ pub enum CheckpointError {
 struct Header {
     program_version: String,
     program_commit: String,
-    /// The resolved scene (JSON) without the spheres that its start lists: a million make a long text.
+    /// The resolved scene (JSON) without the spheres that its start lists: a million make a long
+    /// text.
     scene: String,
     /// Hash of these, as [`hash_of_list`] makes it.
     list: String,

@@ -20,7 +20,8 @@ impl<'a, W: Write> Hashed<'a, W> {
         }
     }
 
-    /// Ends the content after what somebody wrote, who may have failed: a mark follows it, then its hash.
+    /// Ends the content after what somebody wrote, who may have failed: a mark follows it, then its
+    /// hash.
     ///
     /// # Errors
     /// The failure of the file, or else of whoever wrote.

@@ -1,9 +1,9 @@
 //! `labels.csv`, one row per job, and `points.csv`, one row per point of the grid.
 //!
 //! Columns of `labels.csv`: `id`, the axes by their names, `seed`, `label`, its `code`, then the
-//! measures of the family by their names: of a tank `settle_time` and the fields of [`Evidence`] and
-//! [`OrderParameters`], of a silo those of [`SiloEvidence`] and [`SiloOrder`]. What is not known is
-//! empty. Numbers are written with as many digits as it takes to read back the same bits.
+//! measures of the family by their names: of a tank `settle_time` and the fields of [`Evidence`]
+//! and [`OrderParameters`], of a silo those of [`SiloEvidence`] and [`SiloOrder`]. What is not
+//! known is empty. Numbers are written with as many digits as it takes to read back the same bits.
 
 use super::{StoreError, write_atomic};
 use crate::classify::{

@@ -5,7 +5,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// The right to write to a place, given back when dropped, or when the process ends in whatever way.
+/// The right to write to a place, given back when dropped, or when the process ends in whatever
+/// way.
 #[derive(Debug)]
 pub struct Lock {
     file: File,
@@ -25,8 +26,8 @@ impl Lock {
         Ok(file.map(|file| Self { file, passing }))
     }
 
-    /// Takes the right to write a file, for which `.NAME.lock` beside it stands as long as somebody has
-    /// it. None if another process has it.
+    /// Takes the right to write a file, for which `.NAME.lock` beside it stands as long as somebody
+    /// has it. None if another process has it.
     ///
     /// # Errors
     /// Those of [`Lock::take`].
@@ -46,8 +47,8 @@ impl Lock {
         matches!(lock, Ok(Err(TryLockError::WouldBlock)))
     }
 
-    /// Gives the right back, and removes the file if it goes with it: before, so that nobody else can
-    /// have it under this name.
+    /// Gives the right back, and removes the file if it goes with it: before, so that nobody else
+    /// can have it under this name.
     fn give_back(&self) -> io::Result<()> {
         if let Some(path) = &self.passing {
             fs::remove_file(path)?;

@@ -1,4 +1,5 @@
-//! Files: run records (HDF5), checkpoints of runs, tables (CSV), states for other programs (XYZ, VTK, NPY, CSV, SVG, pages). One file per format, the only place that knows it.
+//! Files: run records (HDF5), checkpoints of runs, tables (CSV), states for other programs (XYZ,
+//! VTK, NPY, CSV, SVG, pages). One file per format, the only place that knows it.
 //!
 //! Whatever is written here appears whole or not at all (see [`write_atomic`]).
 

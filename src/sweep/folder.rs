@@ -130,7 +130,8 @@ impl Folder {
     /// Reads the record of the run with that identity.
     ///
     /// # Errors
-    /// Those of [`store::read_record`], or [`StoreError::OtherRun`] if the record is of another run.
+    /// Those of [`store::read_record`], or [`StoreError::OtherRun`] if the record is of another
+    /// run.
     pub fn read_record(&self, id: &str) -> Result<RunRecord, StoreError> {
         let path = self.record(id);
         let record = store::read_record(&path)?;

@@ -162,8 +162,8 @@ impl Labelling {
     }
 }
 
-/// Refuses to replace a table of labels that cannot be made again, as of results that were published
-/// without their records. The new table has the runs that are `kept`.
+/// Refuses to replace a table of labels that cannot be made again, as of results that were
+/// published without their records. The new table has the runs that are `kept`.
 ///
 /// # Errors
 /// [`LabellingError::Lost`].
@@ -205,8 +205,8 @@ impl Sweep {
             .try_for_each(|job| self.sieves.check(&job.scene))
     }
 
-    /// Sieves that find nothing in any run, because these are too short: their names and windows (s),
-    /// and the duration of the longest run (s).
+    /// Sieves that find nothing in any run, because these are too short: their names and windows
+    /// (s), and the duration of the longest run (s).
     pub fn sieves_without_room(&self, jobs: &[Job]) -> Vec<(&'static str, f64, f64)> {
         let scenes = jobs.iter().map(|job| &job.scene);
         let longest = scenes.max_by(|a, b| a.time.duration.total_cmp(&b.time.duration));

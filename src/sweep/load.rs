@@ -335,8 +335,8 @@ pub(crate) fn check_jobs(jobs: usize, help: &str, problems: &mut Vec<Problem>) -
     jobs <= MOST_JOBS
 }
 
-/// Takes up what is wrong with the points of a grid: the problems of the first, and the number of the
-/// others.
+/// Takes up what is wrong with the points of a grid: the problems of the first, and the number of
+/// the others.
 pub(crate) fn check_points(
     mut errors: impl Iterator<Item = PointError>,
     axes: &[Axis],

@@ -115,8 +115,8 @@ impl Pool<'_> {
         }
 
         let mut pending: Vec<(usize, &Job)> = plan.pending().enumerate().collect();
-        // The longest first, so that no worker begins one when the others are done. Those of one length
-        // stay in the sweep's order.
+        // The longest first, so that no worker begins one when the others are done. Those of one
+        // length stay in the sweep's order.
         pending.sort_by_key(|(_, job)| Reverse(job.work()));
         let tally = Mutex::new(Tally::default());
         work::each(self.workers, &pending, |&(position, job)| {

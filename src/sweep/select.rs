@@ -44,8 +44,8 @@ pub fn parse_point(text: &str) -> Result<Vec<(String, f64)>, SelectError> {
 }
 
 impl Sweep {
-    /// This sweep with only the named values left on the named axes. A name may be that of the axis,
-    /// the path of its key, or `seed`; a value is found within rounding.
+    /// This sweep with only the named values left on the named axes. A name may be that of the
+    /// axis, the path of its key, or `seed`; a value is found within rounding.
     ///
     /// # Errors
     /// [`SelectError::Axis`] or [`SelectError::Value`].

@@ -38,7 +38,8 @@ impl Material {
         Shape::Sphere.mass(self.density, radius)
     }
 
-    /// An elastic head-on impact of an effective radius (m) and mass (kg) at a relative speed (m/s).
+    /// An elastic head-on impact of an effective radius (m) and mass (kg) at a relative speed
+    /// (m/s).
     pub(super) fn impact(&self, radius: f64, mass: f64, speed: f64) -> Impact {
         Impact {
             effective_mass: mass,
@@ -89,7 +90,8 @@ impl SilbertMaterial {
         Shape::Sphere.mass(self.density, radius)
     }
 
-    /// An elastic head-on impact of an effective radius (m) and mass (kg) at a relative speed (m/s).
+    /// An elastic head-on impact of an effective radius (m) and mass (kg) at a relative speed
+    /// (m/s).
     pub(super) fn impact(&self, radius: f64, mass: f64, speed: f64) -> Impact {
         Impact {
             effective_mass: mass,
@@ -258,8 +260,8 @@ impl Bench {
         self.integrator
     }
 
-    /// How many steps ago spheres stood where the latest forces belong to: symplectic Euler moves them
-    /// after it evaluates the forces, and others do so in the middle of a step.
+    /// How many steps ago spheres stood where the latest forces belong to: symplectic Euler moves
+    /// them after it evaluates the forces, and others do so in the middle of a step.
     pub(super) fn age_of_forces(&self) -> f64 {
         match self.integrator {
             Integrator::SymplecticEuler => 1.0,

@@ -30,8 +30,8 @@ pub struct Impact {
     /// b = c A / T, in place of the material's dissipation time.
     #[serde(default)]
     damping: Option<f64>,
-    /// Restitution at the normal speed, in place of the dissipation time: the scene's own key, which
-    /// speaks of two spheres of the radius.
+    /// Restitution at the normal speed, in place of the dissipation time: the scene's own key,
+    /// which speaks of two spheres of the radius.
     #[serde(default)]
     restitution: Option<f64>,
     #[serde(default)]

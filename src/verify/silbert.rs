@@ -1,4 +1,5 @@
-//! A sphere hits another one, or what does not move, head-on under the Hertz contact of Silbert et al.
+//! A sphere hits another one, or what does not move, head-on under the Hertz contact of Silbert et
+//! al.
 
 use super::bench::{Bench, SilbertMaterial, moving};
 use super::{Family, Measured, VerifyError, named};

@@ -29,8 +29,8 @@ fn without_shield(mut scene: Scene) -> Scene {
 fn bits_do_not_depend_on_the_neighbour_list() {
     for scene in tanks().flat_map(|scene| [without_shield(scene.clone()), scene]) {
         let expected = run(&scene, STEPS).bits();
-        // Built at every step, when all near pairs touch and none is sorted out; often, when some do not; seldom;
-        // never again, with all pairs in it.
+        // Built at every step, when all near pairs touch and none is sorted out; often, when some
+        // do not; seldom; never again, with all pairs in it.
         let (always, once) = (STEPS + 1, 1);
         for (skin, most_builds) in [
             (0.0, always),
@@ -76,7 +76,8 @@ fn bits_do_not_depend_on_being_watched() {
     }
 }
 
-/// Steps forget forces as soon as they may; whoever looks between two advances still finds the latest.
+/// Steps forget forces as soon as they may; whoever looks between two advances still finds the
+/// latest.
 #[test]
 fn latest_forces_do_not_depend_on_how_steps_are_asked_for() {
     let forces = |simulation: &Simulation| {
@@ -256,8 +257,8 @@ fn what_is_not_a_number_is_named_at_once() {
     assert_broken(&scene, Guard::NotANumber, 1, 1..=1);
 }
 
-/// Symptom: the energy of a run was not a number, and the run went on. Cause: spins were only looked at
-/// where spheres touch.
+/// Symptom: the energy of a run was not a number, and the run went on. Cause: spins were only
+/// looked at where spheres touch.
 #[test]
 fn a_spin_that_grows_without_end_is_reported() {
     let still = sphere([0.0; 3], [0.0; 3]);
@@ -269,8 +270,8 @@ fn a_spin_that_grows_without_end_is_reported() {
     assert_broken(&scene, Guard::NotANumber, 1, 500..=10_000);
 }
 
-/// Symptom: a panic. Cause: the damping of spins asked for those of spheres that have none, as nothing turns
-/// them.
+/// Symptom: a panic. Cause: the damping of spins asked for those of spheres that have none, as
+/// nothing turns them.
 #[test]
 fn spin_damping_without_friction_does_nothing() {
     let spheres = vec![

@@ -53,9 +53,9 @@ fn kinetic(simulation: &Simulation) -> f64 {
         .sum()
 }
 
-/// An impact that lasts a fortieth of a step has the restitution of the law to 2e-3, which is what the
-/// sub-steps resolve: .800472224 for steel with A = 1e-6 s and c = 3/2 at 1 m/s, by an independent
-/// integration.
+/// An impact that lasts a fortieth of a step has the restitution of the law to 2e-3, which is what
+/// the sub-steps resolve: .800472224 for steel with A = 1e-6 s and c = 3/2 at 1 m/s, by an
+/// independent integration.
 #[test]
 fn an_impact_within_a_step_is_resolved() {
     let contact_time = Impact::of_equal_spheres(0.004, 7850.0, 2.1e11, 0.3, 1.0).contact_time();
@@ -93,8 +93,8 @@ fn only_spheres_that_collide_take_sub_steps() {
     );
 }
 
-/// A sphere runs through a row of others at rest, with gaps that it crosses within the step: all are
-/// knocked on in turn, none is passed through, as if each impact had been waited for.
+/// A sphere runs through a row of others at rest, with gaps that it crosses within the step: all
+/// are knocked on in turn, none is passed through, as if each impact had been waited for.
 #[test]
 fn spheres_that_are_knocked_on_within_a_step_are_seen() {
     let gap = 1e-4;
@@ -150,8 +150,8 @@ fn a_fine_step_is_not_cut() {
     assert!(speeds(&simulation)[0] < -0.499);
 }
 
-/// A step of adaptive Verlet costs the pile what its contacts need, whatever the step: the spheres rest
-/// at the overlaps of the law.
+/// A step of adaptive Verlet costs the pile what its contacts need, whatever the step: the spheres
+/// rest at the overlaps of the law.
 #[test]
 fn a_pile_rests_at_large_steps() {
     let column: Vec<StartSphere> = (0..4)
@@ -210,8 +210,8 @@ fn adaptive_bits_depend_on_the_scene_alone() {
     }
 }
 
-/// Symptom: a run without a contact law never ended and took all memory. Cause: what it saw beyond the
-/// walls were contacts that it had missed, so that the step was done again and again.
+/// Symptom: a run without a contact law never ended and took all memory. Cause: what it saw beyond
+/// the walls were contacts that it had missed, so that the step was done again and again.
 #[test]
 fn without_a_contact_law_spheres_pass_through_walls() {
     let mut scene = steel(vec![sphere(0.0, 0.5), sphere(0.1, -0.5)], 0.0, 1e-3);
@@ -227,7 +227,8 @@ fn without_a_contact_law_spheres_pass_through_walls() {
     assert!((simulation.particles().position[0].x - 0.075).abs() < 1e-12);
 }
 
-/// Speeds at the end and largest residual over the kinetic energy of a moving sphere of 4 mm, of 1 m/s.
+/// Speeds at the end and largest residual over the kinetic energy of a moving sphere of 4 mm, of 1
+/// m/s.
 fn compare(scene: &Scene, dt: f64, time: f64) -> Vec<f64> {
     let mut scene = scene.clone();
     scene.time.dt = dt;
@@ -236,8 +237,8 @@ fn compare(scene: &Scene, dt: f64, time: f64) -> Vec<f64> {
     speeds(&simulation)
 }
 
-/// Symptom: a pair at rest that was pressed together flew through a third sphere, and a guard ended the
-/// run. Cause: how far spheres may get was found from their speeds alone.
+/// Symptom: a pair at rest that was pressed together flew through a third sphere, and a guard ended
+/// the run. Cause: how far spheres may get was found from their speeds alone.
 #[test]
 fn a_pressed_pair_that_parts_sees_a_third() {
     for gap in [0.1e-3, 0.5e-3, 0.9e-3, 1.3e-3] {
@@ -263,8 +264,9 @@ fn a_pressed_pair_that_parts_sees_a_third() {
     }
 }
 
-/// Symptom: a sphere that was knocked onto a light one lost a third of the light one's energy, the more
-/// the shorter the step. Cause: contacts found late in a step had no part in how finely it was cut.
+/// Symptom: a sphere that was knocked onto a light one lost a third of the light one's energy, the
+/// more the shorter the step. Cause: contacts found late in a step had no part in how finely it was
+/// cut.
 #[test]
 fn a_light_sphere_is_knocked_on_as_finely_as_any() {
     for gap in [0.02e-3, 0.05e-3, 0.1e-3, 0.3e-3] {

@@ -154,7 +154,8 @@ fn tanks() -> impl Iterator<Item = (Scene, State, Vec<f64>)> {
     })
 }
 
-/// Rounding grows in collisions: over the steps of these runs to much less than this part of a radius.
+/// Rounding grows in collisions: over the steps of these runs to much less than this part of a
+/// radius.
 const CLOSE: f64 = 1e-6;
 const STEPS: u64 = 400;
 

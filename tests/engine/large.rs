@@ -1,5 +1,6 @@
-//! Large scenes, whose spheres are sorted in memory: what leaves the engine is in the order of the scene, and no bit
-//! depends on how a run is interrupted, on the numbers of spheres, or on the threads that it runs on.
+//! Large scenes, whose spheres are sorted in memory: what leaves the engine is in the order of the
+//! scene, and no bit depends on how a run is interrupted, on the numbers of spheres, or on the
+//! threads that it runs on.
 
 use crate::scenes::{INTEGRATORS, tank};
 use crate::support::Workplace;
@@ -227,8 +228,8 @@ fn a_broken_guard_names_the_sphere_of_the_scene() {
 /// Spheres on a cubic lattice, each with a velocity of its own.
 #[derive(Clone, Copy, Debug)]
 struct Lattice {
-    /// Radius of the tank (m): in a wide one most spheres are near those of another thread; in a narrow one few, and each
-    /// thread then moves its own while those of others are still to come.
+    /// Radius of the tank (m): in a wide one most spheres are near those of another thread; in a
+    /// narrow one few, and each thread then moves its own while those of others are still to come.
     tank: f64,
     count: usize,
     /// Whether all are pressed together; or they meet and part.
@@ -285,7 +286,8 @@ impl Lattice {
     }
 }
 
-/// Of many contacts spheres are moved while others are still to come; step by step they are moved after all of them.
+/// Of many contacts spheres are moved while others are still to come; step by step they are moved
+/// after all of them.
 #[test]
 fn bits_do_not_depend_on_when_spheres_are_moved() {
     let unlike = Lattice {

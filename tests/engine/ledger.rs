@@ -234,7 +234,8 @@ fn the_residual_has_the_order_of_the_integrator() {
     }
 }
 
-/// In a tank with every effect the books close: the residual is a small part of what was dissipated.
+/// In a tank with every effect the books close: the residual is a small part of what was
+/// dissipated.
 #[test]
 fn the_books_of_a_tank_close() {
     for friction in frictions() {

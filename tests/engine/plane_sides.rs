@@ -157,8 +157,8 @@ fn heap_of_silbert(integrator: &str) -> Scene {
     ))
 }
 
-/// No bit depends on the list, the instruction set, or a break: near the sides, too, and with masses in
-/// the laws.
+/// No bit depends on the list, the instruction set, or a break: near the sides, too, and with
+/// masses in the laws.
 #[test]
 fn bits_of_a_box_depend_on_nothing_but_the_scene() {
     let places = |simulation: &Simulation| -> Vec<[u64; 3]> {

@@ -52,8 +52,8 @@ const SPEED_DIFFERENCES: [(f64, f64, f64, f64, [f64; 2]); 6] = [
     (6.0, 150.0, 5.88083, 5.744, [5.662, 5.817]),
 ];
 
-/// Seeds 1 to 5. What another five seeds would do, from the mean and the spread of nine seeds of this
-/// program:
+/// Seeds 1 to 5. What another five seeds would do, from the mean and the spread of nine seeds of
+/// this program:
 ///
 /// * Five of six within 5 % of the thesis: the gas (2 mm, 30) is at -9 %, so all others must be. At
 ///   6 mm, 30 the mean of nine is 3.9 % low and that of five scatters by .8 %: a false alarm in
@@ -102,9 +102,9 @@ fn speed_differences_of_the_realistic_runs() {
     );
 }
 
-/// The realistic runs from Omega = 75 on are still spun up when they end (figure 15): kinetic energy
-/// of the last half second over that of the half second before, less 1. Points (m, rad/s); 4 mm at
-/// 75 is left out, where it grows in two runs of three.
+/// The realistic runs from Omega = 75 on are still spun up when they end (figure 15): kinetic
+/// energy of the last half second over that of the half second before, less 1. Points (m, rad/s); 4
+/// mm at 75 is left out, where it grows in two runs of three.
 const SPINNING_UP: [(f64, f64); 8] = [
     (0.002, 75.0),
     (0.006, 75.0),
@@ -117,8 +117,8 @@ const SPINNING_UP: [(f64, f64); 8] = [
 ];
 
 /// Seeds 1 to 3, of which the median counts. The growth is .17 to .27 with a standard deviation of
-/// .03 at most, but .09 with .04 at 4 mm, 100: there one run in a hundred loses energy, two of three
-/// in fewer than one of a thousand sets of seeds.
+/// .03 at most, but .09 with .04 at 4 mm, 100: there one run in a hundred loses energy, two of
+/// three in fewer than one of a thousand sets of seeds.
 #[test]
 #[ignore = "24 runs, about half a minute on two cores"]
 fn fast_realistic_runs_still_gain_energy_at_the_end() {
@@ -167,8 +167,8 @@ fn majority(rows: &[LabelRow]) -> Option<char> {
 }
 
 /// Two seeds of one program differ at about 5 % of the points, and majorities of three at fewer:
-/// nine or more disagreements of 81 at 5 % are a false alarm of 2 %, at the 3 % of majorities one of
-/// a thousand. (The published file is fixed: the alarm can only sound when it is made anew.)
+/// nine or more disagreements of 81 at 5 % are a false alarm of 2 %, at the 3 % of majorities one
+/// of a thousand. (The published file is fixed: the alarm can only sound when it is made anew.)
 #[test]
 fn the_linear_map_agrees() {
     let table = published();
@@ -202,8 +202,8 @@ const BORDER: [(f64, [f64; 2]); 4] = [
 
 /// Seeds 1 to 9: three seeds cannot decide the two close calls. At 3 mm and Omega = 4 six of nine
 /// runs have a hole; the median of another nine then fails in 14 % of sets of seeds (that of three
-/// would in 26 %, and in the published map does). At 5 mm and Omega = 16 seven of nine have one: 3 %.
-/// These seeds are fixed, so the alarm can only sound when the motion changes.
+/// would in 26 %, and in the published map does). At 5 mm and Omega = 16 seven of nine have one: 3
+/// %. These seeds are fixed, so the alarm can only sound when the motion changes.
 #[test]
 #[ignore = "72 runs, about a minute on two cores"]
 fn the_border_of_the_hole() {
@@ -258,10 +258,11 @@ fn settle_times() {
     }
 }
 
-/// Spouts occur at small r/R alone (below .07), at and below the critical rotation, and there at every
-/// radius. Of the 64 spouts of the 41 x 41 map none is above r/R = .065 and one is above the critical
-/// rotation, by 4 %; the first points above it of this grid are 20 % above or more, but for 3.5 mm,
-/// where spouts end at .8 of it. So no run of either map, 1924 in all, would be a false alarm here.
+/// Spouts occur at small r/R alone (below .07), at and below the critical rotation, and there at
+/// every radius. Of the 64 spouts of the 41 x 41 map none is above r/R = .065 and one is above the
+/// critical rotation, by 4 %; the first points above it of this grid are 20 % above or more, but
+/// for 3.5 mm, where spouts end at .8 of it. So no run of either map, 1924 in all, would be a false
+/// alarm here.
 #[test]
 fn spouts_are_of_small_spheres_below_the_critical_rotation() {
     let table = published();

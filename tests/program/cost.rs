@@ -25,10 +25,10 @@ fn json(place: &Workplace, arguments: &[&str]) -> Value {
     serde_json::from_str(&answer.stdout).unwrap()
 }
 
-/// What else the machine does only ever adds time, so the least of several runs is compared, of both
-/// commands in turn. The comparison is repeated until 24 runs of each: a false alarm takes a machine on
-/// which none of the 24 on one side went undisturbed, and one on the other did. What is wrong by more
-/// than the tolerance in the least disturbed runs fails all three comparisons.
+/// What else the machine does only ever adds time, so the least of several runs is compared, of
+/// both commands in turn. The comparison is repeated until 24 runs of each: a false alarm takes a
+/// machine on which none of the 24 on one side went undisturbed, and one on the other did. What is
+/// wrong by more than the tolerance in the least disturbed runs fails all three comparisons.
 #[test]
 fn the_total_is_what_a_run_takes() {
     let place = Workplace::new();
@@ -182,8 +182,8 @@ fn a_few_jobs_stand_for_a_sweep() {
         .says("total");
 }
 
-/// Symptom: a run that a guard ended was called the whole run, and start and record of a single frame were
-/// taken for what every step costs.
+/// Symptom: a run that a guard ended was called the whole run, and start and record of a single
+/// frame were taken for what every step costs.
 #[test]
 fn a_run_that_becomes_unstable_is_named_and_its_record_counts_once() {
     let mut scene = realistic(5.0);

@@ -181,8 +181,8 @@ fn a_full_standard_output_costs_no_file() {
     assert_eq!(output.status.code(), Some(0));
 }
 
-/// Symptom: under `ulimit -f` the program ended without a word. Cause: the signal of a file that grows
-/// too large ends a program that does not heed it.
+/// Symptom: under `ulimit -f` the program ended without a word. Cause: the signal of a file that
+/// grows too large ends a program that does not heed it.
 #[test]
 fn a_limit_on_the_size_of_files_is_an_error() {
     let place = Workplace::new();
@@ -247,8 +247,9 @@ fn a_signal_that_was_ignored_stays_ignored() {
     }
 }
 
-/// Symptom: pictures cut short under their final names after a kill; files `.phase-*.tmp` that stayed.
-/// Cause: an export wrote its frames in place, and only sweeps removed what killed ones left.
+/// Symptom: pictures cut short under their final names after a kill; files `.phase-*.tmp` that
+/// stayed. Cause: an export wrote its frames in place, and only sweeps removed what killed ones
+/// left.
 #[test]
 fn a_killed_export_leaves_whole_files_and_the_next_one_cleans_up() {
     let place = Workplace::new();

@@ -261,8 +261,8 @@ fn figures_of_the_other_family_are_refused() {
     }
 }
 
-/// Symptom: with gravity as the second axis C was too small by the root of its ratio. Cause: gravity
-/// and grains were those of the base scene for every line.
+/// Symptom: with gravity as the second axis C was too small by the root of its ratio. Cause:
+/// gravity and grains were those of the base scene for every line.
 #[test]
 fn the_law_is_fitted_with_the_gravity_of_each_line() {
     const GRAVITIES: [f64; 2] = [9.81, 2.4525];

@@ -1,5 +1,5 @@
-//! Phase diagrams of the numerics: borders lie where theory has them, and studies are kept and gone on
-//! with like sweeps.
+//! Phase diagrams of the numerics: borders lie where theory has them, and studies are kept and gone
+//! on with like sweeps.
 
 use crate::support::Workplace;
 use phase::scene::Integrator;
@@ -29,8 +29,8 @@ fn run_into(study: &Study, table: &Path, known: Vec<Row>) -> Report {
     trials.run(known).unwrap()
 }
 
-/// The largest stable and the least other step of an integrator at a value of the second axis. Between
-/// them there is nothing: all below are stable, and none above is.
+/// The largest stable and the least other step of an integrator at a value of the second axis.
+/// Between them there is nothing: all below are stable, and none above is.
 fn border(rows: &[Row], integrator: Integrator, value: f64) -> [f64; 2] {
     let own = rows
         .iter()
@@ -50,8 +50,8 @@ fn border(rows: &[Row], integrator: Integrator, value: f64) -> [f64; 2] {
     [stable, broken]
 }
 
-/// A sphere that swings on the floor by a hundredth of the overlap at which it rests, without or with
-/// damping. Steps are 1 % apart.
+/// A sphere that swings on the floor by a hundredth of the overlap at which it rests, without or
+/// with damping. Steps are 1 % apart.
 const OSCILLATOR: &str = r#"
     integrators = ["symplectic-euler", "velocity-verlet", "synchronised-verlet"]
     [[axis]]
@@ -72,8 +72,8 @@ const OSCILLATOR: &str = r#"
     time = { dt = 1e-3, duration = 40.0, frame_interval = 1e-1 }
 "#;
 
-/// The limit of a pair, at half of the stiffness and damping: that of one sphere and the floor, which
-/// is twice as heavy as a pair.
+/// The limit of a pair, at half of the stiffness and damping: that of one sphere and the floor,
+/// which is twice as heavy as a pair.
 fn limit_on_the_floor(study: &Study, damping: f64, integrator: Integrator) -> f64 {
     let scene = study.scene_at(&[1e-3, damping], integrator).unwrap();
     let halves = [

@@ -112,7 +112,8 @@ impl Original {
         Ok(())
     }
 
-    /// Makes sure that a run gave the same bits as in the sweep. None if the sweep has no record of it.
+    /// Makes sure that a run gave the same bits as in the sweep. None if the sweep has no record of
+    /// it.
     pub(super) fn compare(
         &self,
         again: &RunRecord,

@@ -22,7 +22,8 @@ pub(super) struct Ran {
     pub(super) resumed_from: Option<f64>,
 }
 
-/// Runs a scene on so many threads, with a progress bar and checkpoints. None if it was interrupted: says how to go on.
+/// Runs a scene on so many threads, with a progress bar and checkpoints. None if it was
+/// interrupted: says how to go on.
 pub(super) fn run(
     scene: &Scene,
     threads: usize,

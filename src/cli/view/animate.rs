@@ -16,7 +16,8 @@ use std::path::Path;
 const PICTURES: usize = 100;
 /// Largest size of an animation (bytes).
 const LARGEST: usize = 5_000_000;
-/// Share of an animation after which it must show all spheres: before, they may still be falling in.
+/// Share of an animation after which it must show all spheres: before, they may still be falling
+/// in.
 const ARRIVAL: f64 = 0.25;
 /// Largest height of an animation (pixels).
 const ANIMATION_HEIGHT: usize = 720;

@@ -46,15 +46,15 @@ impl Scene {
         self.check_room(problems);
     }
 
-    /// The scene that is run, checked. Where `time.safety_factor` is there, the time step is chosen:
-    /// the largest that is at most that factor times every limit of
-    /// [`timestep::limits`](crate::dem::timestep::limits) and of which
-    /// the intervals of frames and of the feed are whole multiples. What comes back has a number for
-    /// its step and no safety factor.
+    /// The scene that is run, checked. Where `time.safety_factor` is there, the time step is
+    /// chosen: the largest that is at most that factor times every limit of
+    /// [`timestep::limits`](crate::dem::timestep::limits) and of which the intervals of frames and
+    /// of the feed are whole multiples. What comes back has a number for its step and no safety
+    /// factor.
     ///
     /// # Errors
-    /// [`Scene::problems`] of what comes back; and if a step is to be chosen, but nothing limits it, or
-    /// no step divides both intervals.
+    /// [`Scene::problems`] of what comes back; and if a step is to be chosen, but nothing limits
+    /// it, or no step divides both intervals.
     pub fn with_chosen_step(self) -> Result<Self, Vec<Problem>> {
         accept(self.problems_of_values())?;
         self.with_chosen_step_in_range()

@@ -87,8 +87,8 @@ impl Scene {
         Ok(frame / steps)
     }
 
-    /// The least number of equal parts of a frame of which everything that must be a whole number of
-    /// steps is a whole number.
+    /// The least number of equal parts of a frame of which everything that must be a whole number
+    /// of steps is a whole number.
     fn parts_of_a_frame(&self) -> Option<f64> {
         let frame = self.time.frame_interval;
         let is_whole = |parts: f64| {

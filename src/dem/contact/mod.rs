@@ -9,8 +9,8 @@ pub use hertz::Hertz;
 pub use linear::Linear;
 pub use silbert::Silbert;
 
-/// Radius sqrt(R_eff xi) (m) of the disc in which partners touch (Hertz, 1882), from the overlap xi (m) and the
-/// effective radius r1 r2 / (r1 + r2) (m; the sphere's own at a flat wall).
+/// Radius sqrt(R_eff xi) (m) of the disc in which partners touch (Hertz, 1882), from the overlap xi
+/// (m) and the effective radius r1 r2 / (r1 + r2) (m; the sphere's own at a flat wall).
 #[inline(always)]
 pub fn contact_radius(overlap: f64, effective_radius: f64) -> f64 {
     // Rounding may find partners that just touch a hair apart.
@@ -35,8 +35,8 @@ pub trait NormalLaw: Copy + Send + Sync + 'static {
     /// Whether the law asks for the effective mass; it need not be told otherwise.
     const NEEDS_EFFECTIVE_MASS: bool = false;
 
-    /// Repulsive force (N) from the overlap (m), its rate (m/s), the [`contact_radius`] (m) and the effective
-    /// mass m1 m2 / (m1 + m2) (kg; the sphere's own at what does not move).
+    /// Repulsive force (N) from the overlap (m), its rate (m/s), the [`contact_radius`] (m) and the
+    /// effective mass m1 m2 / (m1 + m2) (kg; the sphere's own at what does not move).
     fn force(
         &self,
         overlap: f64,
@@ -111,8 +111,9 @@ impl NormalLaw for NoContact {
 mod tests {
     use super::contact_radius;
 
-    /// Symptom: a force that is not a number on spheres that just touch. Cause: the root of an overlap that
-    /// rounding makes negative by a hair, where the squares of the distances say that they touch.
+    /// Symptom: a force that is not a number on spheres that just touch. Cause: the root of an
+    /// overlap that rounding makes negative by a hair, where the squares of the distances say that
+    /// they touch.
     #[test]
     fn partners_a_hair_apart_touch_in_a_point() {
         assert_eq!(contact_radius(-1e-19, 0.004), 0.0);

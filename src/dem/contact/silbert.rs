@@ -2,13 +2,14 @@
 
 use super::{Hertz, NormalLaw, contact_radius};
 
-/// F = sqrt(R_eff xi) (k_n xi + gamma_n m_eff dxi/dt), with overlap xi, stiffness k_n, damping gamma_n and
-/// m_eff = m_i m_j / (m_i + m_j), the mass of the sphere at a wall or a fixed sphere (Silbert et al., Phys.
-/// Rev. E 64, 051302 (2001), for Hertzian spheres, in the form of `gran/hertz/history` of LAMMPS).
+/// F = sqrt(R_eff xi) (k_n xi + gamma_n m_eff dxi/dt), with overlap xi, stiffness k_n, damping
+/// gamma_n and m_eff = m_i m_j / (m_i + m_j), the mass of the sphere at a wall or a fixed sphere
+/// (Silbert et al., Phys. Rev. E 64, 051302 (2001), for Hertzian spheres, in the form of
+/// `gran/hertz/history` of LAMMPS).
 ///
-/// As there it attracts at the end of a contact, where spheres part faster than their elasticity recovers:
-/// they are in contact until their overlap is zero. (LAMMPS leaves the attraction out if it is asked to, by
-/// `limit_damping`.)
+/// As there it attracts at the end of a contact, where spheres part faster than their elasticity
+/// recovers: they are in contact until their overlap is zero. (LAMMPS leaves the attraction out if
+/// it is asked to, by `limit_damping`.)
 #[derive(Clone, Copy, Debug)]
 pub struct Silbert {
     /// sqrt(R_eff xi) k_n xi.

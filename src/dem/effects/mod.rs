@@ -15,8 +15,8 @@ use fearless_simd::Level;
 
 /// An effect adds to the forces and torques of the spheres.
 pub(super) trait Effect: Send + Sync {
-    /// Makes ready for a step. `shielding` holds, where the scene has an updraught, the number of spheres that
-    /// shield each one, of all of them, from below.
+    /// Makes ready for a step. `shielding` holds, where the scene has an updraught, the number of
+    /// spheres that shield each one, of all of them, from below.
     fn prepare(&mut self, shielding: &[u32]);
 
     /// Adds its forces and torques to those of a block of spheres.
@@ -25,7 +25,8 @@ pub(super) trait Effect: Send + Sync {
     /// What it asks for.
     fn asks(&self) -> Asked;
 
-    /// The acceleration (m/s2) that it gives to all spheres, if it does nothing else: they then need no blocks.
+    /// The acceleration (m/s2) that it gives to all spheres, if it does nothing else: they then
+    /// need no blocks.
     fn acceleration(&self) -> Option<Vector>;
 
     /// What it is called in a profile.

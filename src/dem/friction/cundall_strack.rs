@@ -2,8 +2,9 @@
 
 use super::{Grip, LoadedSpring, Spring, TangentialLaw, Touch};
 
-/// A spring of constant stiffness k_t and a dashpot b_t along the contact, together capped at mu F_n
-/// (Cundall and Strack, Geotechnique 29, 47 (1979)): df = -k_t du and f - b_t u while it sticks.
+/// A spring of constant stiffness k_t and a dashpot b_t along the contact, together capped at mu
+/// F_n (Cundall and Strack, Geotechnique 29, 47 (1979)): df = -k_t du and f - b_t u while it
+/// sticks.
 #[derive(Clone, Copy, Debug)]
 pub struct CundallStrack {
     coefficient: f64,

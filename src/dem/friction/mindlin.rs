@@ -5,8 +5,8 @@ use crate::dem::contact::contact_radius;
 use crate::dem::vector::Vector;
 
 /// Mindlin's tangential stiffness k_t = 8 G* sqrt(R_eff xi) on a contact that sticks, loaded and
-/// unloaded by increments of the sliding displacement, df = -k_t du, and capped at mu F_n;
-/// G* = G / (2 (2 - nu)) for equal materials (Mindlin, J. Appl. Mech. 16, 259 (1949); Chung and Ooi,
+/// unloaded by increments of the sliding displacement, df = -k_t du, and capped at mu F_n; G* = G /
+/// (2 (2 - nu)) for equal materials (Mindlin, J. Appl. Mech. 16, 259 (1949); Chung and Ooi,
 /// Granular Matter 13, 643 (2011)).
 ///
 /// The force of a spring that holds still stays when the normal force falls, although its

@@ -39,10 +39,11 @@ pub struct Touch {
     pub effective_mass: f64,
     /// The [contact radius](super::contact::contact_radius) (m), if a law asks for it.
     pub contact_radius: f64,
-    /// Normal force (N), zero where partners attract each other or part faster than their elasticity
-    /// recovers: no tangential force acts then.
+    /// Normal force (N), zero where partners attract each other or part faster than their
+    /// elasticity recovers: no tangential force acts then.
     pub normal_force: f64,
-    /// The mean sliding velocity since the contact's latest evaluation (m/s), by which springs are loaded.
+    /// The mean sliding velocity since the contact's latest evaluation (m/s), by which springs are
+    /// loaded.
     pub loading_velocity: Vector,
     /// The mean [contact radius](super::contact::contact_radius) since then (m).
     pub loading_radius: f64,
@@ -75,8 +76,8 @@ pub(super) fn arm(force: Vector, normal: Vector) -> Vector {
     force.cross(normal)
 }
 
-/// Velocity of one surface relative to the other at the contact point (m/s), tangential part, from that
-/// of the centres.
+/// Velocity of one surface relative to the other at the contact point (m/s), tangential part, from
+/// that of the centres.
 #[inline(always)]
 pub(super) fn sliding_velocity(
     normal: Vector,
@@ -126,8 +127,8 @@ pub trait History: Copy + Default + Send + Sync + Serialize + DeserializeOwned {
         Self::of_spring(Spring { force })
     }
 
-    /// Whether it is that of a new contact, by its bits: to whom zero and minus zero are equal may not be
-    /// for the motion.
+    /// Whether it is that of a new contact, by its bits: to whom zero and minus zero are equal may
+    /// not be for the motion.
     fn is_new(self) -> bool {
         let Vector { x, y, z, .. } = self.spring().force;
         [x, y, z].iter().all(|value| value.to_bits() == 0)
@@ -160,7 +161,8 @@ impl History for Spring {
 pub trait TangentialLaw: Copy + Send + Sync + 'static {
     /// Whether spheres rotate, which costs spins and torques.
     const ROTATES: bool = true;
-    /// Whether the law asks for masses and moments of inertia; a [`Touch`] need not have them otherwise.
+    /// Whether the law asks for masses and moments of inertia; a [`Touch`] need not have them
+    /// otherwise.
     const WEIGHS: bool = false;
     /// Whether the law asks for the [contact radius](super::contact::contact_radius).
     const WIDENS: bool = false;
@@ -171,9 +173,10 @@ pub trait TangentialLaw: Copy + Send + Sync + 'static {
     /// What a contact remembers from step to step; `()` costs nothing. A checkpoint stores it.
     type History: History;
 
-    /// Traction at a contact over the coming step; none where the normal force is zero. Free of branches,
-    /// for a block of contacts at once. The spring lies [across the normal](Spring::turned) when it comes; a law
-    /// without history leaves it as it is, one with a history need only say how it is [loaded](Self::load).
+    /// Traction at a contact over the coming step; none where the normal force is zero. Free of
+    /// branches, for a block of contacts at once. The spring lies [across the
+    /// normal](Spring::turned) when it comes; a law without history leaves it as it is, one with a
+    /// history need only say how it is [loaded](Self::load).
     #[inline(always)]
     fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction {
         let loaded = self.load(touch, *spring);

@@ -3,13 +3,15 @@
 use super::{Grip, LoadedSpring, Spring, TangentialLaw, Touch};
 use crate::dem::contact::contact_radius;
 
-/// A spring of stiffness sqrt(R_eff xi) k_t and a dashpot sqrt(R_eff xi) gamma_t m_eff beside it, together
-/// capped at mu F_n (Silbert et al., Phys. Rev. E 64, 051302 (2001), for Hertzian spheres).
+/// A spring of stiffness sqrt(R_eff xi) k_t and a dashpot sqrt(R_eff xi) gamma_t m_eff beside it,
+/// together capped at mu F_n (Silbert et al., Phys. Rev. E 64, 051302 (2001), for Hertzian
+/// spheres).
 ///
-/// The spring is loaded by increments, df = -sqrt(R_eff xi) k_t du, and keeps its force, as Mindlin's does:
-/// a contact that holds still and is only pressed harder is not pulled aside harder. `gran/hertz/history`
-/// of LAMMPS keeps the displacement instead, so that there the force grows and shrinks with sqrt(xi); and it
-/// caps at mu |F_n| also where partners attract each other, where here no tangential force acts.
+/// The spring is loaded by increments, df = -sqrt(R_eff xi) k_t du, and keeps its force, as
+/// Mindlin's does: a contact that holds still and is only pressed harder is not pulled aside
+/// harder. `gran/hertz/history` of LAMMPS keeps the displacement instead, so that there the force
+/// grows and shrinks with sqrt(xi); and it caps at mu |F_n| also where partners attract each other,
+/// where here no tangential force acts.
 #[derive(Clone, Copy, Debug)]
 pub struct SilbertFriction {
     coefficient: f64,

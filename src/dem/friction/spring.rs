@@ -16,8 +16,8 @@ pub struct Spring {
 const LEAST_PRODUCT: f64 = 1e-280;
 
 impl Spring {
-    /// The spring, of a stiffness (N/m), loaded by the sliding since the latest evaluation, df = -k du, with what
-    /// a dashpot beside it takes (N), before both are capped at `limit` (N).
+    /// The spring, of a stiffness (N/m), loaded by the sliding since the latest evaluation, df = -k
+    /// du, with what a dashpot beside it takes (N), before both are capped at `limit` (N).
     #[inline(always)]
     pub(super) fn loaded(
         &self,
@@ -39,8 +39,8 @@ impl Spring {
         0.5 * self.force.norm_squared() / stiffness
     }
 
-    /// The same in the plane across `normal`: the plane turns with the pair, and the force with it, its length
-    /// kept.
+    /// The same in the plane across `normal`: the plane turns with the pair, and the force with it,
+    /// its length kept.
     #[inline(always)]
     pub fn turned(&self, normal: Vector) -> Self {
         let turned = self.force.perpendicular_to(normal);
@@ -53,8 +53,8 @@ impl Spring {
     }
 }
 
-/// A spring before it is known how much of it friction carries. That takes a root, which many contacts find in a
-/// loop of its own.
+/// A spring before it is known how much of it friction carries. That takes a root, which many
+/// contacts find in a loop of its own.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoadedSpring {
     /// Its force (N).
@@ -78,13 +78,14 @@ impl LoadedSpring {
         self.force().norm_squared()
     }
 
-    /// The tangential force (N), and the spring that is left: one that slides keeps the length with which it would
-    /// go on sticking from there (Luding, Granular Matter 10, 235 (2008), section 2.3). Takes the square of the
-    /// force (N2) and 1 / its root.
+    /// The tangential force (N), and the spring that is left: one that slides keeps the length with
+    /// which it would go on sticking from there (Luding, Granular Matter 10, 235 (2008), section
+    /// 2.3). Takes the square of the force (N2) and 1 / its root.
     #[inline(always)]
     pub(in crate::dem) fn capped(&self, squared: f64, inverse_root: f64) -> (Vector, Spring) {
         let force = self.force();
-        // Selects, not branches: so the loop over a block of contacts is turned into vector instructions.
+        // Selects, not branches: so the loop over a block of contacts is turned into vector
+        // instructions.
         let slides = squared > self.limit * self.limit;
         let capped = force * (self.limit * inverse_root);
         let left = select(slides, capped + self.drag, self.elastic);

@@ -7,8 +7,8 @@ use crate::dem::block::ROWS;
 use crate::dem::particles::{Particles, retain};
 use crate::dem::vector::Vector;
 
-/// Where a sphere stood, in half the memory: single precision is more than a margin needs, and what it rounds
-/// is taken from the margin.
+/// Where a sphere stood, in half the memory: single precision is more than a margin needs, and what
+/// it rounds is taken from the margin.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(16))]
 pub struct Reference([f32; 4]);
@@ -34,8 +34,9 @@ pub struct Anchor {
     rounding: f64,
     /// Rotation rate about the z axis (rad/s).
     rotation: f64,
-    /// The angle (rad) by which the spheres are turned for a list of boxes, which do not turn: as far as they
-    /// will have come half-way through the life of the list, so that they are never far from it.
+    /// The angle (rad) by which the spheres are turned for a list of boxes, which do not turn: as
+    /// far as they will have come half-way through the life of the list, so that they are never far
+    /// from it.
     middle: f64,
 }
 
@@ -57,8 +58,8 @@ impl Anchor {
         self.middle = 0.0;
     }
 
-    /// Turns the spheres to where they will be half-way through a life (s), but by no more than an angle (rad).
-    /// Returns sine and cosine.
+    /// Turns the spheres to where they will be half-way through a life (s), but by no more than an
+    /// angle (rad). Returns sine and cosine.
     pub(super) fn turn(&mut self, life: f64, most: f64) -> (f64, f64) {
         self.middle = (0.5 * self.rotation * life).clamp(-most, most);
         libm::sincos(self.middle)
@@ -75,7 +76,8 @@ impl Anchor {
         self.position.push(Reference([f32::NAN; 4]));
     }
 
-    /// Takes a sphere as if it had been turned with all others, in the `time` (s) since that moment, to this place.
+    /// Takes a sphere as if it had been turned with all others, in the `time` (s) since that
+    /// moment, to this place.
     pub(super) fn replace(&mut self, sphere: usize, place: Vector, time: f64) {
         let (sine, cosine) = libm::sincos(self.rotation * time);
         let Vector { x, y, z, .. } = place;

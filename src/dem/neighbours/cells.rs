@@ -17,7 +17,8 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// Sorts the spheres into cells of that width or wider (m); in `columns`, whatever their height.
+    /// Sorts the spheres into cells of that width or wider (m); in `columns`, whatever their
+    /// height.
     pub(super) fn fill(&mut self, particles: &Particles, width: f64, columns: bool, copied: bool) {
         let count = particles.len();
         let (low, high) = bounds(&particles.position);

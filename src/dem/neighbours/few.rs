@@ -1,5 +1,5 @@
-//! All pairs of a few spheres, looked at many at once: quicker than cells below some thousand spheres, and the
-//! partners of a sphere come out in order.
+//! All pairs of a few spheres, looked at many at once: quicker than cells below some thousand
+//! spheres, and the partners of a sphere come out in order.
 
 use super::{Reach, WORD};
 use crate::dem::particles::Particles;

@@ -1,16 +1,16 @@
-//! A Verlet list follows the few spheres that come, go, or stray from the others, and holds on for these: a silo's
-//! grains lie still but for those that fall.
+//! A Verlet list follows the few spheres that come, go, or stray from the others, and holds on for
+//! these: a silo's grains lie still but for those that fall.
 
 use super::{Reach, VerletList};
 use crate::dem::particles::Particles;
 
-/// Of so many spheres one may have strayed, and no more than so many in all, each of which is compared with all spheres:
-/// following more takes as long as building the list anew.
+/// Of so many spheres one may have strayed, and no more than so many in all, each of which is
+/// compared with all spheres: following more takes as long as building the list anew.
 const FEW_OF: usize = 24;
 const MOST: usize = 64;
 
-/// A stray is followed to where it will be when it has gone this part of the way that is allowed: who falls then strays
-/// half as often.
+/// A stray is followed to where it will be when it has gone this part of the way that is allowed:
+/// who falls then strays half as often.
 const AHEAD: f64 = 0.8;
 
 impl VerletList {
@@ -22,7 +22,8 @@ impl VerletList {
         }
     }
 
-    /// Notes that the spheres that are not to be kept were removed, and the others have new indices.
+    /// Notes that the spheres that are not to be kept were removed, and the others have new
+    /// indices.
     pub fn remove_spheres(&mut self, keep: &[bool]) {
         if self.builds == 0 {
             return;
@@ -38,8 +39,8 @@ impl VerletList {
         });
     }
 
-    /// Follows the spheres that strayed, if they are few; positions must be finite. Whether the list holds again, as
-    /// [`Self::holds`] says.
+    /// Follows the spheres that strayed, if they are few; positions must be finite. Whether the
+    /// list holds again, as [`Self::holds`] says.
     pub fn follow(&mut self, particles: &Particles, time: f64, margin: f64) -> bool {
         if self.builds == 0 || self.outdated || !self.can_follow() {
             return false;
@@ -88,8 +89,8 @@ impl VerletList {
         self.holds(particles, time, margin)
     }
 
-    /// Whether strays can be followed: of a shielding box the size follows from all spheres, and the order of sorted
-    /// ones from their cells.
+    /// Whether strays can be followed: of a shielding box the size follows from all spheres, and
+    /// the order of sorted ones from their cells.
     fn can_follow(&self) -> bool {
         self.reach == Reach::Contact && !self.sorted && self.search.may_be_replaced()
     }
@@ -165,7 +166,8 @@ mod tests {
     }
 
     proptest! {
-        /// Spheres go, come, and jump somewhere else; then every pair that the skin asks for is there, once, in order.
+        /// Spheres go, come, and jump somewhere else; then every pair that the skin asks for is
+        /// there, once, in order.
         #[test]
         fn a_list_follows_a_few_spheres(
             first in prop::collection::vec(sphere(), 60..90),
@@ -213,7 +215,8 @@ mod tests {
                 for j in i + 1..particles.len() {
                     let distance = (particles.position[i] - particles.position[j]).norm();
                     let gap = distance - particles.radius[i] - particles.radius[j];
-                    // What may come that near while the list holds, and the farthest that it asks for.
+                    // What may come that near while the list holds, and the farthest that it asks
+                    // for.
                     let listed = partners.contains(&(j as u32));
                     prop_assert!(listed || gap > 0.1, "{i} and {j} are missing: {gap}");
                     prop_assert!(!listed || gap < 2.0 * SKIN, "{i} and {j} are listed: {gap}");

@@ -73,8 +73,8 @@ impl Glance {
         eight.expect("a block is of whole groups")
     }
 
-    /// What is certain of eight pairs while their offsets change by less than the margin (m); in a scene with
-    /// a shield, while they are turned by about an angle of this sine and cosine.
+    /// What is certain of eight pairs while their offsets change by less than the margin (m); in a
+    /// scene with a shield, while they are turned by about an angle of this sine and cosine.
     #[inline(always)]
     pub(super) fn look<S: Simd>(
         &self,
@@ -112,8 +112,9 @@ impl Glance {
     }
 }
 
-/// Bits of the spheres of radius `r` that shield partners which are so far away across and above, with a margin (m).
-/// Not a closure: those are not always inlined, and then compiled without the instruction set.
+/// Bits of the spheres of radius `r` that shield partners which are so far away across and above,
+/// with a margin (m). Not a closure: those are not always inlined, and then compiled without the
+/// instruction set.
 #[inline(always)]
 fn within<S: Simd>(across: [f64x8<S>; 2], up: f64x8<S>, r: f64x8<S>, margin: f64) -> u64 {
     let reach = r * 2.0 + margin;

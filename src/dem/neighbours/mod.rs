@@ -68,7 +68,8 @@ pub struct VerletList {
     /// Entries of sphere i are `start[i]..start[i + 1]`.
     start: Vec<u32>,
     neighbour: Vec<u32>,
-    /// The sphere whose entry it is, of every entry; none in a list of many spheres, where memory counts.
+    /// The sphere whose entry it is, of every entry; none in a list of many spheres, where memory
+    /// counts.
     owner: Vec<u32>,
     anchor: Anchor,
     /// Half the diagonal of the largest sphere's shielding box, plus the skin (m); zero if the
@@ -82,7 +83,8 @@ pub struct VerletList {
     /// Whether spheres are sorted in memory by cells of about the search's.
     sorted: bool,
     builds: u64,
-    /// Whether spheres are others or in another order since the build, or a wider skin is asked for.
+    /// Whether spheres are others or in another order since the build, or a wider skin is asked
+    /// for.
     outdated: bool,
 }
 
@@ -134,8 +136,8 @@ impl VerletList {
             && allowance.hold(&particles.position, self.anchor.position())
     }
 
-    /// How far spheres may have come `time` (s) after the build, if the offset of a pair may change by another
-    /// `margin` (m).
+    /// How far spheres may have come `time` (s) after the build, if the offset of a pair may change
+    /// by another `margin` (m).
     fn allowance(&self, time: f64, margin: f64) -> Allowance {
         let margin = self.skin - margin;
         self.anchor.allowance(time, margin, self.half_diagonal)
@@ -183,8 +185,8 @@ impl VerletList {
         before.saturating_sub(1)
     }
 
-    /// The spheres of the entries from `first` on, all of lower index than the partners. `owner` is the first of
-    /// them, or an earlier one, and then the last.
+    /// The spheres of the entries from `first` on, all of lower index than the partners. `owner` is
+    /// the first of them, or an earlier one, and then the last.
     #[inline(always)]
     pub(super) fn fill_owners(&self, first: usize, owner: &mut usize, owners: &mut [u32]) {
         if !self.sorted {
@@ -218,8 +220,8 @@ impl VerletList {
         }
     }
 
-    /// Builds the list anew for the present positions, which must be finite, on so many threads of the
-    /// pool that runs this.
+    /// Builds the list anew for the present positions, which must be finite, on so many threads of
+    /// the pool that runs this.
     pub fn build(&mut self, particles: &Particles, threads: usize) {
         let count = particles.len();
         let largest = particles.largest_radius();
@@ -306,8 +308,8 @@ impl VerletList {
     }
 }
 
-/// Calls `visit` with both spheres of every pair that may touch, and of others. Without a list of them: of a
-/// scene that nobody has looked at yet, all spheres may lie in one place, or anywhere.
+/// Calls `visit` with both spheres of every pair that may touch, and of others. Without a list of
+/// them: of a scene that nobody has looked at yet, all spheres may lie in one place, or anywhere.
 pub fn visit_pairs(particles: &Particles, mut visit: impl FnMut(usize, usize)) {
     let length = 2.0 * particles.largest_radius();
     let mut search = Search::new(Neighbours::HashedCells { length });

@@ -27,8 +27,8 @@ const COLUMN_LIFE: Range<u64> = 14..28;
 /// The same for lists of contacts, which are short.
 const CONTACT_LIFE: Range<u64> = 8..16;
 
-/// The most that the margin takes of the skin, of long lists and of lists of contacts: what it takes is missing in
-/// the life of the Verlet list.
+/// The most that the margin takes of the skin, of long lists and of lists of contacts: what it
+/// takes is missing in the life of the Verlet list.
 const MOST_OF_SKIN: [f64; 2] = [0.5, 0.25];
 
 /// Steps after which pairs that hold still are looked for anew, with a smaller margin.
@@ -93,8 +93,8 @@ impl Near {
         self.margin
     }
 
-    /// How far outside (m) those pairs are that a new list must know nothing of: farther than the margin where
-    /// spheres are turned first.
+    /// How far outside (m) those pairs are that a new list must know nothing of: farther than the
+    /// margin where spheres are turned first.
     pub fn reach(&self) -> f64 {
         match self.shield {
             true => (1.0 + TURN) * self.margin,
@@ -136,8 +136,8 @@ impl Near {
         wide
     }
 
-    /// Whether the list holds a `time` (s) after its refresh, and will while no sphere moves by more
-    /// than `way` (m).
+    /// Whether the list holds a `time` (s) after its refresh, and will while no sphere moves by
+    /// more than `way` (m).
     pub fn holds(&self, particles: &Particles, time: f64, way: f64) -> bool {
         let margin = self.margin - 2.0 * way;
         let allowance = self.anchor.allowance(time, margin, self.half_diagonal);
@@ -162,8 +162,8 @@ impl Near {
         self.pairs.extend(pairs.map(|(i, j)| NearPair::new(i, j)));
     }
 
-    /// Notes that the spheres that are not to be kept were removed: their pairs go, and the others get
-    /// new indices. The pairs must be looked for anew. Says of each whether it is kept.
+    /// Notes that the spheres that are not to be kept were removed: their pairs go, and the others
+    /// get new indices. The pairs must be looked for anew. Says of each whether it is kept.
     pub fn remove_spheres(&mut self, keep: &[bool]) -> Vec<bool> {
         self.anchor.remove_spheres(keep);
         let index = indices_of_kept(keep);
@@ -183,8 +183,8 @@ impl Near {
         self.anchor.allowance(time, self.margin, self.half_diagonal)
     }
 
-    /// Widens or narrows the margin after a list that held for this many steps and this time (s), for a
-    /// Verlet list of that skin (m).
+    /// Widens or narrows the margin after a list that held for this many steps and this time (s),
+    /// for a Verlet list of that skin (m).
     pub fn adapt(&mut self, steps: u64, time: f64, skin: f64) {
         self.life = time;
         let life = if self.shield {
@@ -204,8 +204,8 @@ impl Near {
         self.margin = (self.margin).clamp(self.smallest, self.smallest.max(most * skin));
     }
 
-    /// Whether the list held for so many steps that looking for near pairs with a smaller margin pays: every
-    /// pair that is near costs as much as one that touches.
+    /// Whether the list held for so many steps that looking for near pairs with a smaller margin
+    /// pays: every pair that is near costs as much as one that touches.
     pub fn is_too_wide(&self, steps: u64) -> bool {
         self.contacts && steps >= LONG_LIFE && self.margin > self.smallest
     }

@@ -65,8 +65,8 @@ impl PartialOrd for NearPair {
     }
 }
 
-/// Writes those of eight pairs that are to be kept to the front of a list, and anything after them. Says
-/// how many they are.
+/// Writes those of eight pairs that are to be kept to the front of a list, and anything after them.
+/// Says how many they are.
 #[inline(always)]
 pub(in crate::dem) fn keep_pairs<S: Simd>(
     simd: S,

@@ -33,8 +33,9 @@ impl Search {
         matches!(self, Self::Cells(_, None))
     }
 
-    /// Sorts the spheres, whose pairs reach no farther than `reach` (m); in `columns`, at any height. Places are
-    /// `copied` into the order of the cells, unless spheres stand in about that order.
+    /// Sorts the spheres, whose pairs reach no farther than `reach` (m); in `columns`, at any
+    /// height. Places are `copied` into the order of the cells, unless spheres stand in about that
+    /// order.
     pub(super) fn fill(&mut self, particles: &Particles, reach: f64, columns: bool, copied: bool) {
         // A hair wider: rounding must not put the partners of a pair two cells apart.
         let wide = |width: f64| width * (1.0 + 1e-9);

@@ -1,19 +1,21 @@
-//! Who shields whom from below: what is known for some steps, and the pairs that must be looked at in each.
+//! Who shields whom from below: what is known for some steps, and the pairs that must be looked at
+//! in each.
 
 use super::{NearPair, Particles, WORD};
 use crate::dem::block::{ROWS, ones, row, turned};
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
-/// The count of spheres that shield each one, kept up with the pairs whose part in it may change. From one step
-/// to the next few do: what is found is compared with what was, and only what differs is counted.
+/// The count of spheres that shield each one, kept up with the pairs whose part in it may change.
+/// From one step to the next few do: what is found is compared with what was, and only what differs
+/// is counted.
 #[derive(Default)]
 pub(super) struct Shield {
     /// Spheres that shield each one.
     pub(super) counts: Vec<u32>,
     /// Undecided pairs; whole groups, filled up with a sphere that does not shield itself.
     pub(super) pairs: Vec<NearPair>,
-    /// Of as many pairs as a number has bits: whose second sphere shields the first, and whose first the second,
-    /// as far as `counts` has it.
+    /// Of as many pairs as a number has bits: whose second sphere shields the first, and whose
+    /// first the second, as far as `counts` has it.
     shields: Vec<[u64; 2]>,
 }
 
@@ -27,7 +29,8 @@ impl Shield {
         self.shields.resize(pairs.div_ceil(WORD), [0; 2]);
     }
 
-    /// Counts what is so at the present positions; all spheres have the same radius (m), if one is given.
+    /// Counts what is so at the present positions; all spheres have the same radius (m), if one is
+    /// given.
     pub(super) fn count(
         &mut self,
         level: Level,
@@ -39,7 +42,8 @@ impl Shield {
 
     #[inline(always)]
     fn count_all<S: Simd>(&mut self, simd: S, particles: &Particles, common_radius: Option<f64>) {
-        // What is found of many is compared at once: that something has changed is hard to foresee of a few.
+        // What is found of many is compared at once: that something has changed is hard to foresee
+        // of a few.
         for (pairs, shields) in self.pairs.chunks(WORD).zip(&mut self.shields) {
             let mut now = [0; 2];
             for (eight, at) in pairs.chunks_exact(ROWS).zip((0..).step_by(ROWS)) {

@@ -157,9 +157,9 @@ impl Barrier {
     }
 }
 
-/// Neighbours among fixed discs whose surfaces are less than `narrow` (m) apart: by twos they make a
-/// wall. Neighbours have no other centre in the circle that their two span (Gabriel and Sokal, 1969),
-/// so that lines between them do not cut corners, and do not cross.
+/// Neighbours among fixed discs whose surfaces are less than `narrow` (m) apart: by twos they make
+/// a wall. Neighbours have no other centre in the circle that their two span (Gabriel and Sokal,
+/// 1969), so that lines between them do not cut corners, and do not cross.
 pub(in crate::dem) fn wall_pairs(fixed: &[FixedSphere], narrow: f64) -> Vec<[FixedSphere; 2]> {
     let mut sorted = fixed.to_vec();
     sorted.sort_by(|a, b| a.position[0].total_cmp(&b.position[0]));
@@ -244,8 +244,9 @@ mod tests {
         assert!(Barrier::new(&[], 0.03).crossed(way.0, way.1).is_none());
     }
 
-    /// Symptom: a grain that bounced off the foot of a wall was said to have passed it, and the silo as
-    /// printed named two discs with a third between them. Cause: second neighbours made walls too.
+    /// Symptom: a grain that bounced off the foot of a wall was said to have passed it, and the
+    /// silo as printed named two discs with a third between them. Cause: second neighbours made
+    /// walls too.
     #[test]
     fn walls_do_not_cut_corners() {
         let disc = |x: f64, z: f64| FixedSphere {

@@ -1,7 +1,7 @@
 //! What happens to the set of spheres while a simulation runs: a feed, a door, an outlet.
 //!
-//! All of it happens between steps, at fixed ones: every [`INTERVAL`] s, and when a sphere is due. So
-//! it does not depend on how a run is cut into frames.
+//! All of it happens between steps, at fixed ones: every [`INTERVAL`] s, and when a sphere is due.
+//! So it does not depend on how a run is cut into frames.
 
 mod feed;
 mod leak;

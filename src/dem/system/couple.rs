@@ -52,7 +52,8 @@ impl Solid {
         inertia: 0.0,
     };
 
-    /// What all spheres are like, if they are alike; `mobile` says whether it matters that some are fixed.
+    /// What all spheres are like, if they are alike; `mobile` says whether it matters that some are
+    /// fixed.
     pub(super) fn of_all(particles: &Particles, mobile: bool) -> Option<Self> {
         let Particles {
             radius,

@@ -1,10 +1,10 @@
 //! One simulation on several threads.
 //!
-//! Each thread answers for the forces on a range of indices, which in a sorted scene is a region of space.
-//! A pair whose spheres are those of two threads is computed by both, and each adds to its own sphere, before
-//! its other pairs: so every sum is in the order of the list, as with one thread, and there is nothing to wait
-//! for. What such a pair remembers, both have. Where each moves its spheres at once, such pairs are computed of copies
-//! of the spheres around the boundary.
+//! Each thread answers for the forces on a range of indices, which in a sorted scene is a region of
+//! space. A pair whose spheres are those of two threads is computed by both, and each adds to its
+//! own sphere, before its other pairs: so every sum is in the order of the list, as with one
+//! thread, and there is nothing to wait for. What such a pair remembers, both have. Where each
+//! moves its spheres at once, such pairs are computed of copies of the spheres around the boundary.
 
 use super::partners::{Copies, Partners};
 use super::share::{AtWalls, Buffers, Known, Scenery, Share, TooDeep};
@@ -151,8 +151,8 @@ impl<H: History> Division<H> {
         })
     }
 
-    /// Evaluates the forces of all contacts; `clear` says whether others are to be forgotten first. Says of the
-    /// first contact that is too deep.
+    /// Evaluates the forces of all contacts; `clear` says whether others are to be forgotten first.
+    /// Says of the first contact that is too deep.
     pub(super) fn evaluate<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,
@@ -207,13 +207,14 @@ impl<H: History> Division<H> {
     }
 }
 
-/// The last sphere before which there are whole blocks: effects expect these wherever spheres are moved.
+/// The last sphere before which there are whole blocks: effects expect these wherever spheres are
+/// moved.
 fn whole_blocks(sphere: usize) -> usize {
     sphere / BLOCK * BLOCK
 }
 
-/// Of threads, in the order of their spheres: the first contact that is too deep as one thread would find it, pairs
-/// before walls.
+/// Of threads, in the order of their spheres: the first contact that is too deep as one thread
+/// would find it, pairs before walls.
 pub(super) fn first_too_deep(
     of: impl Iterator<Item = [TooDeep; 1 + TankWall::MOST]> + Clone,
 ) -> TooDeep {
@@ -246,7 +247,8 @@ mod tests {
     }
 
     proptest! {
-        /// Every pair is computed by whoever answers for one of its spheres, of spheres that are there.
+        /// Every pair is computed by whoever answers for one of its spheres, of spheres that are
+        /// there.
         #[test]
         fn pairs_are_inside_their_regions_or_among_the_copies(
             spheres in 2..900_usize,
@@ -283,7 +285,8 @@ mod tests {
         }
     }
 
-    /// Spheres of a cubic lattice with so many in a layer, in contact with the next one along each axis.
+    /// Spheres of a cubic lattice with so many in a layer, in contact with the next one along each
+    /// axis.
     fn lattice(layer: u32, layers: u32) -> Vec<NearPair> {
         let count = layer * layers;
         let pairs = (0..count).flat_map(|i| [1, layer].map(|step| (i, i + step)));

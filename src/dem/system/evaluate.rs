@@ -49,10 +49,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.return_all(among);
     }
 
-    /// Evaluates all forces, kicks for these times (s), and drifts for a time (s), if one is given; forgets the forces if
-    /// they are to be cleared. Says who was too fast.
+    /// Evaluates all forces, kicks for these times (s), and drifts for a time (s), if one is given;
+    /// forgets the forces if they are to be cleared. Says who was too fast.
     ///
-    /// Where an overlap is too deep in a large scene, its spheres are moved all the same, on however many threads.
+    /// Where an overlap is too deep in a large scene, its spheres are moved all the same, on
+    /// however many threads.
     pub(super) fn evaluate_and_move(
         &mut self,
         kicks: &[f64],
@@ -161,7 +162,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.forces_of(among, anew);
             return;
         }
-        // Loops over contacts have the history of each beside it; that of some stands among those of all.
+        // Loops over contacts have the history of each beside it; that of some stands among those
+        // of all.
         let entries = || among.entries.iter().copied();
         let all = exchange(&mut self.pair_history, entries());
         let mut walls = [const { Vec::new() }; TankWall::MOST];
@@ -244,8 +246,9 @@ fn put_back<H: Copy>(histories: &mut Vec<H>, all: Vec<H>, entries: impl Iterator
 mod tests {
     use super::{exchange, put_back};
 
-    /// Symptom: springs of an island of adaptive Verlet were those of other contacts. Cause: the histories
-    /// of some contacts were read by their places among these, not by their entries among all.
+    /// Symptom: springs of an island of adaptive Verlet were those of other contacts. Cause: the
+    /// histories of some contacts were read by their places among these, not by their entries among
+    /// all.
     #[test]
     fn some_contacts_find_their_histories_among_all() {
         let (mut histories, entries) = (vec![10, 11, 12, 13, 14], [1, 4]);

@@ -42,9 +42,10 @@ impl Before {
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Applies some effects, kicks for these times (s) and drifts for a time (s), what of these is asked for, and
-    /// forgets forces if they are to be cleared. Notes whether a sphere went farther than the near pairs allow. Says
-    /// who was too fast. Not inlined: all schemes do so several times, and are compiled for all laws.
+    /// Applies some effects, kicks for these times (s) and drifts for a time (s), what of these is
+    /// asked for, and forgets forces if they are to be cleared. Notes whether a sphere went farther
+    /// than the near pairs allow. Says who was too fast. Not inlined: all schemes do so several
+    /// times, and are compiled for all laws.
     #[inline(never)]
     pub(super) fn move_all(
         &mut self,
@@ -140,8 +141,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.near_age.steps += 1;
     }
 
-    /// Forces at the start, where no scheme has a latest one. No time goes by, so that contacts do not
-    /// load their springs.
+    /// Forces at the start, where no scheme has a latest one. No time goes by, so that contacts do
+    /// not load their springs.
     fn evaluate_start(&mut self) -> Result<(), Instability> {
         let loading = std::mem::replace(&mut self.loading, Loading::present(0.0));
         let result = self.evaluate();
@@ -149,7 +150,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         result
     }
 
-    /// One step of symplectic Euler: v += a(x, v) dt, then x += v dt. `goes_on` says whether another follows at once.
+    /// One step of symplectic Euler: v += a(x, v) dt, then x += v dt. `goes_on` says whether
+    /// another follows at once.
     fn symplectic_euler(&mut self, goes_on: bool) -> Result<(), Instability> {
         self.begin_step();
         let dt = self.parts.dt;
@@ -169,8 +171,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// One step of velocity Verlet, with forces from the new positions and the half-step
-    /// velocities. The forces of the step before serve its first half. `goes_on` says whether another follows at once:
-    /// its first half then comes with the second one of this.
+    /// velocities. The forces of the step before serve its first half. `goes_on` says whether
+    /// another follows at once: its first half then comes with the second one of this.
     fn velocity_verlet(&mut self, goes_on: bool) -> Result<(), Instability> {
         self.begin_step();
         if self.step == 1 {
@@ -199,14 +201,15 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.check_speeds(too_fast)
     }
 
-    /// One step of velocity Verlet with forces from the middle of the step: half a drift, a kick, half a
-    /// drift (position Verlet: Tuckerman, Berne and Martyna, J. Chem. Phys. 97, 1990 (1992)). The latest
-    /// forces foretell the velocities there, to first order, which makes the step one of second order.
+    /// One step of velocity Verlet with forces from the middle of the step: half a drift, a kick,
+    /// half a drift (position Verlet: Tuckerman, Berne and Martyna, J. Chem. Phys. 97, 1990
+    /// (1992)). The latest forces foretell the velocities there, to first order, which makes the
+    /// step one of second order.
     ///
-    /// Places and velocities of a contact then belong together, which Vyas et al., Comput. Phys. Commun.
-    /// 310, 109524 (2025), reach by other means: with normals of one moment and velocities of another,
-    /// the approach of a small sphere to a large one that it rolls along is taken for sliding, and loads
-    /// its spring until it sticks.
+    /// Places and velocities of a contact then belong together, which Vyas et al., Comput. Phys.
+    /// Commun. 310, 109524 (2025), reach by other means: with normals of one moment and velocities
+    /// of another, the approach of a small sphere to a large one that it rolls along is taken for
+    /// sliding, and loads its spring until it sticks.
     fn synchronised_verlet(&mut self) -> Result<(), Instability> {
         self.begin_step();
         if self.step == 1 {

@@ -1,8 +1,8 @@
 //! Where the energy goes: the work of damping, of tangential forces and of the air.
 //!
-//! A kick by a force F turns v into v' and adds F (v + v') / 2 dt to the kinetic energy, exactly. So
-//! work is summed up kick by kick, from the forces that the kicks use: what the books then miss is
-//! what the scheme makes of conservative forces, not an error of the bookkeeping.
+//! A kick by a force F turns v into v' and adds F (v + v') / 2 dt to the kinetic energy, exactly.
+//! So work is summed up kick by kick, from the forces that the kicks use: what the books then miss
+//! is what the scheme makes of conservative forces, not an error of the bookkeeping.
 
 use super::contacts::Among;
 use super::meeting::Meeting;

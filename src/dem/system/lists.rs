@@ -73,8 +73,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.stale = true;
     }
 
-    /// Makes sure that every sphere is somewhere, and that the list holds again: it follows those that strayed, or
-    /// is built anew.
+    /// Makes sure that every sphere is somewhere, and that the list holds again: it follows those
+    /// that strayed, or is built anew.
     fn renew(&mut self) -> Result<(), Instability> {
         self.check_positions()?;
         let Some(list) = &mut self.list else {
@@ -85,7 +85,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return Ok(());
         }
         let age = std::mem::take(&mut self.age);
-        // It says nothing about the skin if the list ended at once, for spheres that changed places.
+        // It says nothing about the skin if the list ended at once, for spheres that changed
+        // places.
         if age.steps > 0 {
             list.adapt(age.steps, age.time);
         }
@@ -111,9 +112,9 @@ fn find_at_walls<H: History>(walls: &mut [WallContacts<H>], particles: &Particle
     }
 }
 
-/// Puts the histories of near pairs into the order of those that are near now; who is no longer near is
-/// forgotten. Both lists are sorted, so one pass over each suffices; histories move within their
-/// array, of which a second one would be most of what a large scene takes.
+/// Puts the histories of near pairs into the order of those that are near now; who is no longer
+/// near is forgotten. Both lists are sorted, so one pass over each suffices; histories move within
+/// their array, of which a second one would be most of what a large scene takes.
 fn carry_over<H: History>(before: &[NearPair], now: &[NearPair], histories: &mut Vec<H>) {
     const GONE: u32 = u32::MAX;
     let mut rest = now.iter().zip(0..).peekable();
@@ -125,8 +126,8 @@ fn carry_over<H: History>(before: &[NearPair], now: &[NearPair], histories: &mut
     let places: Vec<u32> = before.iter().map(&mut place_of).collect();
     let places = || places.iter().map(|&place| place as usize).enumerate();
     histories.resize(before.len().max(now.len()), H::default());
-    // Places grow. So those that move down, from the front, come to none that is still to move; nor then do those that
-    // move up, from the back.
+    // Places grow. So those that move down, from the front, come to none that is still to move; nor
+    // then do those that move up, from the back.
     for (at, place) in places().filter(|(at, place)| place < at) {
         histories[place] = histories[at];
     }

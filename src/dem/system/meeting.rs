@@ -11,14 +11,14 @@ use crate::dem::math::inverse_square_root;
 use crate::dem::vector::Vector;
 use crate::dem::walls::{Wall, WallContact};
 
-/// The time that springs are loaded over until an evaluation of forces, with the mean velocities of that
-/// time.
+/// The time that springs are loaded over until an evaluation of forces, with the mean velocities of
+/// that time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Loading {
     /// How long it is (s).
     pub(super) duration: f64,
-    /// How long before the evaluation the spheres had the velocities that load springs (s): these are
-    /// then kept in rows of their own. Zero if they are those of the evaluation.
+    /// How long before the evaluation the spheres had the velocities that load springs (s): these
+    /// are then kept in rows of their own. Zero if they are those of the evaluation.
     pub(super) age: f64,
 }
 
@@ -95,12 +95,14 @@ struct Encounter {
     /// Of friction alone, in radii.
     lever: f64,
     lesser_mass: f64,
-    /// Sliding velocity (m/s) and contact radius (m) by which a spring is loaded, if not those of now.
+    /// Sliding velocity (m/s) and contact radius (m) by which a spring is loaded, if not those of
+    /// now.
     loading: Option<(Vector, f64)>,
 }
 
-/// What of a contact takes longest to compute, and waits for nothing but places: a loop over many contacts
-/// finds these first, each in a loop of its own, so that the processor need not wait for one after the other.
+/// What of a contact takes longest to compute, and waits for nothing but places: a loop over many
+/// contacts finds these first, each in a loop of its own, so that the processor need not wait for
+/// one after the other.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Roots {
     /// 1 / the distance of the centres (1/m).
@@ -220,7 +222,8 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         place - velocity * self.loading.age
     }
 
-    /// A sphere and a wall that meet like this now, and like that before, with a spring across the normal.
+    /// A sphere and a wall that meet like this now, and like that before, with a spring across the
+    /// normal.
     #[inline(always)]
     pub(super) fn at_contact(
         &self,

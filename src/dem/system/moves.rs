@@ -10,7 +10,8 @@ use crate::dem::threads::in_parallel;
 use crate::dem::vector::Vector;
 use fearless_simd::{Level, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
 
-/// Spheres to which everything is done before the next ones: few enough to stay in the nearest cache.
+/// Spheres to which everything is done before the next ones: few enough to stay in the nearest
+/// cache.
 const AT_HAND: usize = 4 * BLOCK;
 
 /// The first sphere that was too fast after each of at most two kicks.
@@ -20,8 +21,8 @@ pub(super) type FirstTooFast = [Option<TooFast>; 2];
 pub(super) struct Moves<'a> {
     /// Add to its force and torque.
     pub(super) effects: &'a [Box<dyn Effect>],
-    /// How long each kick is (s), one after the other: the last of a step and the first of the next are two, as
-    /// numbers are rounded after either.
+    /// How long each kick is (s), one after the other: the last of a step and the first of the next
+    /// are two, as numbers are rounded after either.
     pub(super) kicks: &'a [f64],
     pub(super) drift: Option<Drift>,
     /// Forgets forces and torques, which are at hand: others come next.
@@ -49,8 +50,8 @@ pub(super) struct Found {
 }
 
 impl Moves<'_> {
-    /// Does all that to the spheres, with what each thread has for blocks of them. One thread for all may keep a
-    /// profile.
+    /// Does all that to the spheres, with what each thread has for blocks of them. One thread for
+    /// all may keep a profile.
     pub(super) fn of_all(
         &self,
         mut spheres: Spheres<'_>,
@@ -174,7 +175,8 @@ fn accelerate<S: Simd>(simd: S, spheres: &mut Spheres<'_>, acceleration: Vector)
     }
 }
 
-/// v += a dt, and the same for spins. Whether none of them has a component of velocity beyond `slow`.
+/// v += a dt, and the same for spins. Whether none of them has a component of velocity beyond
+/// `slow`.
 #[inline(always)]
 fn kick_all<S: Simd>(simd: S, spheres: &mut Spheres<'_>, dt: f64, slow: f64) -> bool {
     // The last number of a row means nothing.

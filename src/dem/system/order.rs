@@ -48,8 +48,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.refresh()
     }
 
-    /// Takes the near pairs that remember something, with their histories, to new places. These are most of the
-    /// memory of a large scene, so all of it happens in their arrays.
+    /// Takes the near pairs that remember something, with their histories, to new places. These are
+    /// most of the memory of a large scene, so all of it happens in their arrays.
     fn follow_pairs(&mut self, places: &[u32]) {
         let mut pairs = self.near.take_pairs();
         let histories = &mut self.pair_history;

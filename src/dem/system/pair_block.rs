@@ -1,8 +1,9 @@
 //! Blocks of contacts: what the laws answer for many pairs at once.
 //!
-//! For all pairs of a block, touching or not, the laws are computed in a loop that the compiler turns
-//! into vector instructions; a pair that does not touch gets a force of zero. Then the forces are added up
-//! one by one in the order of the list. Adding zero to a sum that began at +0 changes no bit of it.
+//! For all pairs of a block, touching or not, the laws are computed in a loop that the compiler
+//! turns into vector instructions; a pair that does not touch gets a force of zero. Then the forces
+//! are added up one by one in the order of the list. Adding zero to a sum that began at +0 changes
+//! no bit of it.
 
 mod springs;
 mod walls;
@@ -53,8 +54,8 @@ pub(super) struct PairBlock<H> {
     earlier_meeting: WallMeetings,
     /// Forces of springs (N).
     spring: Columns,
-    /// Of those that are loaded: forces of dashpots (N), what friction carries (N), squares of both forces (N2)
-    /// and 1 / their roots, levers in radii.
+    /// Of those that are loaded: forces of dashpots (N), what friction carries (N), squares of both
+    /// forces (N2) and 1 / their roots, levers in radii.
     drag: Columns,
     limit: Column,
     squared: Column,
@@ -149,8 +150,8 @@ impl<H: History> PairBlock<H> {
                         - row(simd, velocity, pairs.pairs[k].j())
                 },
             );
-            // Of spheres that are alike, which have the same lever, laws ask for the sum of both spins
-            // alone: the first gets all of it.
+            // Of spheres that are alike, which have the same lever, laws ask for the sum of both
+            // spins alone: the first gets all of it.
             if T::ROTATES && self.alike {
                 first_spin.fill_from::<S>(
                     at,
@@ -276,8 +277,8 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// The partners of a contact, the second of them like that, with what they did before if springs are
-    /// loaded by that.
+    /// The partners of a contact, the second of them like that, with what they did before if
+    /// springs are loaded by that.
     #[inline(always)]
     fn couple<T: TangentialLaw, const EARLIER: bool>(&self, k: usize, other: Solid) -> Couple {
         let mut couple = Couple {
@@ -343,7 +344,8 @@ impl<H: History> PairBlock<H> {
             .map(|k| (k, self.too_deep[k]))
     }
 
-    /// Adds forces and torques to those partners of so many pairs whose sums these are, one after the other.
+    /// Adds forces and torques to those partners of so many pairs whose sums these are, one after
+    /// the other.
     #[inline(always)]
     pub(super) fn add_to_pairs<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
@@ -406,8 +408,8 @@ fn store(columns: &mut Columns, k: usize, touches: bool, vector: Vector) {
     z[k] = if_touching(touches, vector.z);
 }
 
-/// That number, or zero. A branch would be made of a plain `if`, and stores under a mask of that, which take a
-/// processor without AVX-512 some 20 cycles each.
+/// That number, or zero. A branch would be made of a plain `if`, and stores under a mask of that,
+/// which take a processor without AVX-512 some 20 cycles each.
 #[inline(always)]
 fn if_touching(touches: bool, value: f64) -> f64 {
     std::hint::select_unpredictable(touches, value, 0.0)

@@ -9,8 +9,8 @@ use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use std::ops::Range;
 
-/// What contacts read of spheres, from one on: of all, of those that a thread answers for, or of copies. Contacts are
-/// computed with the first one as number 0.
+/// What contacts read of spheres, from one on: of all, of those that a thread answers for, or of
+/// copies. Contacts are computed with the first one as number 0.
 #[derive(Clone, Copy)]
 pub(super) struct Partners<'a> {
     /// The index of the first one.

@@ -1,5 +1,5 @@
-//! Forces at contacts, block by block: which of them touch, and what acts on whom. One thread answers for all,
-//! or each for a share of the spheres.
+//! Forces at contacts, block by block: which of them touch, and what acts on whom. One thread
+//! answers for all, or each for a share of the spheres.
 
 use super::couple::Solid;
 use super::lanes::whole;
@@ -88,8 +88,8 @@ pub(super) struct Share<'a, H> {
     /// Whether sums begin anew.
     pub(super) clear: bool,
     pub(super) buffers: &'a mut Buffers<H>,
-    /// Pairs whose first sphere is another share's, which answers for its force and the pair's history: here
-    /// is a copy.
+    /// Pairs whose first sphere is another share's, which answers for its force and the pair's
+    /// history: here is a copy.
     pub(super) crossing: Known<'a, NearPair, H>,
     /// Pairs whose first sphere is one of these.
     pub(super) pairs: Known<'a, NearPair, H>,
@@ -101,8 +101,9 @@ pub(super) struct Share<'a, H> {
 impl<H: History> Share<'_, H> {
     /// Adds the forces and torques of all its contacts, in the order of the list.
     ///
-    /// The hot loops are compiled once per instruction set, and no more than once: this is most of what a build
-    /// has to do. Wider vectors change no bit: every lane computes what the scalar code would.
+    /// The hot loops are compiled once per instruction set, and no more than once: this is most of
+    /// what a build has to do. Wider vectors change no bit: every lane computes what the scalar
+    /// code would.
     pub(super) fn add_contacts<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,

@@ -55,8 +55,9 @@ struct Histories<P, H> {
 /// As they are read.
 type SavedHistories<H> = Histories<Vec<(u32, u32, H)>, H>;
 
-/// Pairs whose history is not empty, of all near ones: both spheres and the history, in the order of the list.
-/// Written one by one, as there may be many: only their bytes are in memory a second time.
+/// Pairs whose history is not empty, of all near ones: both spheres and the history, in the order
+/// of the list. Written one by one, as there may be many: only their bytes are in memory a second
+/// time.
 struct RememberedPairs<'a, H> {
     near: &'a [NearPair],
     histories: &'a [H],

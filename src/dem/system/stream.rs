@@ -1,12 +1,14 @@
-//! Forces and moves of a large scene in one pass through its spheres, or through those of each thread.
+//! Forces and moves of a large scene in one pass through its spheres, or through those of each
+//! thread.
 //!
-//! Pairs stand in the order of their first spheres. So when those of a sphere are done, all pairs are that act on it,
-//! and no later one asks where it is: it can be moved while it is at hand. What is done to a sphere, and in which order,
-//! is the same as if all forces came first.
+//! Pairs stand in the order of their first spheres. So when those of a sphere are done, all pairs
+//! are that act on it, and no later one asks where it is: it can be moved while it is at hand. What
+//! is done to a sphere, and in which order, is the same as if all forces came first.
 //!
-//! Threads do not ask where spheres of the others are, which have been moved or not: pairs across a boundary are computed
-//! of copies of the spheres around it, and so are all pairs of a thread's spheres from the first one on that has such a
-//! pair with a later one, as a block of pairs reads its partners in one place.
+//! Threads do not ask where spheres of the others are, which have been moved or not: pairs across a
+//! boundary are computed of copies of the spheres around it, and so are all pairs of a thread's
+//! spheres from the first one on that has such a pair with a later one, as a block of pairs reads
+//! its partners in one place.
 
 use super::System;
 use super::division::{Portion, first_too_deep, threads};
@@ -25,8 +27,8 @@ use crate::dem::threads::in_parallel;
 use crate::dem::walls::TankWall;
 use fearless_simd::Level;
 
-/// After so many near pairs spheres are moved: few enough that these are still in a near cache, so many that few lanes
-/// of blocks are left over.
+/// After so many near pairs spheres are moved: few enough that these are still in a near cache, so
+/// many that few lanes of blocks are left over.
 const SPAN: usize = 16 * LOOK;
 
 /// What one thread does: forces and moves of its spheres.
@@ -56,8 +58,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             && division.is_none_or(|it| it.has_narrow_boundaries())
     }
 
-    /// Adds up all forces, with near pairs that hold, then kicks for these times (s), drifts for a time (s), and forgets
-    /// the forces. Says who was too fast, and notes whether a contact is too deep.
+    /// Adds up all forces, with near pairs that hold, then kicks for these times (s), drifts for a
+    /// time (s), and forgets the forces. Says who was too fast, and notes whether a contact is too
+    /// deep.
     pub(super) fn stream(&mut self, kicks: &[f64], drift: f64) -> FirstTooFast {
         if !std::mem::replace(&mut self.cleared, true) {
             self.parts.particles.clear_forces();
@@ -99,7 +102,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 vec![Stream::new(spheres, all, &mut bodies[0], (None, None))]
             }
         };
-        // A profile looks at one of several threads; the rest of its step is to wait for the others.
+        // A profile looks at one of several threads; the rest of its step is to wait for the
+        // others.
         streams[0].profile = self.profile.take();
         let level = self.level;
         in_parallel(&mut streams, &|stream| stream.flow(level, &scenery, &moves));
@@ -115,7 +119,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 }
 
 impl<'a, H: History> Stream<'a, H> {
-    /// Of these spheres and contacts, with copies of the spheres around the boundaries before and after them.
+    /// Of these spheres and contacts, with copies of the spheres around the boundaries before and
+    /// after them.
     pub(super) fn new(
         spheres: Spheres<'a>,
         portion: Portion<'a, H>,
@@ -174,8 +179,8 @@ impl<'a, H: History> Stream<'a, H> {
         }
     }
 
-    /// Adds the forces of some pairs, crossing ones and others, and of walls on the next spheres, those before `until`;
-    /// with copies of all these, if they are given.
+    /// Adds the forces of some pairs, crossing ones and others, and of walls on the next spheres,
+    /// those before `until`; with copies of all these, if they are given.
     fn add<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,

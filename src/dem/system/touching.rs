@@ -1,4 +1,5 @@
-//! Which of those that are near each other touch: contacts are computed of these alone, unless nearly all do.
+//! Which of those that are near each other touch: contacts are computed of these alone, unless
+//! nearly all do.
 
 use super::couple::Solid;
 use super::partners::Partners;
@@ -7,8 +8,8 @@ use crate::dem::neighbours::{NearPair, keep_pairs};
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask32x8, mask64x8, u32x8};
 use prefetch_index::prefetch_index;
 
-/// Contacts that are looked at before those that touch are computed: few enough to stay at hand, so many that
-/// few lanes are left over.
+/// Contacts that are looked at before those that touch are computed: few enough to stay at hand, so
+/// many that few lanes are left over.
 pub(super) const LOOK: usize = 512;
 
 /// Histories of so many bytes come from farther than the caches, and are sent for.
@@ -87,8 +88,8 @@ impl Touching {
         }
     }
 
-    /// The first [`BLOCK`] of these contacts, or all that there are, without a look at whether they touch: the laws
-    /// find out. The first one has its history at `from`.
+    /// The first [`BLOCK`] of these contacts, or all that there are, without a look at whether they
+    /// touch: the laws find out. The first one has its history at `from`.
     #[inline(always)]
     pub(super) fn first_of<'a>(&'a mut self, near: &'a [NearPair], from: usize) -> Lanes<'a> {
         let Some(pairs) = near.first_chunk() else {
@@ -110,9 +111,9 @@ impl Touching {
         }
     }
 
-    /// Finds who touches among these, up to [`LOOK`] of them, the first of which has its history at `from`;
-    /// histories of the others begin anew. `alike` says what all spheres are like, if they are alike. Says how
-    /// many touch.
+    /// Finds who touches among these, up to [`LOOK`] of them, the first of which has its history at
+    /// `from`; histories of the others begin anew. `alike` says what all spheres are like, if they
+    /// are alike. Says how many touch.
     #[inline(always)]
     pub(super) fn find<S: Simd, H: Default>(
         &mut self,

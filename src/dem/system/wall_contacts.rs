@@ -12,8 +12,8 @@ pub(super) struct NearSphere {
     pub(super) entry: u32,
 }
 
-/// A wall, the spheres near it, and what their contacts with it remember. Only these have an entry: of a
-/// heap few spheres are near a wall.
+/// A wall, the spheres near it, and what their contacts with it remember. Only these have an entry:
+/// of a heap few spheres are near a wall.
 pub(super) struct WallContacts<H> {
     pub(super) wall: TankWall,
     /// In the order of their indices; while forces are evaluated it is elsewhere.
@@ -36,8 +36,8 @@ impl<H: Copy + Default> WallContacts<H> {
         }
     }
 
-    /// Finds the spheres that move and touch the wall, or will after a way of `margin` (m), and forgets
-    /// the histories of the others. Both lists are sorted, so one pass over each suffices.
+    /// Finds the spheres that move and touch the wall, or will after a way of `margin` (m), and
+    /// forgets the histories of the others. Both lists are sorted, so one pass over each suffices.
     pub(super) fn find(&mut self, particles: &Particles, margin: f64) {
         let (near, histories) = &mut self.spare;
         near.clear();

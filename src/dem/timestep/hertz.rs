@@ -42,8 +42,8 @@ impl Impact {
         time_scale(self.effective_mass, self.stiffness, self.speed)
     }
 
-    /// The impact that ends like the release of such a pair at rest from an overlap (m): that is where
-    /// it is deepest.
+    /// The impact that ends like the release of such a pair at rest from an overlap (m): that is
+    /// where it is deepest.
     pub fn from_overlap(self, overlap: f64) -> Self {
         let speed_squared = 0.8 * self.stiffness * overlap * overlap * overlap.sqrt();
         Self {
@@ -114,8 +114,8 @@ pub fn dissipation_time(scene: &Scene) -> f64 {
 }
 
 /// The impact of the two smallest spheres at the fastest speed, or from the deepest overlap at the
-/// start. A wall or a larger partner is softer: w^2 falls with the effective mass faster than it grows
-/// with the effective radius.
+/// start. A wall or a larger partner is softer: w^2 falls with the effective mass faster than it
+/// grows with the effective radius.
 pub(super) fn stiffest_impact(scene: &Scene) -> Option<Impact> {
     let Contact::Hertz {
         young_modulus,

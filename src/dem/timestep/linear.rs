@@ -131,7 +131,8 @@ mod tests {
 
     #[test]
     fn impacts_of_the_silo() {
-        // m = rho R^2 with rho = 1, R = 0.04; k = 100, b = 0.05: a pair, and a grain on a fixed one.
+        // m = rho R^2 with rho = 1, R = 0.04; k = 100, b = 0.05: a pair, and a grain on a fixed
+        // one.
         let mass = 1.0 * 0.04 * 0.04;
         let cases = [
             (0.5 * mass, 8.921e-3, 0.756_713, 5.657e-3),

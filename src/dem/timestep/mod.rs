@@ -1,18 +1,19 @@
 //! Limits of the time step: what a scene's stiffest contact, its drag and its friction allow.
 //!
-//! Symplectic Euler and velocity Verlet evaluate forces once per step, at velocities half a step behind
-//! the positions. A linear oscillator x'' = -w^2 x - g x' then stays bounded while
-//! (w dt)^2 + 2 g dt < 4, which is dt < 2/w without damping and dt < 2/g without a spring.
-//! Synchronised Verlet foretells the velocities from the latest forces, for which its bound is
-//! (w dt)^2 + 4 g dt < 4. Adaptive Verlet cuts its steps itself where spheres touch; what is left is that no sphere moves by
-//! more than the displacement guard allows, and the drag, with g dt < 2 as for the first two. Every
-//! limit here is that criterion for one effect, at the fastest impact the scene lets expect or the
-//! deepest overlap it starts with; the smallest spheres decide, since all of these times grow with the
-//! radius.
+//! Symplectic Euler and velocity Verlet evaluate forces once per step, at velocities half a step
+//! behind the positions. A linear oscillator x'' = -w^2 x - g x' then stays bounded while (w dt)^2
+//! + 2 g dt < 4, which is dt < 2/w without damping and dt < 2/g without a spring. Synchronised
+//! Verlet foretells the velocities from the latest forces, for which its bound is (w dt)^2 + 4 g dt
+//! < 4. Adaptive Verlet cuts its steps itself where spheres touch; what is left is that no sphere
+//! moves by more than the displacement guard allows, and the drag, with g dt < 2 as for the first
+//! two. Every limit here is that criterion for one effect, at the fastest impact the scene lets
+//! expect or the deepest overlap it starts with; the smallest spheres decide, since all of these
+//! times grow with the radius.
 //!
 //! Bounded is not accurate: an elastic impact at the limit takes two steps and ends with 0.6 to 2.4
-//! times its speed, at half the limit within 4 %, at a tenth within 0.03 %. Nor do the decisive limits
-//! know of several contacts of one sphere, which need that of twelve (tests/engine/stability measures both).
+//! times its speed, at half the limit within 4 %, at a tenth within 0.03 %. Nor do the decisive
+//! limits know of several contacts of one sphere, which need that of twelve (tests/engine/stability
+//! measures both).
 
 mod air;
 mod hertz;
@@ -119,8 +120,8 @@ pub fn shortest_contact(scene: &Scene) -> Option<f64> {
     hertz.or_else(|| linear::stiffest_impact(scene).map(|impact| impact.contact_time()))
 }
 
-/// The limit that adaptive Verlet, whose sub-steps resolve contacts, shares with the others: there it
-/// decides.
+/// The limit that adaptive Verlet, whose sub-steps resolve contacts, shares with the others: there
+/// it decides.
 const DISPLACEMENT: &str = "displacement";
 
 /// The limit at which the fastest sphere reaches the displacement guard: the smallest one, that the
@@ -137,8 +138,8 @@ fn displacement(scene: &Scene, speed: f64) -> Limit {
     }
 }
 
-/// What an integrator makes of an oscillator: it stays bounded as one would of which symplectic Euler
-/// makes the same, with another damping.
+/// What an integrator makes of an oscillator: it stays bounded as one would of which symplectic
+/// Euler makes the same, with another damping.
 #[derive(Clone, Copy)]
 struct Scheme {
     /// Factor on damping rates.
@@ -157,8 +158,8 @@ impl Scheme {
         Self { damping }
     }
 
-    /// Largest step (s) at which an oscillator of that angular frequency w (1/s) and damping rate g (1/s)
-    /// stays bounded.
+    /// Largest step (s) at which an oscillator of that angular frequency w (1/s) and damping rate g
+    /// (1/s) stays bounded.
     fn oscillator(self, frequency: f64, rate: f64) -> f64 {
         // The positive root of (w dt)^2 + 2 g dt = 4, in the form that does not cancel.
         let rate = self.damping * rate;

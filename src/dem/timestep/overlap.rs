@@ -7,8 +7,8 @@ use crate::dem::vector::Vector;
 use crate::dem::walls::{TankWall, Wall};
 use crate::scene::{Scene, Start, Tank};
 
-/// The deepest overlap (m) of two listed spheres, or of one with a wall; zero where none touch. Other
-/// starts have none.
+/// The deepest overlap (m) of two listed spheres, or of one with a wall; zero where none touch.
+/// Other starts have none.
 pub(super) fn deepest_at_start(scene: &Scene) -> f64 {
     // Radii may be dealt at random, which only placing the spheres tells.
     let (Start::List { .. }, Ok(spheres)) = (&scene.start, start::place(scene)) else {

@@ -17,10 +17,11 @@ impl Meeting {
     }
 }
 
-/// The impacts that may set a limit, the stiffest one first: at the fastest speed, or from the deepest
-/// overlap at the start. Two of the smallest spheres are the stiffest, w^2 = (3/2) k_n sqrt(R_eff xi) / m_eff;
-/// the damping rate gamma_n sqrt(R_eff xi) grows with the radius and is largest for the largest sphere at a
-/// wall. In between the limit has no minimum: the sum of rate and frequency is convex in the radius.
+/// The impacts that may set a limit, the stiffest one first: at the fastest speed, or from the
+/// deepest overlap at the start. Two of the smallest spheres are the stiffest, w^2 = (3/2) k_n
+/// sqrt(R_eff xi) / m_eff; the damping rate gamma_n sqrt(R_eff xi) grows with the radius and is
+/// largest for the largest sphere at a wall. In between the limit has no minimum: the sum of rate
+/// and frequency is convex in the radius.
 fn meetings(scene: &Scene) -> Vec<Meeting> {
     let Some(Contact::Silbert { stiffness, .. }) = scene.contact else {
         return Vec::new();
@@ -57,7 +58,8 @@ fn meetings(scene: &Scene) -> Vec<Meeting> {
     all.filter(|meeting| meeting.impact.speed > 0.0).collect()
 }
 
-/// The impact of the two smallest spheres at the fastest speed, or from the deepest overlap at the start.
+/// The impact of the two smallest spheres at the fastest speed, or from the deepest overlap at the
+/// start.
 pub(super) fn stiffest_impact(scene: &Scene) -> Option<Impact> {
     let stiffest = meetings(scene).into_iter().next();
     stiffest.map(|meeting| meeting.impact)

@@ -32,8 +32,8 @@ impl Standing {
         Self::all(scene).into_iter().find(|it| it.limit.decisive)
     }
 
-    /// What may happen at this step, if that deserves a warning: above [`CAUTION`](Self::CAUTION) times
-    /// a decisive limit, and above an advised one. The Rayleigh time is left out: a step is
+    /// What may happen at this step, if that deserves a warning: above [`CAUTION`](Self::CAUTION)
+    /// times a decisive limit, and above an advised one. The Rayleigh time is left out: a step is
     /// customarily a fifth of it, but no force of this engine travels as a surface wave.
     pub fn consequence(&self) -> Option<&'static str> {
         let threshold = if self.limit.decisive {

@@ -30,8 +30,8 @@ pub trait Wall: Copy + Send + 'static {
     fn is_near(&self, centre: Vector, radius: f64, margin: f64) -> bool;
 }
 
-/// A wall of a tank, whichever it is. Loops over contacts are compiled for each kind by itself; this is
-/// for all else.
+/// A wall of a tank, whichever it is. Loops over contacts are compiled for each kind by itself;
+/// this is for all else.
 #[derive(Clone, Copy, Debug)]
 pub enum TankWall {
     /// The floor.

@@ -18,8 +18,8 @@ impl Scene {
         self.check_comings_and_goings(problems);
     }
 
-    /// Whether spheres come or go while the scene runs. If so, a sphere that is not in has no numbers
-    /// (NaN) in snapshots.
+    /// Whether spheres come or go while the scene runs. If so, a sphere that is not in has no
+    /// numbers (NaN) in snapshots.
     pub fn has_flow(&self) -> bool {
         matches!(self.start, Start::Feed { .. })
             || self.door.is_some()

@@ -11,11 +11,11 @@ use ndarray_npy::{WriteNpyError, WriteNpyExt};
 use std::io;
 use std::path::Path;
 
-/// Writes these states of a record into `folder` as arrays of 64-bit floating point numbers:
-/// `time` (s; states), `position` (m), `velocity` (m/s) and, of spheres that rotate, `spin` (rad/s;
-/// all states x n x 3), `radius` (m; n), `mass` (kg; n). Where spheres come and go, one that is not in
-/// has no numbers (NaN). Of fixed spheres `walls` and `door` (x, y, z and radius, all in m; number of
-/// spheres x 4).
+/// Writes these states of a record into `folder` as arrays of 64-bit floating point numbers: `time`
+/// (s; states), `position` (m), `velocity` (m/s) and, of spheres that rotate, `spin` (rad/s; all
+/// states x n x 3), `radius` (m; n), `mass` (kg; n). Where spheres come and go, one that is not in
+/// has no numbers (NaN). Of fixed spheres `walls` and `door` (x, y, z and radius, all in m; number
+/// of spheres x 4).
 ///
 /// # Errors
 /// [`StoreError::DiskFull`] or [`StoreError::Write`].

@@ -1,7 +1,7 @@
 //! SVG pictures, as browsers show them: one file per state, walls red, door green, grains blue.
 //!
-//! Lengths are in metres and to scale, the window is the same in all files. The y axis of SVG points
-//! down: `cy` is -z.
+//! Lengths are in metres and to scale, the window is the same in all files. The y axis of SVG
+//! points down: `cy` is -z.
 
 use super::{frame_name, make_folder};
 use crate::markup::escape;

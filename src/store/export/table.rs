@@ -12,9 +12,9 @@ use std::path::Path;
 /// What a table of spheres begins with.
 pub const SPHERES_SIGNATURE: &[u8] = b"time,sphere,x,y,z,";
 
-/// Writes these states of a record as a table of one row per state and sphere: `time` (s),
-/// `sphere` (from 0), centre `x`, `y`, `z` (m), velocity `vx`, `vy`, `vz` (m/s), spin `wx`, `wy`,
-/// `wz` (rad/s; empty without rotation), `radius` (m), `mass` (kg). Where spheres come and go there is
+/// Writes these states of a record as a table of one row per state and sphere: `time` (s), `sphere`
+/// (from 0), centre `x`, `y`, `z` (m), velocity `vx`, `vy`, `vz` (m/s), spin `wx`, `wy`, `wz`
+/// (rad/s; empty without rotation), `radius` (m), `mass` (kg). Where spheres come and go there is
 /// no row for one that is not in.
 ///
 /// # Errors

@@ -18,9 +18,9 @@ use std::io::{ErrorKind, Write};
 use std::path::Path;
 
 /// Writes these states of a record as a series for ParaView: the file `series` (`….pvd`), which
-/// names the files `frame_00000.vtp` and so on in the folder of its name without `.pvd`. Each
-/// holds the centres as points, with `radius` (m), `mass` (kg), `velocity` (m/s) and, of spheres
-/// that rotate, `spin` (rad/s). Where spheres come and go, a file holds those that are in, with `id`,
+/// names the files `frame_00000.vtp` and so on in the folder of its name without `.pvd`. Each holds
+/// the centres as points, with `radius` (m), `mass` (kg), `velocity` (m/s) and, of spheres that
+/// rotate, `spin` (rad/s). Where spheres come and go, a file holds those that are in, with `id`,
 /// the index of each. Fixed spheres are further parts of the series, `walls.vtp` and, as long as it
 /// is closed, `door.vtp`. The series appears last: when it is there, all its files are.
 ///

@@ -6,10 +6,10 @@
 //! X x y z radius mass vx vy vz wx wy wz
 //! ```
 //!
-//! OVITO makes Radius, Mass, Velocity and Angular Velocity of `radius`, `mass`, `velo` and
-//! `omega`. The lattice is the box that holds all spheres at all times; nothing is periodic. All
-//! numbers are in SI units, with as many digits as it takes to read back the same bits. Where spheres
-//! come and go, a block holds those that are in, and `id` is the index of each, from 0.
+//! OVITO makes Radius, Mass, Velocity and Angular Velocity of `radius`, `mass`, `velo` and `omega`.
+//! The lattice is the box that holds all spheres at all times; nothing is periodic. All numbers are
+//! in SI units, with as many digits as it takes to read back the same bits. Where spheres come and
+//! go, a block holds those that are in, and `id` is the index of each, from 0.
 
 use super::{bounds, fixed, present, rotate};
 use crate::observe::Snapshot;
@@ -78,8 +78,8 @@ fn write_sphere(
     Ok(())
 }
 
-/// Writes the fixed spheres of a record's scene as one block; `door` is 1 of those of the door, 0 of
-/// the walls.
+/// Writes the fixed spheres of a record's scene as one block; `door` is 1 of those of the door, 0
+/// of the walls.
 ///
 /// # Errors
 /// [`StoreError::DiskFull`] or [`StoreError::Write`].

@@ -41,7 +41,8 @@ const FORMAT: &str = "phase run record";
 /// observable, say) or older programs cannot read its own.
 const FORMAT_VERSION: u64 = 3;
 
-/// Most spheres that stand in the text of a scene, of which a reader makes several hundred bytes for each.
+/// Most spheres that stand in the text of a scene, of which a reader makes several hundred bytes
+/// for each.
 const MOST_IN_TEXT: usize = 1000;
 
 /// What a record says of its run besides what was measured.
@@ -68,8 +69,9 @@ pub fn write_record(record: &RunRecord, path: &Path) -> Result<(), StoreError> {
     write(content(record, path)?, path)
 }
 
-/// The same for a record whose snapshots and trajectory are not needed any more: it loses them when the content of the
-/// file is put together, before that is compressed and written, even if this fails.
+/// The same for a record whose snapshots and trajectory are not needed any more: it loses them when
+/// the content of the file is put together, before that is compressed and written, even if this
+/// fails.
 ///
 /// # Errors
 /// Those of [`write_record`].

@@ -360,8 +360,8 @@ mod tests {
         }
     }
 
-    /// Symptom: exports of records with a right checksum panicked. Cause: lengths that disagree were
-    /// believed.
+    /// Symptom: exports of records with a right checksum panicked. Cause: lengths that disagree
+    /// were believed.
     #[test]
     fn what_does_not_fit_together_is_named() {
         assert_eq!(mismatch(&sound()), None);

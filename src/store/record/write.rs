@@ -12,16 +12,17 @@ use ndarray::Array2;
 const DEFLATE_LEVEL: u32 = 1;
 /// Datasets below this size (bytes) are stored as they are.
 const COMPRESS_FROM: usize = 4096;
-/// Largest chunk of a dataset (bytes): what a reader must unpack to see one frame, or a part of a large one.
+/// Largest chunk of a dataset (bytes): what a reader must unpack to see one frame, or a part of a
+/// large one.
 const CHUNK: usize = 1 << 20;
 /// Why a scene has no text that gives it back.
 const NOT_FINITE: &str = "its scene holds a number that is not finite; check the scene file";
-/// Most entries of a chunk along an axis: HDF5 2.0 refuses the extents of larger ones as they are written here,
-/// in four bytes where it would take three.
+/// Most entries of a chunk along an axis: HDF5 2.0 refuses the extents of larger ones as they are
+/// written here, in four bytes where it would take three.
 const WIDEST: usize = u16::MAX as usize;
 
-/// What the HDF5 file of a record holds, with the program and its processor time if they are wanted. It is still
-/// to be written, as it may be most of what fits into memory.
+/// What the HDF5 file of a record holds, with the program and its processor time if they are
+/// wanted. It is still to be written, as it may be most of what fits into memory.
 pub(super) fn build(
     record: &RunRecord,
     provenance: Option<(&Program, f64)>,
@@ -69,7 +70,8 @@ fn long_start(scene: &Scene) -> Option<(Scene, &[StartSphere])> {
     apart.filter(|(_, spheres)| spheres.len() > MOST_IN_TEXT)
 }
 
-/// The attributes; `rest` is the scene without its start's spheres, if these are too many for a text.
+/// The attributes; `rest` is the scene without its start's spheres, if these are too many for a
+/// text.
 fn header(file: &mut FileBuilder, record: &RunRecord, rest: Option<&Scene>) -> Result<(), String> {
     let scene = &record.scene;
     let in_text = rest.unwrap_or(scene);
@@ -83,8 +85,8 @@ fn header(file: &mut FileBuilder, record: &RunRecord, rest: Option<&Scene>) -> R
     file.set_attr("seed", AttrValue::U64(scene.seed));
     file.set_attr("work", AttrValue::U64(record.work));
     file.set_attr("scene", text(&json));
-    // For people only, so it may be missing: it is no file to run without the spheres, and TOML has no whole
-    // numbers beyond 64 signed bits.
+    // For people only, so it may be missing: it is no file to run without the spheres, and TOML has
+    // no whole numbers beyond 64 signed bits.
     if rest.is_none()
         && let Ok(toml) = toml::to_string(scene)
     {
@@ -164,7 +166,8 @@ fn dataset<T: H5Element>(
     }
 }
 
-/// Extents of the chunks of a dataset with entries of that size (bytes): whole rows as far as they fit.
+/// Extents of the chunks of a dataset with entries of that size (bytes): whole rows as far as they
+/// fit.
 fn chunk(shape: &[u64], size: usize) -> Vec<u64> {
     let mut chunk = shape.to_vec();
     let mut room = CHUNK / size;

@@ -39,7 +39,8 @@ fn bits_do_not_depend_on_the_search() {
         "",
     ];
     for friction in frictions {
-        // Filled at 3 s, opened, and half empty at 6 s: insertion, removal, and histories of contacts.
+        // Filled at 3 s, opened, and half empty at 6 s: insertion, removal, and histories of
+        // contacts.
         let scene = hopper(&[
             (frictions[0], friction),
             ("door = {}", "door = { opens = 4.0 }"),
@@ -70,8 +71,8 @@ fn the_search_is_no_part_of_a_run() {
 
 #[test]
 fn a_hash_table_finds_grains_that_are_far_apart() {
-    // Two pairs that meet, 1e7 m from each other: a box of cells about all of them would be too wide
-    // to tell anything, or too large to be stored.
+    // Two pairs that meet, 1e7 m from each other: a box of cells about all of them would be too
+    // wide to tell anything, or too large to be stored.
     let far = hopper(&[
         ("count = 60", "count = 4"),
         (

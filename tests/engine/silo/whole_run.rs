@@ -30,8 +30,8 @@ fn time_left(record: &RunRecord, count: f32) -> f64 {
     observations.time[frame.unwrap()]
 }
 
-/// A number of the whole run: what is measured, the value to meet, and by how much the mean over the
-/// seeds may miss it.
+/// A number of the whole run: what is measured, the value to meet, and by how much the mean over
+/// the seeds may miss it.
 struct Expected {
     quantity: &'static str,
     value: f64,
@@ -39,12 +39,12 @@ struct Expected {
     measure: fn(&RunRecord) -> f64,
 }
 
-/// One run of Remmers' silo by another program; its rate is said to lie in 28.5 to 30.5 over time steps
-/// and release positions. Grains move chaotically, so one run is one draw. Over the seeds 1 to 8 ours
-/// spread by 1.0 s, 0.04 m, 0.9 s and 0.6 grains/s (one standard deviation). Tolerances are 2.5 of these
-/// (for the rate 1.7): one run and the mean of four that differ by nothing but chance are farther apart
-/// in 3 % (13 %) of all cases; one run and one run, at 1.26 times as much, too. The seeds are fixed: the
-/// test gives the same answer every time.
+/// One run of Remmers' silo by another program; its rate is said to lie in 28.5 to 30.5 over time
+/// steps and release positions. Grains move chaotically, so one run is one draw. Over the seeds 1
+/// to 8 ours spread by 1.0 s, 0.04 m, 0.9 s and 0.6 grains/s (one standard deviation). Tolerances
+/// are 2.5 of these (for the rate 1.7): one run and the mean of four that differ by nothing but
+/// chance are farther apart in 3 % (13 %) of all cases; one run and one run, at 1.26 times as much,
+/// too. The seeds are fixed: the test gives the same answer every time.
 const WHOLE_RUN: [Expected; 4] = [
     Expected {
         quantity: "time at rest (s)",
@@ -82,8 +82,8 @@ const WHOLE_RUN: [Expected; 4] = [
     },
 ];
 
-/// Asserts that runs of the shipped silo with these seeds, or as it is shipped, empty it and meet the
-/// numbers, within so many times the tolerance of four.
+/// Asserts that runs of the shipped silo with these seeds, or as it is shipped, empty it and meet
+/// the numbers, within so many times the tolerance of four.
 #[track_caller]
 fn assert_silo(seeds: &[Option<u64>], tolerances: f64) {
     let scene = shipped("silo.toml");
@@ -466,9 +466,9 @@ fn two_and_a_half_thousand_grains_and_more() {
     assert_eq!(record.observations.released.last(), Some(&3000.0));
 }
 
-/// Symptom: a silo ended "at rest" while nine grains moved at .11 m/s and three a second still left.
-/// Cause: the limit was compared with the energy of all grains together, in which a few that flow
-/// are lost.
+/// Symptom: a silo ended "at rest" while nine grains moved at .11 m/s and three a second still
+/// left. Cause: the limit was compared with the energy of all grains together, in which a few that
+/// flow are lost.
 #[test]
 fn rest_holds_for_every_sphere_and_for_spins() {
     let ends_at_rest = |last: &str| {
@@ -502,8 +502,8 @@ fn rest_holds_for_every_sphere_and_for_spins() {
 }
 
 /// Symptom: `check` said that the walls hold up to 8.976 m/s, and the run ended by the overlap
-/// guard. Cause: a disc that comes straight at a fixed one overlaps it too deep before it could pass
-/// between two.
+/// guard. Cause: a disc that comes straight at a fixed one overlaps it too deep before it could
+/// pass between two.
 #[test]
 fn check_warns_of_walls_that_break_the_overlap_guard() {
     let place = Workplace::new();

@@ -1,5 +1,5 @@
-//! Above each kind of limit a run is reported, or gains the energy that is measured here; nothing is
-//! clamped.
+//! Above each kind of limit a run is reported, or gains the energy that is measured here; nothing
+//! is clamped.
 
 use super::bench::{LIMIT, PLAIN, RADIUS, at, downward, moving};
 use super::contacts::rebounds;
@@ -42,8 +42,8 @@ fn an_elastic_impact_above_the_contact_limit_is_reported() {
     }
 }
 
-/// Measured: 0.025 of the speed is left at the limit, 0.63 and 3.8 above it; with synchronised Verlet,
-/// which has a tighter limit for damping, 0.03 and 0.66.
+/// Measured: 0.025 of the speed is left at the limit, 0.63 and 3.8 above it; with synchronised
+/// Verlet, which has a tighter limit for damping, 0.03 and 0.66.
 #[test]
 fn a_damped_impact_above_its_limit_rebounds_the_faster() {
     for integrator in PLAIN {
@@ -57,8 +57,8 @@ fn a_damped_impact_above_its_limit_rebounds_the_faster() {
     }
 }
 
-/// Largest energy after oblique impacts, over that before; infinite where one is reported. Measured:
-/// 1.50 at the limit, 31 half above it (5.2 with synchronised Verlet).
+/// Largest energy after oblique impacts, over that before; infinite where one is reported.
+/// Measured: 1.50 at the limit, 31 half above it (5.2 with synchronised Verlet).
 fn oblique(integrator: Integrator, part: f64) -> f64 {
     let outcomes = (0..32).map(|phase| {
         let offset = 1e-4 * f64::from(phase);
@@ -89,8 +89,8 @@ fn an_oblique_impact_above_the_sticking_limit_gains_energy() {
     }
 }
 
-/// A sphere that rests on the floor under linear contacts, struck at 1 mm/s, and spun. Its limits are
-/// the square root of two times those of a pair.
+/// A sphere that rests on the floor under linear contacts, struck at 1 mm/s, and spun. Its limits
+/// are the square root of two times those of a pair.
 fn resting(damping: f64, friction: Option<Friction>) -> Scene {
     let stiffness = 1e4;
     let mut scene = cluster(vec![StartSphere::at([0.0; 3])], friction, 1e-6);

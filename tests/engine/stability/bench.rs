@@ -34,8 +34,8 @@ pub(crate) fn crowded(scene: &Scene, integrator: Integrator, part: f64) -> Scene
     scene
 }
 
-/// The smallest of such limits (s). Those of adaptive Verlet are so wide that impacts are over within
-/// a step: it is tried at ten times that of the others, or at half its own if that is less.
+/// The smallest of such limits (s). Those of adaptive Verlet are so wide that impacts are over
+/// within a step: it is tried at ten times that of the others, or at half its own if that is less.
 fn limit(scene: &Scene, counts: fn(&timestep::Limit) -> bool) -> f64 {
     if scene.time.integrator != Integrator::AdaptiveVerlet {
         return smallest(scene, counts);

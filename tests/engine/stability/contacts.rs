@@ -6,8 +6,8 @@ use phase::dem::Simulation;
 use phase::record::{Guard, Instability};
 use phase::scene::{Contact, Friction, Integrator, Radii, Scene, StartSphere};
 
-/// Largest speed after an elastic impact at the limit, over that before: the impact takes two steps,
-/// and it depends on where the first falls. Measured: 0.61 to 2.33.
+/// Largest speed after an elastic impact at the limit, over that before: the impact takes two
+/// steps, and it depends on where the first falls. Measured: 0.61 to 2.33.
 const GAIN_AT_THE_LIMIT: f64 = 2.4;
 
 /// Two spheres that meet head-on at 1 m/s from this far apart (m).
@@ -49,8 +49,8 @@ fn rebound(scene: &Scene) -> Result<f64, Instability> {
 }
 
 /// Least and largest relative speed (m/s) after an impact at 1 m/s, of 32 that begin at different
-/// times within a step; infinite where a run is reported. Of steps below a tenth of the limit four do:
-/// there what such a beginning changes is far below what is asked of the speed.
+/// times within a step; infinite where a run is reported. Of steps below a tenth of the limit four
+/// do: there what such a beginning changes is far below what is asked of the speed.
 pub(crate) fn rebounds(
     change: impl Fn(Scene) -> Scene,
     integrator: Integrator,

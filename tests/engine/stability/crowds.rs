@@ -10,8 +10,8 @@ use phase::scene::{Contact, ContactDrag, Friction, Integrator, Scene, Start, Sta
 
 pub(crate) const MINDLIN: Friction = Friction::Mindlin { coefficient: 0.5 };
 
-/// A damped column at rest of spheres with these radii (m), the lowest first: every contact is as deep
-/// as its load asks.
+/// A damped column at rest of spheres with these radii (m), the lowest first: every contact is as
+/// deep as its load asks.
 pub(crate) fn column(radii: &[f64], friction: Option<Friction>) -> Scene {
     let mut scene = damped(cluster(Vec::new(), friction, 1e-6), 1e-4);
     let Some(Contact::Hertz {
@@ -88,8 +88,8 @@ fn a_column_of_a_hundred_stays_at_rest() {
     }
 }
 
-/// Symptom: a strongly damped column gained 2 % of its energy and trembled, with no word. Cause: the
-/// limit of twelve contacts left out their damping.
+/// Symptom: a strongly damped column gained 2 % of its energy and trembled, with no word. Cause:
+/// the limit of twelve contacts left out their damping.
 #[test]
 fn a_strongly_damped_column_stays_at_rest() {
     for integrator in Integrator::ALL {
@@ -139,8 +139,8 @@ pub(crate) fn creep(scene: &Scene, rest: u64, steps: u64) -> f64 {
     largest_way(&mut simulation, fair(scene, steps))
 }
 
-/// The lower the column, the sooner it is at rest: twenty spheres are among the long cases. Measured:
-/// below 1e-11 radii.
+/// The lower the column, the sooner it is at rest: twenty spheres are among the long cases.
+/// Measured: below 1e-11 radii.
 #[test]
 fn a_leaning_column_with_static_friction_does_not_creep() {
     for integrator in Integrator::ALL {
@@ -150,9 +150,9 @@ fn a_leaning_column_with_static_friction_does_not_creep() {
     }
 }
 
-/// Its step is a hundred times the limit that is advised for regularised friction, and a sphere that
-/// should come to rest changes sign from step to step. Measured: 0.02 to 0.8 radii in 5 s at the
-/// limit of twelve contacts, and 3e-5 at a twentieth of it.
+/// Its step is a hundred times the limit that is advised for regularised friction, and a sphere
+/// that should come to rest changes sign from step to step. Measured: 0.02 to 0.8 radii in 5 s at
+/// the limit of twelve contacts, and 3e-5 at a twentieth of it.
 #[test]
 fn a_leaning_column_with_regularised_friction_trembles_where_the_step_is_coarse() {
     let friction = Friction::Coulomb {

@@ -26,8 +26,8 @@ fn passes(scene: &Scene, speed: f64) -> Option<bool> {
     Some(position[0].x > position[1].x)
 }
 
-/// Whatever the speed and the step: a sphere bounces back or the run ends, it never comes out behind
-/// the other. Without guards it does.
+/// Whatever the speed and the step: a sphere bounces back or the run ends, it never comes out
+/// behind the other. Without guards it does.
 #[test]
 fn fast_spheres_bounce_back_or_are_reported() {
     for integrator in Integrator::ALL {
@@ -113,8 +113,8 @@ fn whirled(young_modulus: f64) -> Scene {
     damped(scene, 1e-6)
 }
 
-/// Hard spheres are pressed to the wall by 240,000 m/s2 and turn with the air; soft ones cannot bear
-/// it.
+/// Hard spheres are pressed to the wall by 240,000 m/s2 and turn with the air; soft ones cannot
+/// bear it.
 #[test]
 fn air_at_two_thousand_radians_per_second() {
     for integrator in Integrator::ALL {
@@ -169,8 +169,8 @@ fn without_gravity_and_friction_nothing_but_impacts_changes_a_motion() {
     }
 }
 
-/// A single sphere on the way of a parabola: exact for what is second order, half a step's fall beside
-/// it for symplectic Euler.
+/// A single sphere on the way of a parabola: exact for what is second order, half a step's fall
+/// beside it for symplectic Euler.
 #[test]
 fn one_sphere_falls_as_it_must() {
     for integrator in Integrator::ALL {

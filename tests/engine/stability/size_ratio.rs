@@ -1,9 +1,9 @@
-//! A small sphere in the neck between two large ones, with static friction (Vyas, Ottino, Lueptow and
-//! Umbanhowar, Comput. Phys. Commun. 310, 109524 (2025)).
+//! A small sphere in the neck between two large ones, with static friction (Vyas, Ottino, Lueptow
+//! and Umbanhowar, Comput. Phys. Commun. 310, 109524 (2025)).
 //!
-//! It rolls around the neck and should fall off below. The tangential spring is loaded by velocities
-//! half a step older than the normal it is turned to; the part of them that pulls inwards adds
-//! up, the sphere is wedged in, and goes on around the neck.
+//! It rolls around the neck and should fall off below. The tangential spring is loaded by
+//! velocities half a step older than the normal it is turned to; the part of them that pulls
+//! inwards adds up, the sphere is wedged in, and goes on around the neck.
 
 use super::bench::{LIMIT, at, downward, moving};
 use phase::dem::Simulation;

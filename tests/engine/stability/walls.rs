@@ -189,8 +189,9 @@ fn undamped_walls_keep_the_energy_or_the_run_is_reported() {
     }
 }
 
-/// Symptom: a fixed sphere that reaches into the floor ended a run as too deep, and was counted among the
-/// contacts and the elastic energy of moving ones. Cause: walls were looked at for fixed spheres too.
+/// Symptom: a fixed sphere that reaches into the floor ended a run as too deep, and was counted
+/// among the contacts and the elastic energy of moving ones. Cause: walls were looked at for fixed
+/// spheres too.
 #[test]
 fn fixed_spheres_reach_into_walls_as_they_like() {
     for integrator in Integrator::ALL {

@@ -12,8 +12,8 @@ use phase::store::{content_digest, read_checkpoint, write_checkpoint};
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-/// Runs a scene to its end, and stops at every `step`-th frame: each part goes on from the file that
-/// the part before left. Returns the record and the number of parts.
+/// Runs a scene to its end, and stops at every `step`-th frame: each part goes on from the file
+/// that the part before left. Returns the record and the number of parts.
 fn in_parts(scene: &Scene, step: u64) -> (RunRecord, usize) {
     let place = Workplace::new();
     let checkpoints = Checkpoints::beside(&place.path("run.h5"), Duration::from_secs(1000));
@@ -160,7 +160,8 @@ fn any_way_to_find_neighbours_goes_on() {
     }
 }
 
-/// What the springs of contacts remember is a part of the state: without it a pile goes another way.
+/// What the springs of contacts remember is a part of the state: without it a pile goes another
+/// way.
 #[test]
 fn a_pile_needs_its_histories() {
     let mut scene = tank(
@@ -230,8 +231,8 @@ fn a_list_of_other_spheres_is_refused() {
     assert_eq!(differ(&scene), "seed, start.spheres");
 }
 
-/// Symptom: a checkpoint of another run, differing in no key. Cause: to JSON's numbers 0 and -0 are equal, to the motion
-/// they need not be.
+/// Symptom: a checkpoint of another run, differing in no key. Cause: to JSON's numbers 0 and -0 are
+/// equal, to the motion they need not be.
 #[test]
 fn zeros_of_another_sign_are_told() {
     let mut scene = tank(None, Integrator::SymplecticEuler);
@@ -279,8 +280,8 @@ fn a_checkpoint_that_cannot_be_written_does_not_end_the_run() {
     assert!(matches!(ending, Ending::Lost(_)), "{ending:?}");
 }
 
-/// Symptom: a run whose folder was removed while it went on left no checkpoint when it was stopped. Cause:
-/// only the record made its folder again.
+/// Symptom: a run whose folder was removed while it went on left no checkpoint when it was stopped.
+/// Cause: only the record made its folder again.
 #[test]
 fn a_folder_that_was_removed_is_made_again_for_the_checkpoint() {
     let place = Workplace::new();

@@ -206,8 +206,8 @@ pub(crate) fn under_way(place: &Workplace, out: &str) -> Child {
     child
 }
 
-/// Symptom: two runs of one record at once wrote each other's checkpoint, and the later one's record
-/// replaced the other's. Cause: no lock.
+/// Symptom: two runs of one record at once wrote each other's checkpoint, and the later one's
+/// record replaced the other's. Cause: no lock.
 #[test]
 fn two_runs_do_not_share_a_record() {
     let place = Workplace::new();

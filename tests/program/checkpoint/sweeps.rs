@@ -94,8 +94,8 @@ fn a_sweep_starts_a_job_anew_whose_checkpoint_is_damaged() {
     assert_eq!(place.records("results").len(), TinySweep::slow().jobs());
 }
 
-/// A process that is killed right after it stored a record leaves the checkpoint of a job that is done,
-/// which nobody would ever read.
+/// A process that is killed right after it stored a record leaves the checkpoint of a job that is
+/// done, which nobody would ever read.
 #[test]
 fn checkpoints_of_jobs_that_are_done_are_removed() {
     let place = Workplace::new();

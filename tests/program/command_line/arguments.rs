@@ -20,7 +20,8 @@ fn wrong_arguments_are_refused() {
     }
 }
 
-/// Symptom: `--seed -1` advised to write `-- -1`, which does not help, and a seed that no file can hold was taken.
+/// Symptom: `--seed -1` advised to write `-- -1`, which does not help, and a seed that no file can
+/// hold was taken.
 #[test]
 fn numbers_are_refused_for_what_they_are() {
     let place = Workplace::new();

@@ -206,8 +206,8 @@ fn a_missing_record_is_named() {
     assert!(message.starts_with(start), "{message}");
 }
 
-/// Symptom: `phase plot RECORD` could not draw energies or speeds of one record, and no figure could
-/// be drawn elsewhere than beside its data.
+/// Symptom: `phase plot RECORD` could not draw energies or speeds of one record, and no figure
+/// could be drawn elsewhere than beside its data.
 #[test]
 fn figures_of_one_record_go_where_they_are_asked_for() {
     let place = crate::support::Workplace::new();

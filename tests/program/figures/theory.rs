@@ -78,8 +78,8 @@ fn net_force_says_what_it_assumes_of_the_lift() {
     let proportional = tank.draw("net-force-proportional", "net-force", &[]);
     assert!(!says(&proportional));
     assert_eq!(lines(&proportional), lines(&independent));
-    // At 8 rad/s of a reference of 16 the lift is a quarter, so that the scene's own curve is the one
-    // of half the rotation before.
+    // At 8 rad/s of a reference of 16 the lift is a quarter, so that the scene's own curve is the
+    // one of half the rotation before.
     let updraught = tank.sweep.scene.updraught.as_mut().unwrap();
     updraught.reference_omega = Some(16.0);
     let weak = tank.draw("net-force-weak", "net-force", &[]);

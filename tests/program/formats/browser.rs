@@ -171,8 +171,8 @@ fn told(page: &str) -> serde_json::Value {
     serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
 }
 
-/// A second decoder of the positions of a page, which knows nothing of the script's: the spheres that
-/// are in, with their coordinates (quanta), for every state.
+/// A second decoder of the positions of a page, which knows nothing of the script's: the spheres
+/// that are in, with their coordinates (quanta), for every state.
 fn decoded(run: &serde_json::Value) -> Vec<Vec<(usize, Vec<i64>)>> {
     let text = run["positions"].as_str().unwrap();
     let bytes = base64::engine::general_purpose::STANDARD

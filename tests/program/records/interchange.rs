@@ -149,8 +149,8 @@ fn h5py_reads_every_number() {
         return skip("python3 with h5py");
     }
     let folder = tempfile::tempdir().unwrap();
-    // Symptom: h5py with HDF5 2.0 opened no dataset of more than 65,535 spheres or frames. Cause: extents of chunks
-    // written in four bytes that it expects in three.
+    // Symptom: h5py with HDF5 2.0 opened no dataset of more than 65,535 spheres or frames. Cause:
+    // extents of chunks written in four bytes that it expects in three.
     let large = with_all(examples::record(70_000, 1, 70_000, 1));
     let mut long_start = example();
     examples::list_many(&mut long_start.scene, 1500);

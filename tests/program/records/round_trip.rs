@@ -102,8 +102,8 @@ fn a_scene_with_many_spheres_reads_back() {
     assert_same(&back, &record);
 }
 
-/// Symptom: a million spheres from a file took twice the memory when their record was written, and 250 bytes each in
-/// it. Cause: they stood in the scene's texts.
+/// Symptom: a million spheres from a file took twice the memory when their record was written, and
+/// 250 bytes each in it. Cause: they stood in the scene's texts.
 #[test]
 fn a_long_list_of_spheres_stands_in_datasets() {
     for count in [1000, 1001, 20_000] {

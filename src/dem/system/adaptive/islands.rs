@@ -50,7 +50,8 @@ impl Islands {
         self.active[sphere as usize] = true;
     }
 
-    /// Notes that two spheres may touch, of which the first `fixed` do not move: they join no parts.
+    /// Notes that two spheres may touch, of which the first `fixed` do not move: they join no
+    /// parts.
     pub(super) fn join(&mut self, i: u32, j: u32, fixed: usize) {
         self.touch(j);
         if (i as usize) < fixed {

@@ -18,17 +18,18 @@ use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;
 use crate::simulation::Instability;
 
-/// How often a step is tried, each time with more room. One that needs more is on its way to a guard.
+/// How often a step is tried, each time with more room. One that needs more is on its way to a
+/// guard.
 const ATTEMPTS: u32 = 20;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// One step of synchronised Verlet, cut into as many sub-steps as the contacts need, for each group
-    /// of touching spheres by itself: the others move in one go. What acts besides contacts is taken
-    /// from the middle of the whole step.
+    /// One step of synchronised Verlet, cut into as many sub-steps as the contacts need, for each
+    /// group of touching spheres by itself: the others move in one go. What acts besides contacts
+    /// is taken from the middle of the whole step.
     ///
-    /// A sphere belongs to a group if it touches another one or might within the step, as far as it may
-    /// get. One that gets farther, because another one knocked it or its contacts threw it, has the step
-    /// done again with as much room as it takes. So no contact begins unseen.
+    /// A sphere belongs to a group if it touches another one or might within the step, as far as it
+    /// may get. One that gets farther, because another one knocked it or its contacts threw it, has
+    /// the step done again with as much room as it takes. So no contact begins unseen.
     pub(super) fn adaptive_verlet(&mut self) -> Result<(), Instability> {
         let mut work = std::mem::take(&mut self.workspace);
         let result = self.adaptive_step(&mut work);
@@ -98,8 +99,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         outcome
     }
 
-    /// Forces and torques of all but contacts, in the middle of the step as they foretell it, and how
-    /// far the spheres may get in the step. Leaves the spheres where they were.
+    /// Forces and torques of all but contacts, in the middle of the step as they foretell it, and
+    /// how far the spheres may get in the step. Leaves the spheres where they were.
     fn slow_forces(&mut self, work: &mut Workspace<T::History>) -> Result<(), Instability> {
         let dt = self.parts.dt;
         if self.stale {
@@ -241,8 +242,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         radius * radius * inverse
     }
 
-    /// Squared frequency (1/s2) and damping rate (1/s) of an impact of that overlap (m) and speed (m/s) at
-    /// its deepest, if it may gain so much speed (m/s). `yielding` is 1 / m_eff and `turning` what rotation adds to it (1/kg).
+    /// Squared frequency (1/s2) and damping rate (1/s) of an impact of that overlap (m) and speed
+    /// (m/s) at its deepest, if it may gain so much speed (m/s). `yielding` is 1 / m_eff and
+    /// `turning` what rotation adds to it (1/kg).
     fn rates(
         &self,
         overlap: f64,
@@ -266,8 +268,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let along = yielding + turning;
         let squared = (normal.stiffness(overlap, effective_radius) * yielding)
             .max(tangential.stiffness(overlap, effective_radius) * along);
-        // Sliding that stops faster than the contact swings is not resolved: it trembles, within what
-        // friction can carry.
+        // Sliding that stops faster than the contact swings is not resolved: it trembles, within
+        // what friction can carry.
         let friction = (tangential.damping(&grip) * along).min(squared.sqrt());
         let damping = normal.damping(overlap, effective_radius, effective_mass) * yielding;
         [squared, damping.max(friction)]
@@ -350,8 +352,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             work.held.torque.extend(torques);
         }
         self.forces_among(&island.among, false);
-        // Forces of spheres that move are those of the last middle still, and the next step finds what is
-        // too deep, if it matters.
+        // Forces of spheres that move are those of the last middle still, and the next step finds
+        // what is too deep, if it matters.
         let particles = &mut self.parts.particles;
         for (i, &force) in spheres().zip(&work.held.force) {
             particles.force[i] = force;
@@ -362,8 +364,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.too_deep = None;
     }
 
-    /// Moves a sphere to the middle of a sub-step, and gives it the velocity and spin that the latest
-    /// forces foretell there; its own are held.
+    /// Moves a sphere to the middle of a sub-step, and gives it the velocity and spin that the
+    /// latest forces foretell there; its own are held.
     fn foretell(&mut self, i: usize, half: f64, work: &mut Workspace<T::History>) {
         let particles = &mut self.parts.particles;
         particles.position[i] += particles.velocity[i] * half;

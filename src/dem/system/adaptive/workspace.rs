@@ -5,8 +5,8 @@ use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 use crate::dem::walls::TankWall;
 
-/// What a sub-step may take of an island's fastest oscillation, h (w + g) with angular frequency w and
-/// damping rate g: an impact then lasts 27 sub-steps or more.
+/// What a sub-step may take of an island's fastest oscillation, h (w + g) with angular frequency w
+/// and damping rate g: an impact then lasts 27 sub-steps or more.
 const RESOLUTION: f64 = 0.15;
 
 /// What a sphere may get farther than its speed and the slow forces take it before its step is done
@@ -21,8 +21,8 @@ pub(in crate::dem::system) struct Workspace<H> {
     /// Forces and torques of all but contacts in the middle of the step.
     pub(super) force: Vec<Vector>,
     pub(super) torque: Vec<Vector>,
-    /// What the forces at the start of the step may add to the speed of each sphere, were they twice as
-    /// large (m/s), and how far it may get (m).
+    /// What the forces at the start of the step may add to the speed of each sphere, were they
+    /// twice as large (m/s), and how far it may get (m).
     pub(super) gain: Vec<f64>,
     pub(super) reach: Vec<f64>,
     /// How far each sphere got at most, squared (m2).
@@ -109,8 +109,8 @@ impl<H> Workspace<H> {
         self.way_squared[i] = self.way_squared[i].max(squared);
     }
 
-    /// Gives spheres that got farther than they might twice the room that they took. The largest reach
-    /// (m), if there are any.
+    /// Gives spheres that got farther than they might twice the room that they took. The largest
+    /// reach (m), if there are any.
     pub(super) fn widen(&mut self, dt: f64) -> Option<f64> {
         let mut strayed = false;
         for ((squared, reach), gain) in self

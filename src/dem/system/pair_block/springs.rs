@@ -20,8 +20,8 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Adds what friction carries of the springs to the forces; with `ONE`, the first torque alone, where both are
-    /// the same or nobody asks for the other.
+    /// Adds what friction carries of the springs to the forces; with `ONE`, the first torque alone,
+    /// where both are the same or nobody asks for the other.
     #[inline(always)]
     pub(super) fn rub<T: TangentialLaw<History = H>, const ONE: bool>(
         &mut self,
@@ -95,7 +95,8 @@ impl<H: History> PairBlock<H> {
         self.lever[k] = pressed.lever;
     }
 
-    /// Turns springs into the planes across the normals: in a loop of its own, as the roots of pairs are found.
+    /// Turns springs into the planes across the normals: in a loop of its own, as the roots of
+    /// pairs are found.
     #[inline(always)]
     pub(super) fn turn_springs(&mut self, normal: impl Fn(&Self, usize) -> Vector) {
         if Self::REMEMBERS {
