@@ -273,7 +273,9 @@ fn a_run_counts_every_grain_in_and_out() {
     let expected: f32 = inside
         .map(|(released, discharged)| released - discharged)
         .sum();
-    assert_eq!(record.work, expected as u64 * 100);
+    // Frames do not say when within them a grain came or left.
+    let ratio = record.work as f64 / (f64::from(expected) * 100.0);
+    assert!((0.99..1.01).contains(&ratio), "{ratio}");
     // The rate is that of the last second, twenty frames.
     for (frame, rate) in observations.discharge_rate.iter().enumerate().skip(20) {
         let left = observations.discharged[frame] - observations.discharged[frame - 20];
@@ -479,7 +481,7 @@ fn rest_holds_for_every_sphere_and_for_spins() {
             r#"
             spheres = {{ count = 10, radius = 0.01, density = 2400.0 }}
             contact = {{ law = "hertz", young_modulus = 1e6, poisson_ratio = 0.3, dissipation_time = 1e-3 }}
-            friction = {{ law = "coulomb", coefficient = 0.0 }}
+            friction = {{ law = "coulomb", coefficient = 0.0, regularisation = 1e-3 }}
             tank = {{ floor = 0.0 }}
             gravity = {{ acceleration = 9.8 }}
             rest = {{ kinetic_energy = 1e-4, hold = 0.3 }}
