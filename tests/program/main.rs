@@ -7,6 +7,10 @@ mod command_line;
 mod cost;
 mod editors;
 mod figures;
+/// How the program writes numbers; its unit tests run here.
+#[path = "../../src/cli/format.rs"]
+#[allow(dead_code, reason = "the program uses all of it")]
+mod format;
 mod formats;
 mod limits;
 mod loss;

@@ -1,15 +1,15 @@
 //! Positions as few bytes.
 //!
 //! Whole numbers are written in groups of seven bits, the lowest first; the eighth bit of a byte
-//! says that another follows (LEB128). A number that may be negative is written as 2 v, or as -2 v
-//! - 1. For every state there follow
+//! says that another follows (LEB128). A number v that may be negative is written as 2 v, or as
+//! -2 v - 1 below zero. For every state there follow
 //!
 //! 1. how many spheres came in since the state before, then the index of the first and the
 //!    differences from each to the next;
 //! 2. the same for those that left;
 //! 3. for every sphere that is in, in the order of their indices, by how many quanta each
-//!   coordinate differs from the state before, or from zero for one that came in. Behind a zero
-//!   stands how many more zeros there would be, and these are left out.
+//!    coordinate differs from the state before, or from zero for one that came in. Behind a zero
+//!    stands how many more zeros there would be, and these are left out.
 
 use ndarray::Array2;
 
