@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use std::{fs, io};
 
-/// Time between two checkpoints, if nobody says otherwise.
+/// Default time between two checkpoints.
 pub const DEFAULT_INTERVAL: Duration = Duration::from_secs(120);
 
 /// Where a run leaves its checkpoint, and how often.
@@ -80,7 +80,7 @@ impl Checkpoints {
     /// the run goes on.
     ///
     /// A run from the start replaces the checkpoint of an earlier run, but not before the first one
-    /// is due: whoever started it by mistake may stop it and loses nothing.
+    /// is due: who started it by mistake may stop it and loses nothing.
     pub fn run(
         &self,
         mut run: Run,

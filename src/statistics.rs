@@ -39,7 +39,7 @@ impl Estimate {
     }
 }
 
-/// Ends of the interval of [`CONFIDENCE`] for a share that was found in so many independent trials:
+/// Ends of the interval of [`CONFIDENCE`] for a share found in that many independent trials:
 /// Wilson's score interval (E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927)). It stays between 0
 /// and 1. For the mean of shares it is wide enough, because no distribution on [0, 1] scatters more
 /// than that of yes and no.

@@ -116,7 +116,7 @@ impl Command {
     }
 }
 
-/// Parses the command line. A number may be negative: whoever takes no such one says so.
+/// Parses the command line. A number may be negative: commands that do not accept one say so.
 fn parse() -> CommandLine {
     let command = CommandLine::command();
     let command = command.mut_subcommands(|command| command.allow_negative_numbers(true));

@@ -68,7 +68,7 @@ impl<'a> Progress<'a> {
         self.advance_to(steps, steps, String::new());
     }
 
-    /// Sphere-steps were run, so many of them of the work, which is in a `phase` of that name.
+    /// Work was done, `steps` of what was planned; the run is in the `phase` of that name.
     pub(crate) fn advance_to(&self, run: u64, done: u64, phase: String) {
         let mut state = self.state();
         state.run += run;
@@ -77,7 +77,7 @@ impl<'a> Progress<'a> {
         self.show(state);
     }
 
-    /// So many sphere-steps of the work were done before.
+    /// That much of the work was done before.
     pub(crate) fn skip(&self, steps: u64) {
         let mut state = self.state();
         state.work.steps_done += steps;

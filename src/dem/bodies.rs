@@ -71,7 +71,7 @@ impl<'a> Spheres<'a> {
         all.split(range.len())
     }
 
-    /// Takes so many from the front, or all that there are.
+    /// Takes that many from the front, or all if there are fewer.
     pub(super) fn split(&mut self, count: usize) -> Self {
         let first = self.first;
         self.first += count.min(self.len());

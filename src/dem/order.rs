@@ -19,7 +19,7 @@ pub const MANY: usize = 4096;
 /// Steps between two looks at the order.
 pub(super) const INTERVAL: u64 = 250;
 
-/// Spheres are sorted anew when one of so many stands in a cell before that of the one before it.
+/// Spheres are sorted again when one in this number stands in a cell before its predecessor's.
 const TOLERATED: usize = 64;
 
 /// Rows of cells side by side that are gone through layer by layer, before the next ones: what a

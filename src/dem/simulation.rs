@@ -206,7 +206,7 @@ impl Simulation {
         self.engine.use_baseline_instructions();
     }
 
-    /// Advances on so many threads from now on, where it pays: in scenes of [`MANY`](order::MANY)
+    /// Advances on that many threads from now on, where it pays: in scenes of [`MANY`](order::MANY)
     /// spheres or more, where none comes or goes. The bits do not depend on it.
     ///
     /// # Errors

@@ -53,7 +53,7 @@ pub(in crate::dem) fn both(threads: usize, one: impl FnOnce() + Send, other: imp
     }
 }
 
-/// Takes so many entries from the front, or all that there are.
+/// Takes that many entries from the front, or all if there are fewer.
 pub(in crate::dem) fn split<'a, E>(rest: &mut &'a mut [E], count: usize) -> &'a mut [E] {
     let all = std::mem::take(rest);
     let count = count.min(all.len());

@@ -405,7 +405,7 @@ struct Rising<'a> {
 }
 
 impl<'a> Rising<'a> {
-    /// Of a frame of so many spheres and that mean height (m), if they are to be counted.
+    /// For a frame of `count` spheres with that mean height (m); none if nothing is counted.
     fn new(observer: &'a mut Observer, count: usize, height_mean: f64) -> Option<Self> {
         let cells = observer.rises.len() * observer.distances.len();
         if cells == 0 {

@@ -13,7 +13,7 @@ const LINE: f64 = 1.6;
 const GAP: f64 = 0.4;
 /// Length of the colour bar, over the size of the letters.
 const BAR: f64 = 5.0;
-/// From so many panels on, the legend and the length stand beside each other.
+/// From this number of panels on, legend and length stand beside each other.
 const WIDE: usize = 2;
 
 /// What the pictures of a run have in common.

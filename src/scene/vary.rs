@@ -22,7 +22,7 @@ impl Template {
     /// For values at these paths.
     ///
     /// # Errors
-    /// If a path is none of the scene's numeric keys.
+    /// If a path is not a numeric key of the scene.
     pub(crate) fn new(scene: &Scene, paths: &[&str]) -> Result<Self, Problem> {
         let whole = scene;
         let scene = whole.for_keys(paths);
@@ -85,7 +85,7 @@ impl Scene {
     /// This scene with other values at some numeric keys.
     ///
     /// # Errors
-    /// If a path is none of this scene's numeric keys, or the value is of the wrong kind for it or
+    /// If a path is not a numeric key of this scene, or the value is of the wrong kind for it or
     /// out of range.
     pub fn with_values<'a>(
         &self,

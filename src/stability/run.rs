@@ -71,7 +71,7 @@ pub enum TrialsError {
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
-/// How, where and under whose eyes a study is run.
+/// How, where and with which callbacks a study is run.
 pub struct Trials<'a> {
     /// The study.
     pub study: &'a Study,

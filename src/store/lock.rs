@@ -47,7 +47,7 @@ impl Lock {
         matches!(lock, Ok(Err(TryLockError::WouldBlock)))
     }
 
-    /// Gives the right back, and removes the file if it goes with it: before, so that nobody else
+    /// Gives the right back, and removes the file first if it goes with it, so that nobody else
     /// can have it under this name.
     fn give_back(&self) -> io::Result<()> {
         if let Some(path) = &self.passing {

@@ -250,7 +250,7 @@ fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
     let given = tree["sieves"].as_object().into_iter().flatten();
     for (name, _) in given.filter(|(name, _)| !own.contains(&name.as_str())) {
         let message = format!(
-            "`sieves.{name}` is none of the sieves of a {}",
+            "`sieves.{name}` is not a sieve of a {}",
             family.name()
         );
         let help = format!("remove it; those are {}", one_of(own.iter().copied()));
@@ -276,7 +276,7 @@ fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
     for (key, value, list, counted) in pairs {
         if !counted.contains(&value) {
             let message = format!(
-                "`sieves.spout.{key}` = {value} is none of the scene's `output.{list}` = {counted:?}"
+                "`sieves.spout.{key}` = {value} is not one of the scene's `output.{list}` = {counted:?}"
             );
             let help = format!("use one of these, or add {value} to `{list}` in [output]");
             problems.push(Problem::new(format!("sieves.spout.{key}"), message).help(help));
@@ -325,7 +325,7 @@ fn check_grid(sweep: &Sweep, document: &Document, problems: &mut Vec<Problem>) {
     check_points(errors, &sweep.axes, document.tree(), problems);
 }
 
-/// Whether so many jobs can be held in memory.
+/// Whether that many jobs fit into memory.
 pub(crate) fn check_jobs(jobs: usize, help: &str, problems: &mut Vec<Problem>) -> bool {
     if jobs > MOST_JOBS {
         let message = format!("the grid has {jobs} jobs");

@@ -83,7 +83,7 @@ fn the_quick_sweep_has_all_states_and_its_figures() {
     place
         .phase(&["check", "wrong.toml"])
         .code(2)
-        .complains("`sieves.spout` is none of the sieves of a silo");
+        .complains("`sieves.spout` is not a sieve of a silo");
 }
 
 #[test]

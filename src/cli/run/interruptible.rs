@@ -22,7 +22,7 @@ pub(super) struct Ran {
     pub(super) resumed_from: Option<f64>,
 }
 
-/// Runs a scene on so many threads, with a progress bar and checkpoints. None if it was
+/// Runs a scene on that many threads, with a progress bar and checkpoints. None if it was
 /// interrupted: says how to go on.
 pub(super) fn run(
     scene: &Scene,

@@ -36,7 +36,7 @@ fn key(kind: MilestoneKind) -> String {
     kind.name().replace(' ', "-")
 }
 
-/// At most so many states, as evenly spaced as can be, the first and the last among them.
+/// At most that many states, spaced as evenly as possible, with the first and the last.
 pub(super) fn evenly(states: &[Snapshot], most: usize) -> Vec<&Snapshot> {
     let count = states.len().min(most);
     if count < 2 {

@@ -12,7 +12,7 @@ const PACKING_LIMIT: f64 = 0.30;
 /// Share up to which a random start is taken to succeed without a trial.
 const CERTAIN_PACKING: f64 = 0.10;
 
-/// Largest number of spheres that are placed on trial; so many are small against their tank.
+/// Largest number of spheres that are placed on trial. Larger numbers are small against their tank.
 const MOST_TRIED: usize = 10_000;
 
 impl Scene {

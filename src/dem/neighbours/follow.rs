@@ -1,16 +1,18 @@
-//! A Verlet list follows the few spheres that come, go, or stray from the others, and holds on for
-//! these: a silo's grains lie still but for those that fall.
+//! A Verlet list that follows the few spheres which come, go or stray, and stays valid for the rest:
+//! most grains of a silo lie still while a few fall.
 
 use super::{Reach, VerletList};
 use crate::dem::particles::Particles;
 
-/// Of so many spheres one may have strayed, and no more than so many in all, each of which is
-/// compared with all spheres: following more takes as long as building the list anew.
+/// At most one in this number of spheres may have strayed. Each stray is compared with all spheres,
+/// so following more takes as long as building the list again.
 const FEW_OF: usize = 24;
+
+/// At most this number of spheres may have strayed.
 const MOST: usize = 64;
 
-/// A stray is followed to where it will be when it has gone this part of the way that is allowed:
-/// who falls then strays half as often.
+/// A stray is followed to where it will be after this share of the way that is allowed. A falling
+/// sphere then strays half as often.
 const AHEAD: f64 = 0.8;
 
 impl VerletList {

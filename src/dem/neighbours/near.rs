@@ -210,7 +210,7 @@ impl Near {
         self.contacts && steps >= LONG_LIFE && self.margin > self.smallest
     }
 
-    /// Makes the list anew from a valid Verlet list, on so many threads of the pool that runs this.
+    /// Makes the list again from a valid Verlet list, on that many threads of the current pool.
     pub(in crate::dem) fn refresh(
         &mut self,
         level: Level,

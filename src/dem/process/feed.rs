@@ -15,7 +15,7 @@ pub(in crate::dem) struct Feed {
 }
 
 impl Feed {
-    /// These spheres, one every so many steps.
+    /// These spheres, one every `interval` steps.
     pub(in crate::dem) fn new(spheres: Vec<Sphere>, interval: u64) -> Self {
         Self {
             waiting: spheres.into(),
@@ -38,7 +38,7 @@ impl Feed {
         self.waiting.len()
     }
 
-    /// Passes over the next so many spheres: they came in before.
+    /// Skips that many spheres, which came in before.
     pub(super) fn skip(&mut self, spheres: usize) {
         self.waiting.drain(..spheres.min(self.waiting.len()));
         self.released += spheres;

@@ -22,7 +22,7 @@ use crate::dem::walls::TankWall;
 use fearless_simd::Level;
 use std::ops::Range;
 
-/// Boundaries are narrow if at most one of so many spheres is copied for them.
+/// Boundaries are narrow if at most one in this number of spheres is copied for them.
 const NARROW: usize = 8;
 
 /// Who answers for what.
@@ -53,7 +53,7 @@ pub(super) struct Portion<'a, H> {
 }
 
 impl<H: History> Division<H> {
-    /// Among so many threads.
+    /// Among that many threads.
     pub(super) fn new(threads: usize) -> Self {
         let region = || Region {
             spheres: 0..0,
@@ -69,7 +69,7 @@ impl<H: History> Division<H> {
         }
     }
 
-    /// Divides so many spheres such that all have as many of these pairs.
+    /// Divides the spheres so that each thread has about as many of these pairs.
     pub(super) fn divide(
         &mut self,
         spheres: usize,

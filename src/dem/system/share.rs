@@ -48,7 +48,7 @@ impl<C, H> Known<'_, C, H> {
         }
     }
 
-    /// Takes so many from the front, or all that there are.
+    /// Takes that many from the front, or all if there are fewer.
     pub(super) fn split(&mut self, count: usize) -> Self {
         Self {
             contacts: split_shared(&mut self.contacts, count),

@@ -27,7 +27,7 @@ use crate::dem::threads::in_parallel;
 use crate::dem::walls::TankWall;
 use fearless_simd::Level;
 
-/// After so many near pairs spheres are moved: few enough that these are still in a near cache, so
+/// Spheres are moved after this many near pairs: few enough that these are still in a near cache, so
 /// many that few lanes of blocks are left over.
 const SPAN: usize = 16 * LOOK;
 

@@ -12,7 +12,7 @@ use prefetch_index::prefetch_index;
 /// many that few lanes are left over.
 pub(super) const LOOK: usize = 512;
 
-/// Histories of so many bytes come from farther than the caches, and are sent for.
+/// Histories that take this many bytes or more lie beyond the caches, and are prefetched.
 const CACHES: usize = 1 << 25;
 
 /// Whether these histories, all that there are, come from that far.
@@ -70,7 +70,7 @@ impl Touching {
         }
     }
 
-    /// The block from `at` on, of so many contacts that were found.
+    /// The block from `at` on, with that many contacts.
     #[inline(always)]
     pub(super) fn block(&self, at: usize, found: usize) -> Lanes<'_> {
         const FITS: &str = "a block lies within the room";

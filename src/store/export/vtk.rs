@@ -108,7 +108,7 @@ fn fixed_file(spheres: &[FixedSphere]) -> Vec<u8> {
     points(arrays, spheres.len(), &position, &data)
 }
 
-/// A VTP file of so many points.
+/// A VTP file of that many points.
 fn points(mut arrays: Appended, count: usize, position: &str, data: &str) -> Vec<u8> {
     // Each point is a vertex, so that it is seen without any filter.
     let connectivity = arrays.integers("connectivity", 0..count as i64);

@@ -295,7 +295,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
-    /// Moves the spheres of an island by a step, in so many parts.
+    /// Moves the spheres of an island by a step, in that many parts.
     fn move_island(
         &mut self,
         island: &Island,
