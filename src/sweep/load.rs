@@ -249,10 +249,7 @@ fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
     let own = Sieves::names(family);
     let given = tree["sieves"].as_object().into_iter().flatten();
     for (name, _) in given.filter(|(name, _)| !own.contains(&name.as_str())) {
-        let message = format!(
-            "`sieves.{name}` is not a sieve of a {}",
-            family.name()
-        );
+        let message = format!("`sieves.{name}` is not a sieve of a {}", family.name());
         let help = format!("remove it; those are {}", one_of(own.iter().copied()));
         problems.push(
             Problem::new(format!("sieves.{name}"), message)
