@@ -50,9 +50,17 @@ impl Document {
     /// # Errors
     /// If it cannot be read, or is no TOML.
     pub(crate) fn read(path: &Path) -> Result<Self, LoadError> {
-        let text = std::fs::read_to_string(path).map_err(|source| LoadError::Read {
+        let bytes = std::fs::read(path).map_err(|source| LoadError::Read {
             path: path.to_owned(),
             source,
+        })?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let start = error.utf8_error().valid_up_to();
+            let text = String::from_utf8_lossy(error.as_bytes());
+            let help = "save the file as UTF-8 text".to_owned();
+            let message = "this is not UTF-8 text".to_owned();
+            let finding = Finding::new(message, path, &text, Some(start..start), Some(help));
+            LoadError::Invalid(vec![finding])
         })?;
         Self::parse(text, path)
     }

@@ -306,3 +306,18 @@ fn a_name_that_json_cannot_hold_is_refused_before_the_work() {
     assert!(!place.path("run.h5").exists());
     assert_eq!(run(&[]).status.code(), Some(0));
 }
+
+/// Symptom: a file that is not UTF-8 was refused without a line. Cause: it was read as text at once.
+#[test]
+fn what_is_not_utf8_is_pointed_at() {
+    let place = Workplace::new();
+    let text = [scene_file().as_bytes(), b"title = \"Z\xfcrich\"\n"].concat();
+    std::fs::write(place.path("scene.toml"), &text).unwrap();
+    let line = scene_file().lines().count() + 1;
+    place
+        .phase(&["check", "--no-trial", "scene.toml"])
+        .code(2)
+        .complains("error: this is not UTF-8 text")
+        .complains(&format!("--> scene.toml:{line}:11"))
+        .complains("save the file as UTF-8 text");
+}
