@@ -307,7 +307,8 @@ fn a_name_that_json_cannot_hold_is_refused_before_the_work() {
     assert_eq!(run(&[]).status.code(), Some(0));
 }
 
-/// Symptom: a file that is not UTF-8 was refused without a line. Cause: it was read as text at once.
+/// Symptom: a file that is not UTF-8 was refused without a line. Cause: it was read as text at
+/// once.
 #[test]
 fn what_is_not_utf8_is_pointed_at() {
     let place = Workplace::new();

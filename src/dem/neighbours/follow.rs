@@ -1,5 +1,5 @@
-//! A Verlet list that follows the few spheres which come, go or stray, and stays valid for the rest:
-//! most grains of a silo lie still while a few fall.
+//! A Verlet list that follows the few spheres which come, go or stray, and stays valid for the
+//! rest: most grains of a silo lie still while a few fall.
 
 use super::{Reach, VerletList};
 use crate::dem::particles::Particles;

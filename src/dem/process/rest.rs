@@ -3,8 +3,8 @@
 use crate::dem::particles::Particles;
 use crate::scene::Rest;
 
-/// Largest part of the limit for all spheres that one of them may have at rest, in scenes of so
-/// many spheres or more. In smaller scenes it is an equal share.
+/// One sphere at rest may have the limit of all spheres over this number, or over the number of
+/// spheres if that is smaller.
 const PARTS: usize = 100;
 
 /// Watches the kinetic energy of all spheres and of every single one.

@@ -7,8 +7,8 @@
 //! Adaptive Verlet cuts its steps itself where spheres touch. What is left is that no sphere moves
 //! by more than the displacement guard allows, and the drag, with g dt < 2 as for the first two.
 //!
-//! Every limit here is that criterion for one effect, at the fastest impact the scene lets expect or
-//! the deepest overlap it starts with. The smallest spheres decide, since all of these times grow
+//! Every limit here is that criterion for one effect, at the fastest impact the scene lets expect
+//! or the deepest overlap it starts with. The smallest spheres decide, since all of these times grow
 //! with the radius.
 //!
 //! Bounded is not accurate: an elastic impact at the limit takes two steps and ends with 0.6 to 2.4
