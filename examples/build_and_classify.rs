@@ -72,11 +72,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         let record = run::run(&scene, &mut |_| ControlFlow::Continue(()))?;
         let verdict = classify(&record, &Sieves::default())?;
-        let measures = verdict.tank().ok_or("the scene is a tank")?;
-        let hole = measures.order.hole_radius.unwrap_or(f64::NAN);
+        let hole = verdict.value("hole_radius").unwrap_or(f64::NAN);
         println!(
             "omega = {omega} rad/s: {}, hole of {hole:.2} R",
-            verdict.label.name()
+            verdict.label.name
         );
 
         let path = std::env::temp_dir().join(format!("phase-example-{omega}.h5"));

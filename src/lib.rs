@@ -67,7 +67,7 @@
 //! assert!(top[0] > 0.01 && (top[400] - 0.004).abs() < 1e-4);
 //!
 //! let verdict = classify(&record, &Sieves::default())?;
-//! assert_eq!(verdict.label, Label::Settled);
+//! assert_eq!(verdict.label, Label::SETTLED);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

@@ -6,7 +6,7 @@ use super::{Family, Label, Verdict};
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabelTable {
     /// Whose labels and measures these are: all rows are of this family.
-    pub family: Family,
+    pub family: &'static Family,
     /// Names of the axes, in the sweep's order.
     pub axes: Vec<String>,
     /// One row per job, in the sweep's order.
@@ -65,12 +65,13 @@ impl LabelTable {
                     .filter(|&&row| self.rows[row].verdict.label == label)
                     .count()
             };
-            let (label, votes) = Label::ALL
-                .into_iter()
-                .map(|label| (label, count(label)))
-                .fold((Label::Unstable, 0), |best, next| {
+            let labels = self.family.labels.iter().copied();
+            let (label, votes) = labels.map(|label| (label, count(label))).fold(
+                (Label::UNSTABLE, 0),
+                |best, next| {
                     if next.1 > best.1 { next } else { best }
-                });
+                },
+            );
             point.label = label;
             point.agreement = votes as f64 / point.rows.len() as f64;
         }

@@ -166,7 +166,7 @@ impl Summary {
         Self {
             folder: folder.root().to_owned(),
             labelled: labelled.table.rows.len(),
-            labels: labels.map(|(label, runs)| (label.name(), runs)).collect(),
+            labels: labels.map(|(label, runs)| (label.name, runs)).collect(),
             not_run: labelled.missing,
             problems: labelled.problems.clone(),
             changes,
@@ -231,7 +231,7 @@ fn counts(table: &LabelTable) -> Vec<(Label, usize)> {
             labels.clone().filter(|&other| other == label).count(),
         )
     };
-    let family = table.family.labels().iter();
+    let family = table.family.labels.iter();
     family.copied().map(count).collect()
 }
 
@@ -239,15 +239,15 @@ fn describe_counts(counts: &[(Label, usize)], runs: usize) -> String {
     let mut text = format!("{} labelled", format::count(runs, "run"));
     for (label, number) in counts.iter().filter(|(_, number)| *number > 0) {
         let share = format::percent(*number, runs);
-        text += &format!("\n  {:<12} {number:>6} {share:>6}", label.name());
+        text += &format!("\n  {:<12} {number:>6} {share:>6}", label.name);
     }
     text
 }
 
 fn list(changes: &BTreeMap<(Label, Label), usize>) -> Vec<Change> {
     let change = |(&(from, to), &runs): (&(Label, Label), &usize)| Change {
-        from: from.name(),
-        to: to.name(),
+        from: from.name,
+        to: to.name,
         runs,
     };
     changes.iter().map(change).collect()

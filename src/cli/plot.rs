@@ -3,8 +3,8 @@
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::folders;
-use phase::classify::Family;
 use phase::classify::LabelTable;
+use phase::classify::{FAMILIES, Family};
 use phase::plot::{self, PlotError, Svg};
 use phase::record::{Program, RunRecord};
 use phase::store;
@@ -129,7 +129,7 @@ struct Entry {
     description: String,
     /// The runs that a figure of single runs shows without --point.
     default_runs: Option<&'static str>,
-    /// `tank` or `silo`; none for both.
+    /// `tank` or `silo`; none for all.
     family: Option<&'static str>,
 }
 
@@ -157,7 +157,7 @@ struct FitEntry {
 /// Prints name and description of every figure, or of those that can be drawn of what is at `dir`.
 fn list(dir: Option<&Path>, console: &Console) -> Result<Vec<Entry>, Failure> {
     let (families, record) = match dir {
-        None => (vec![Family::Tank, Family::Silo], true),
+        None => (FAMILIES.to_vec(), true),
         Some(path) if path.is_file() => (Vec::new(), true),
         Some(dir) => {
             let folders = Folder::find(dir).map_err(Failure::refused)?.into_iter();
@@ -168,12 +168,12 @@ fn list(dir: Option<&Path>, console: &Console) -> Result<Vec<Entry>, Failure> {
     };
     let mut entries: Vec<Entry> = plot::figures()
         .into_iter()
-        .filter(|figure| families.iter().any(|family| figure.applies_to(*family)))
+        .filter(|figure| families.iter().any(|family| figure.applies_to(family)))
         .map(|figure| Entry {
             name: figure.name,
             description: figure.description,
             default_runs: figure.default_runs,
-            family: figure.family.map(Family::name),
+            family: figure.family.map(|family| family.name),
         })
         .collect();
     if record {
@@ -322,7 +322,9 @@ pub(super) fn draw_default_figures(
         console.note("a sweep without axes has no diagram: no figures");
         return Ok(());
     }
-    plot::default_figures(table.family)
+    table
+        .family
+        .default_figures
         .iter()
         .try_for_each(|name| draw(name, folder, place, sweep, table, &[], console))
 }

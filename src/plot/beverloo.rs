@@ -7,7 +7,7 @@ use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
 use crate::beverloo::{self, Bed, Discharge, Fit};
-use crate::classify::{Family, SiloOrder};
+use crate::classify::{Family, SILO, Verdict};
 use crate::statistics::Estimate;
 use std::f64::consts::PI;
 
@@ -42,8 +42,8 @@ impl Figure for Beverloo {
             .to_owned()
     }
 
-    fn family(&self) -> Option<Family> {
-        Some(Family::Silo)
+    fn family(&self) -> Option<&'static Family> {
+        Some(&SILO)
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
@@ -103,14 +103,11 @@ fn axis(source: &Source<'_>) -> Result<GridAxis, PlotError> {
     Ok(GridAxis::new(index, source.sweep, source.table))
 }
 
-/// Measures of the runs of a line, each with its opening (m).
-fn runs<'a>(
-    source: &'a Source<'_>,
-    line: &'a Series,
-) -> impl Iterator<Item = (f64, &'a SiloOrder)> {
+/// Verdicts on the runs of a line, each with its opening (m).
+fn runs<'a>(source: &'a Source<'_>, line: &'a Series) -> impl Iterator<Item = (f64, &'a Verdict)> {
     line.points.iter().flat_map(|(opening, point)| {
         let rows = point.rows.iter().map(|&row| &source.table.rows[row]);
-        rows.filter_map(|row| Some((*opening, &row.verdict.silo()?.order)))
+        rows.map(|row| (*opening, &row.verdict))
     })
 }
 
@@ -129,8 +126,8 @@ fn fitted(source: &Source<'_>, line: &Series) -> Result<FittedLine, PlotError> {
                       with [rest] and snapshots";
         fail(reason.to_owned())
     })?;
-    let measured = runs(source, line).filter_map(|(opening, order)| {
-        let rate = order.discharge_rate?;
+    let measured = runs(source, line).filter_map(|(opening, verdict)| {
+        let rate = verdict.value("discharge_rate")?;
         Some(Discharge { opening, rate })
     });
     let measured: Vec<Discharge> = measured.collect();
@@ -149,7 +146,7 @@ fn bed(source: &Source<'_>, line: &Series) -> Option<Bed> {
     let (_, point) = line.points.first()?;
     let scene = source.sweep.scene_at(&point.values).ok()?;
     let fractions: Vec<f64> = runs(source, line)
-        .filter_map(|(_, order)| order.packing_fraction)
+        .filter_map(|(_, verdict)| verdict.value("packing_fraction"))
         .collect();
     let fraction = Estimate::of_mean(&fractions)?.value;
     Some(Bed {
@@ -181,7 +178,7 @@ fn bars(source: &Source<'_>, line: &Series, factor: f64) -> Vec<Bar> {
     let mean = |opening: f64| {
         let rates: Vec<f64> = runs(source, line)
             .filter(|(at, _)| *at == opening)
-            .filter_map(|(_, order)| order.discharge_rate)
+            .filter_map(|(_, verdict)| verdict.value("discharge_rate"))
             .collect();
         Estimate::of_mean(&rates)
     };

@@ -131,9 +131,9 @@ pub(super) fn states(source: &Source<'_>) -> Result<Vec<usize>, PlotError> {
         let point = nearest_to_middle(source, &candidates)?;
         point.rows.iter().copied().find(|&row| has(row, label))
     };
-    Ok(Label::ALL
-        .into_iter()
-        .filter(|label| *label != Label::Unstable)
+    let labels = source.table.family.labels.iter().copied();
+    Ok(labels
+        .filter(|label| *label != Label::UNSTABLE)
         .filter_map(typical)
         .collect())
 }
@@ -144,7 +144,7 @@ pub(super) fn left_out(source: &Source<'_>) -> Option<String> {
     let rows = &source.table.rows;
     let unstable = rows
         .iter()
-        .filter(|row| row.verdict.label == Label::Unstable);
+        .filter(|row| row.verdict.label == Label::UNSTABLE);
     let count = unstable.count();
     (count > 0 && source.points.is_empty())
         .then(|| format!("not shown: unstable, {count} of {} runs", rows.len()))

@@ -128,7 +128,7 @@ fn clipped(points: &[(f64, f64)], low: f64, high: f64) -> Vec<Piece> {
 mod tests {
     use super::super::Source;
     use super::*;
-    use crate::classify::{Family, Label, Measures, Sieves, Verdict};
+    use crate::classify::{Label, Sieves, TANK, Verdict};
     use crate::classify::{LabelRow, LabelTable};
     use crate::record::Program;
     use crate::scene::RadiusShare;
@@ -169,13 +169,10 @@ mod tests {
             id: String::new(),
             values: axes.iter().map(|(_, values)| values[0]).collect(),
             seed: 1,
-            verdict: Verdict {
-                label: Label::Settled,
-                measures: Measures::none(Family::Tank),
-            },
+            verdict: Verdict::unmeasured(&TANK, Label::SETTLED),
         };
         let table = LabelTable {
-            family: Family::Tank,
+            family: &TANK,
             axes: axes.iter().map(|(key, _)| (*key).to_owned()).collect(),
             rows: vec![row],
         };

@@ -4,7 +4,7 @@ use super::chart::{self, Chart, Line, Panel};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, choice, palette};
-use crate::classify::Family;
+use crate::classify::{Family, TANK};
 use crate::scene::Scene;
 use crate::theory::critical_rotation;
 use plotters::style::RGBColor;
@@ -27,8 +27,8 @@ impl Figure for CriticalRotation {
         "theory: critical rotation over the radius of the spheres (eq. 43)".to_owned()
     }
 
-    fn family(&self) -> Option<Family> {
-        Some(Family::Tank)
+    fn family(&self) -> Option<&'static Family> {
+        Some(&TANK)
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {

@@ -21,8 +21,8 @@ pub(super) struct Look {
     pub(super) fill: Fill,
     /// The share of the seeds that agree, which a mark shows where it is not 1.
     pub(super) agreement: f64,
-    /// A line is drawn between neighbours of different groups.
-    pub(super) group: usize,
+    /// A line is drawn between neighbours of different groups, such as codes of labels.
+    pub(super) group: Option<i8>,
 }
 
 /// A curve over a panel: pieces in shown values.
@@ -228,7 +228,8 @@ impl<P> Diagram<'_, P> {
         let (x, y) = self.edges(plot);
         let (columns, rows) = self.grid.cells();
         let group = |column: usize, row: usize| looks[column + row * columns].map(|at| at.group);
-        let differ = |one: Option<usize>, other: Option<usize>| matches!((one, other), (Some(one), Some(other)) if one != other);
+        type Group = Option<Option<i8>>;
+        let differ = |one: Group, other: Group| matches!((one, other), (Some(one), Some(other)) if one != other);
         let line = |from: (i32, i32), to: (i32, i32)| {
             sheet.draw(&PathElement::new(
                 [from, to],

@@ -5,7 +5,7 @@ use super::choice::{self, Run};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, palette, scale};
-use crate::classify::Family;
+use crate::classify::{Family, TANK};
 use crate::record::RunRecord;
 
 /// Energies over time.
@@ -62,8 +62,8 @@ impl Figure for Energies {
         Some(self.default_runs)
     }
 
-    fn family(&self) -> Option<Family> {
-        Some(Family::Tank)
+    fn family(&self) -> Option<&'static Family> {
+        Some(&TANK)
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
@@ -79,7 +79,7 @@ impl Figure for Energies {
         let shown = runs.iter().zip(places).zip(&energies);
         let panels = shown.flat_map(|((run, mut head), energies)| {
             if self.with_states {
-                let state = run.row.verdict.label.name().replace('-', " ");
+                let state = run.row.verdict.label.name.replace('-', " ");
                 match head.first_mut() {
                     Some(first) => *first = format!("{state}: {first}"),
                     None => head.push(state),
@@ -125,7 +125,7 @@ fn energies(run: &Run<'_>, record: &RunRecord) -> Lines {
             .collect()
     };
     let duration = record.scene.time.duration;
-    let settled = run.row.verdict.tank().and_then(|it| it.settle_time);
+    let settled = run.row.verdict.value("settle_time");
     let zero = mean_after(
         &observations.time,
         &observations.gravitational,

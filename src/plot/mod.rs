@@ -83,8 +83,8 @@ trait Figure: Sync {
         None
     }
 
-    /// The family of scenes that it is for; none for both.
-    fn family(&self) -> Option<Family> {
+    /// The family of scenes that it is for; none for all.
+    fn family(&self) -> Option<&'static Family> {
         None
     }
 
@@ -119,22 +119,14 @@ pub struct About {
     /// Which runs it shows if no points are asked for; none for a figure that is not of single
     /// runs.
     pub default_runs: Option<&'static str>,
-    /// The family of scenes that it is for; none for both.
-    pub family: Option<Family>,
+    /// The family of scenes that it is for; none for all.
+    pub family: Option<&'static Family>,
 }
 
 impl About {
     /// Whether the figure can be drawn of scenes of a family.
-    pub fn applies_to(&self, family: Family) -> bool {
+    pub fn applies_to(&self, family: &Family) -> bool {
         self.family.is_none_or(|own| own == family)
-    }
-}
-
-/// Names of the figures that say most of a sweep, by the family of its scene.
-pub fn default_figures(family: Family) -> &'static [&'static str] {
-    match family {
-        Family::Tank => &["phase", "settle-time"],
-        Family::Silo => &["phase", "discharge-rate"],
     }
 }
 
@@ -176,7 +168,7 @@ pub fn draw(name: &str, source: &Source<'_>) -> Result<Svg, PlotError> {
         let known: Vec<&str> = others.map(|figure| figure.name()).collect();
         return Err(PlotError::OtherFamily {
             name: figure.name(),
-            family: family.name(),
+            family: family.name,
             known: known.join(", "),
         });
     }

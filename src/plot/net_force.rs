@@ -10,7 +10,7 @@ use super::critical_rotation::{radii, samples, volume};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, palette, scale};
-use crate::classify::Family;
+use crate::classify::{Family, TANK};
 use crate::scene::{Scene, Updraught};
 use crate::theory::unshielded_lift;
 
@@ -30,8 +30,8 @@ impl Figure for NetForce {
             .to_owned()
     }
 
-    fn family(&self) -> Option<Family> {
-        Some(Family::Tank)
+    fn family(&self) -> Option<&'static Family> {
+        Some(&TANK)
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {

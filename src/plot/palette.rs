@@ -1,7 +1,7 @@
 //! Colours: of states, and of continuous quantities.
 //!
-//! The colours of the states of a family get darker from state to state (those of a silo the less it
-//! lets out), so that they stay apart in grey print and for every kind of colour blindness; the tests hold them to that.
+//! The tests hold the colours of the labels of a family to differ for every kind of colour
+//! blindness and in grey print.
 
 use crate::classify::Label;
 use crate::color::{self, ColorMap};
@@ -10,18 +10,7 @@ use plotters::style::RGBColor;
 
 /// Colour of a state.
 pub(super) fn state(label: Label) -> RGBColor {
-    match label {
-        Label::Unsettled => rgb(0xe6_e2_f7),
-        Label::Settled => rgb(0xe2_bd_6c),
-        Label::Fluid => rgb(0x58_a6_e0),
-        Label::Pinned => rgb(0x2a_8a_5c),
-        Label::SmallSpout => rgb(0x98_2c_74),
-        Label::LargeSpout => rgb(0x3a_14_57),
-        Label::Emptied => rgb(0xe2_bd_6c),
-        Label::Flowing => rgb(0x3f_92_d2),
-        Label::Arching => rgb(0x7a_1f_4d),
-        Label::Unstable => rgb(0x00_00_00),
-    }
+    color(label.color)
 }
 
 /// Colour of what became of a run numerically: the darker the worse.
@@ -97,7 +86,7 @@ fn mix(one: RGBColor, other: RGBColor, share: f64) -> RGBColor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::classify::Family;
+    use crate::classify::{FAMILIES, TANK};
 
     type Matrix = [[f64; 3]; 3];
 
@@ -178,7 +167,7 @@ mod tests {
 
     /// All pairs of states that one diagram may show.
     fn pairs() -> Vec<(Label, Label)> {
-        let families = [Family::Tank, Family::Silo].into_iter().map(Family::labels);
+        let families = FAMILIES.into_iter().map(|family| family.labels);
         let of_family = |labels: &'static [Label]| {
             let pair = move |index: usize| {
                 let others = labels[index + 1..].iter();
@@ -205,19 +194,28 @@ mod tests {
     }
 
     #[test]
-    fn states_get_darker_in_order_and_unstable_is_black() {
-        let mut tank = Family::Tank.labels().to_vec();
-        tank.rotate_left(1);
-        // From the state in which most is let out.
-        let mut silo = Family::Silo.labels()[1..].to_vec();
-        silo[1..].reverse();
-        silo.push(Label::Unstable);
-        for order in [tank, silo] {
-            for pair in order.windows(2) {
-                let step = lightness(state(pair[0])) - lightness(state(pair[1]));
-                assert!(step >= LEAST_STEP, "{pair:?}: {step:.1}");
-            }
+    fn states_of_a_family_stay_apart_in_grey() {
+        for family in FAMILIES {
+            let mut shades: Vec<f64> = family
+                .labels
+                .iter()
+                .map(|it| lightness(state(*it)))
+                .collect();
+            shades.sort_by(f64::total_cmp);
+            let steps = shades.windows(2).map(|pair| pair[1] - pair[0]);
+            assert!(
+                steps.fold(f64::INFINITY, f64::min) >= LEAST_STEP,
+                "{family:?}: {shades:?}"
+            );
         }
+    }
+
+    #[test]
+    fn states_of_a_tank_get_darker_in_order() {
+        let shades = TANK.labels[1..]
+            .iter()
+            .map(|label| -lightness(state(*label)));
+        assert!(shades.is_sorted());
     }
 
     #[test]
@@ -253,13 +251,13 @@ mod tests {
 
     #[test]
     fn states_differ_from_empty_cells_and_paper() {
-        let step = lightness(EMPTY) - lightness(state(Label::Unsettled));
+        let step = lightness(EMPTY) - lightness(state(Label::UNSETTLED));
         assert!(step > 4.0, "{step:.1}");
     }
 
     #[test]
     fn fading_is_towards_white_by_disagreement() {
-        let color = state(Label::Pinned);
+        let color = state(Label::PINNED);
         assert_eq!(faded(color, 1.0), color);
         let shades: Vec<f64> = [1.0, 2.0 / 3.0, 1.0 / 3.0]
             .map(|agreement| lightness(faded(color, agreement)))
@@ -268,7 +266,7 @@ mod tests {
             shades.windows(2).all(|pair| pair[1] - pair[0] > 8.0),
             "{shades:?}"
         );
-        assert!(lightness(faded(state(Label::LargeSpout), 0.1)) < 99.0);
+        assert!(lightness(faded(state(Label::LARGE_SPOUT), 0.1)) < 99.0);
     }
 
     #[test]

@@ -32,12 +32,12 @@ impl Figure for PhaseDiagram {
             let mut points = points.iter();
             points.any(|point| has_majority(point) && point.label == *label)
         };
-        let mut legend: Vec<Entry> = Label::ALL
-            .into_iter()
-            .filter(occurs)
+        let labels = source.table.family.labels.iter();
+        let mut legend: Vec<Entry> = labels
+            .filter(|label| occurs(label))
             .map(|label| Entry {
-                key: Key::Fill(fill(label)),
-                text: label.name().replace('-', " "),
+                key: Key::Fill(fill(*label)),
+                text: label.name.replace('-', " "),
             })
             .collect();
         legend.extend(of_disagreement(&points));
@@ -61,7 +61,7 @@ fn has_majority(point: &Point) -> bool {
 fn fill(label: Label) -> Fill {
     match label {
         // Its colour is that of the critical rotation.
-        Label::Unstable => Fill::CrossHatch,
+        Label::UNSTABLE => Fill::CrossHatch,
         _ => Fill::Color(palette::state(label)),
     }
 }
@@ -75,13 +75,13 @@ fn look(point: &Point) -> Look {
                 pattern => pattern,
             },
             agreement: point.agreement,
-            group: point.label as usize,
+            group: Some(point.label.code),
         }
     } else {
         Look {
             fill: Fill::Stipple,
             agreement: 1.0,
-            group: Label::ALL.len(),
+            group: None,
         }
     }
 }

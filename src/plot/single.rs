@@ -1,7 +1,7 @@
 //! Figures of single runs, drawn of one record without a sweep.
 
 use super::{PlotError, Source, Svg, all};
-use crate::classify::{Family, Label, Measures, Sieves, Verdict, classify};
+use crate::classify::{Family, Label, Sieves, Verdict, classify};
 use crate::classify::{LabelRow, LabelTable};
 use crate::record::RunRecord;
 use crate::sweep::{PlotSettings, Sweep};
@@ -15,10 +15,8 @@ pub fn draw_single(name: &str, record: &RunRecord) -> Result<Svg, PlotError> {
     let (id, seed, family) = (scene.identity(), scene.seed, Family::of(&scene));
     let sieves = Sieves::default();
     // A figure of energies needs no label; a scene that no sieve can judge has none.
-    let verdict = classify(record, &sieves).unwrap_or(Verdict {
-        label: Label::Unsettled,
-        measures: Measures::none(family),
-    });
+    let verdict =
+        classify(record, &sieves).unwrap_or_else(|_| Verdict::unmeasured(family, Label::UNSETTLED));
     let row = LabelRow {
         id,
         values: Vec::new(),

@@ -4,7 +4,7 @@ use super::chart::{self, Chart, Line, Panel, columns};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, choice, palette};
-use crate::classify::Family;
+use crate::classify::{Family, TANK};
 use crate::record::RunRecord;
 
 /// Speeds of air and spheres over time.
@@ -23,8 +23,8 @@ impl Figure for Speeds {
         Some("the corners of the grid and between them")
     }
 
-    fn family(&self) -> Option<Family> {
-        Some(Family::Tank)
+    fn family(&self) -> Option<&'static Family> {
+        Some(&TANK)
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {

@@ -70,7 +70,7 @@ fn look(label: Label) -> Look {
     Look {
         fill: fill(label),
         agreement: 1.0,
-        group: label as usize,
+        group: Some(label as i8),
     }
 }
 

@@ -7,7 +7,7 @@ use super::layout::{TITLE_LINE, title_height, title_lines, whole};
 use super::style::{Drawn, LABEL, MARGIN, SMALL, Sheet, TITLE, WIDTH, frame, letters, px};
 use super::svg::{Placed, Svg};
 use super::{Figure, PlotError, Source, chart, palette, scale, text};
-use crate::classify::{Family, Label};
+use crate::classify::{Family, Label, TANK};
 use crate::observe::Snapshot;
 use crate::record::{Outcome, RunRecord};
 use crate::render::{Camera, Rgb, Stage, picture, round_down};
@@ -46,8 +46,8 @@ impl Figure for States {
         Some("a typical run of every state")
     }
 
-    fn family(&self) -> Option<Family> {
-        Some(Family::Tank)
+    fn family(&self) -> Option<&'static Family> {
+        Some(&TANK)
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
@@ -256,7 +256,7 @@ impl Strip {
         for (index, end) in ends.iter().enumerate() {
             let (left, top) = self.corner(index);
             let middle = left + width / 2;
-            let name = end.label.name().replace('-', " ");
+            let name = end.label.name.replace('-', " ");
             let head = letters(LABEL, HPos::Center, VPos::Bottom);
             sheet.draw_text(&name, &head, (middle, top + HEAD - px(4)))?;
             let below = top + HEAD + side + GAP + above + px(6);

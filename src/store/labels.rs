@@ -1,18 +1,13 @@
 //! `labels.csv`, one row per job, and `points.csv`, one row per point of the grid.
 //!
 //! Columns of `labels.csv`: `id`, the axes by their names, `seed`, `label`, its `code`, then the
-//! measures of the family by their names: of a tank `settle_time` and the fields of [`Evidence`]
-//! and [`OrderParameters`], of a silo those of [`SiloEvidence`] and [`SiloOrder`]. What is not
-//! known is empty. Numbers are written with as many digits as it takes to read back the same bits.
+//! [measures](Family::measures) of the family by their names. What is not known is empty. Numbers
+//! are written with as many digits as it takes to read back the same bits.
 
 use super::{StoreError, write_atomic};
-use crate::classify::{
-    Evidence, Family, Label, LabelRow, LabelTable, Measures, OrderParameters, SiloEvidence,
-    SiloMeasures, SiloOrder, TankMeasures, Verdict,
-};
+use crate::classify::{FAMILIES, Family, LabelRow, LabelTable, Verdict};
 use crate::document::text;
 use csv::StringRecord;
-use serde::Serialize;
 use std::path::Path;
 
 /// The columns between the axes and the measures.
@@ -31,25 +26,15 @@ pub fn write_labels(table: &LabelTable, path: &Path) -> Result<(), StoreError> {
         .map_err(fail)?;
     for row in &table.rows {
         let verdict = &row.verdict;
-        let family = verdict.measures.family();
-        if family != table.family {
-            let (row, table) = (family.name(), table.family.name());
+        if verdict.family != table.family {
+            let (row, table) = (verdict.family.name, table.family.name);
             let reason = format!("a row of a {row} in the table of a {table}");
             return Err(StoreError::content(path, reason));
         }
-        let label = (verdict.label, verdict.label.code());
-        let place = (&row.id, &row.values, row.seed, label);
-        match &verdict.measures {
-            Measures::Tank(TankMeasures {
-                settle_time,
-                evidence,
-                order,
-            }) => writer.serialize((place, settle_time, evidence, order)),
-            Measures::Silo(SiloMeasures { evidence, order }) => {
-                writer.serialize((place, evidence, order))
-            }
-        }
-        .map_err(fail)?;
+        let label = (verdict.label, verdict.label.code);
+        writer
+            .serialize((&row.id, &row.values, row.seed, label, &verdict.values))
+            .map_err(fail)?;
     }
     save(writer, path)
 }
@@ -71,7 +56,7 @@ pub fn write_points(table: &LabelTable, path: &Path) -> Result<(), StoreError> {
             .serialize((
                 &point.values,
                 point.label,
-                point.label.code(),
+                point.label.code,
                 point.agreement,
                 point.rows.len(),
             ))
@@ -104,39 +89,17 @@ pub fn read_labels(path: &Path) -> Result<LabelTable, StoreError> {
 }
 
 /// Names of all columns.
-fn columns(family: Family, axes: &[String]) -> Vec<String> {
+fn columns(family: &Family, axes: &[String]) -> Vec<String> {
     let mut names = vec!["id".to_owned()];
     names.extend_from_slice(axes);
     names.extend(VERDICT.map(str::to_owned));
-    match family {
-        Family::Tank => {
-            names.push("settle_time".to_owned());
-            names.extend(field_names(&Evidence::default()));
-            names.extend(field_names(&OrderParameters::default()));
-        }
-        Family::Silo => {
-            names.extend(field_names(&SiloEvidence::default()));
-            names.extend(field_names(&SiloOrder::default()));
-        }
-    }
+    names.extend(family.measures().map(|measure| measure.name.to_owned()));
     names
 }
 
-/// Names of the fields of `measures`, in their order.
-fn field_names(measures: &impl Serialize) -> Vec<String> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let written = writer
-        .serialize(measures)
-        .and_then(|()| Ok(writer.flush()?));
-    written.expect("plain fields, written to memory");
-    let mut reader = csv::Reader::from_reader(writer.get_ref().as_slice());
-    let header = reader.headers().expect("what was written just now");
-    header.iter().map(str::to_owned).collect()
-}
-
 /// The family whose measures the header line names, and the axes.
-fn read_header(header: &StringRecord) -> Result<(Family, Vec<String>), String> {
-    let read = |family: Family| {
+fn read_header(header: &StringRecord) -> Result<(&'static Family, Vec<String>), String> {
+    let read = |family: &'static Family| {
         let others = columns(family, &[]).len();
         let axes = header.len().checked_sub(others)?;
         let axes = header.iter().skip(1).take(axes);
@@ -144,20 +107,21 @@ fn read_header(header: &StringRecord) -> Result<(Family, Vec<String>), String> {
         let expected = columns(family, &axes);
         header.iter().eq(&expected).then_some((family, axes))
     };
-    let found = [Family::Tank, Family::Silo].into_iter().find_map(read);
-    found.ok_or_else(|| {
-        let of = |family: Family| columns(family, &["<axes>".to_owned()]).join(",");
+    FAMILIES.into_iter().find_map(read).ok_or_else(|| {
+        let known = FAMILIES.map(|family| {
+            let columns = columns(family, &["<axes>".to_owned()]).join(",");
+            format!("of a {} {columns}", family.name)
+        });
         format!(
-            "the header line is not that of a table of labels, which is {}, or of a silo {}; make the \
-             table again with `phase classify`",
-            of(Family::Tank),
-            of(Family::Silo)
+            "the header line is not that of a table of labels, which is {}; make the table again \
+             with `phase classify`",
+            known.join(", or ")
         )
     })
 }
 
 fn read_row(
-    family: Family,
+    family: &'static Family,
     names: &[String],
     axes: usize,
     record: &StringRecord,
@@ -174,43 +138,27 @@ fn read_row(
     let seed = 1 + axes;
     let first = seed + VERDICT.len();
 
-    let label = Label::from_name(&record[seed + 1]);
-    let label = label.filter(|label| family.labels().contains(label));
-    let label = label.ok_or_else(|| {
+    let label = family.label(&record[seed + 1]).ok_or_else(|| {
         format!(
             "`{}` is not a label of a {}",
             &record[seed + 1],
-            family.name()
+            family.name
         )
     })?;
-    if parse::<i8>("code", &record[seed + 2], "a whole number")? != label.code() {
-        let (code, name) = (&record[seed + 2], label.name());
+    if parse::<i8>("code", &record[seed + 2], "a whole number")? != label.code {
+        let (code, name) = (&record[seed + 2], label.name);
         return Err(format!("label `{name}` does not have code {code}"));
     }
-    for at in first..names.len() {
-        optional(at)?;
-    }
-    let fields: StringRecord = record.iter().skip(first).collect();
-    let fail = |error: csv::Error| error.to_string();
-    let measures = match family {
-        Family::Tank => {
-            let (settle_time, evidence, order) = fields.deserialize(None).map_err(fail)?;
-            Measures::Tank(TankMeasures {
-                settle_time,
-                evidence,
-                order,
-            })
-        }
-        Family::Silo => {
-            let (evidence, order) = fields.deserialize(None).map_err(fail)?;
-            Measures::Silo(SiloMeasures { evidence, order })
-        }
-    };
+    let values = (first..names.len()).map(optional);
     Ok(LabelRow {
         id: record[0].to_owned(),
-        values: (1..seed).map(number).collect::<Result<_, _>>()?,
         seed: parse("seed", &record[seed], "a whole number")?,
-        verdict: Verdict { label, measures },
+        verdict: Verdict {
+            label,
+            family,
+            values: values.collect::<Result<_, _>>()?,
+        },
+        values: (1..seed).map(number).collect::<Result<_, _>>()?,
     })
 }
 

@@ -3,7 +3,7 @@
 use super::axis::AxisEntry;
 use super::job::{PointError, PointScenes, points};
 use super::{Axis, PlotSettings, Sweep};
-use crate::classify::{Family, Sieves};
+use crate::classify::{ClassifyError, Family, Sieves};
 use crate::document::{Document, LoadError, Problem, Schema, one_of, suggest};
 use crate::run::{self, Reading};
 use crate::scene::{LARGEST_SEED, Scene};
@@ -246,38 +246,28 @@ pub(crate) fn check_steps(axes: &[Axis], problems: &mut Vec<Problem>) {
 /// have asked for.
 fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
     let family = Family::of(&sweep.scene);
-    let own = Sieves::names(family);
     let given = tree["sieves"].as_object().into_iter().flatten();
-    for (name, _) in given.filter(|(name, _)| !own.contains(&name.as_str())) {
-        let message = format!("`sieves.{name}` is not a sieve of a {}", family.name());
-        let help = format!("remove it; those are {}", one_of(own.iter().copied()));
-        problems.push(
-            Problem::new(format!("sieves.{name}"), message)
-                .help(help)
-                .at_key(),
+    for (name, _) in given.filter(|(name, _)| !family.sieves.contains(&name.as_str())) {
+        let message = format!("`sieves.{name}` is not a sieve of a {}", family.name);
+        let help = match family.sieves {
+            [] => "remove it; there are none".to_owned(),
+            own => format!("remove it; those are {}", one_of(own.iter().copied())),
+        };
+        let problem = Problem::new(format!("sieves.{name}"), message);
+        problems.push(problem.help(help).at_key());
+    }
+    if let Err(ClassifyError::NotCounted {
+        key,
+        value,
+        list,
+        counted,
+    }) = sweep.sieves.check(&sweep.scene)
+    {
+        let message = format!(
+            "`sieves.spout.{key}` = {value} is not one of the scene's `output.{list}` = {counted:?}"
         );
-    }
-    if family == Family::Silo {
-        return;
-    }
-    let (spout, output) = (&sweep.sieves.spout, &sweep.scene.output);
-    let pairs = [
-        (
-            "rise_speed",
-            spout.rise_speed,
-            "rise_speeds",
-            &output.rise_speeds,
-        ),
-        ("radius", spout.radius, "rise_radii", &output.rise_radii),
-    ];
-    for (key, value, list, counted) in pairs {
-        if !counted.contains(&value) {
-            let message = format!(
-                "`sieves.spout.{key}` = {value} is not one of the scene's `output.{list}` = {counted:?}"
-            );
-            let help = format!("use one of these, or add {value} to `{list}` in [output]");
-            problems.push(Problem::new(format!("sieves.spout.{key}"), message).help(help));
-        }
+        let help = format!("use one of these, or add {value} to `{list}` in [output]");
+        problems.push(Problem::new(format!("sieves.spout.{key}"), message).help(help));
     }
 }
 

@@ -158,8 +158,8 @@ const MAP: [&str; 9] = [
 /// The majority of a point's three labels, settled and fluid merged; none if all differ.
 fn majority(rows: &[LabelRow]) -> Option<char> {
     let merged = |row: &LabelRow| match row.verdict.label {
-        Label::Settled | Label::Fluid => 'b',
-        label => char::from_digit(label.code() as u32, 10).unwrap_or('?'),
+        Label::SETTLED | Label::FLUID => 'b',
+        label => char::from_digit(label.code as u32, 10).unwrap_or('?'),
     };
     let labels: Vec<_> = rows.iter().map(merged).collect();
     let frequent = |label: &&char| labels.iter().filter(|other| other == label).count() >= 2;
@@ -213,8 +213,7 @@ fn the_border_of_the_hole() {
             let share = |seed: u64| {
                 let record = run_of("theoretical", radius, omega, seed);
                 let verdict = classify(&record, &sieves).unwrap();
-                let evidence = &verdict.tank().unwrap().evidence;
-                evidence.pinned_share.unwrap_or(0.0)
+                verdict.value("pinned_share").unwrap_or(0.0)
             };
             let shares: Vec<f64> = (1..=9_u64).into_par_iter().map(share).collect();
             println!("r = {radius} m, Omega = {omega}: hole in {shares:.2?} of a window");
@@ -241,7 +240,7 @@ fn settle_times() {
         let times = rows
             .into_iter()
             .flatten()
-            .map(|row| row.verdict.tank().unwrap().settle_time);
+            .map(|row| row.verdict.value("settle_time"));
         let times: Vec<f64> = times.map(|time| time.unwrap_or(f64::INFINITY)).collect();
         assert_eq!(times.len(), 4 * 3);
         median(times)
@@ -269,11 +268,11 @@ fn spouts_are_of_small_spheres_below_the_critical_rotation() {
     let spouts: Vec<_> = table
         .rows
         .iter()
-        .filter(|row| matches!(row.verdict.label, Label::SmallSpout | Label::LargeSpout))
+        .filter(|row| matches!(row.verdict.label, Label::SMALL_SPOUT | Label::LARGE_SPOUT))
         .collect();
     for radius in [0.002, 0.0025, 0.003, 0.0035] {
         let mut majorities = table.points().into_iter().filter(|point| {
-            let spout = matches!(point.label, Label::SmallSpout | Label::LargeSpout);
+            let spout = matches!(point.label, Label::SMALL_SPOUT | Label::LARGE_SPOUT);
             spout && point.values[0] == radius
         });
         assert!(majorities.next().is_some(), "no spout of r = {radius} m");

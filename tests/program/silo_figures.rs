@@ -3,7 +3,7 @@
 //! Every figure drawn here is left in `target/tmp` to look at.
 
 use phase::beverloo::Bed;
-use phase::classify::{Family, Label, Measures, Sieves, SiloMeasures, SiloOrder, Verdict};
+use phase::classify::{FAMILIES, Label, SILO, Sieves, Verdict};
 use phase::classify::{LabelRow, LabelTable};
 use phase::plot::{self, PlotError, Source, fitted_lines};
 use phase::record::Program;
@@ -75,7 +75,7 @@ fn made_up() -> (Sweep, LabelTable) {
         }
     }
     let table = LabelTable {
-        family: Family::Silo,
+        family: &SILO,
         axes: vec!["opening".to_owned(), "friction".to_owned()],
         rows,
     };
@@ -94,24 +94,22 @@ fn verdict(opening: f64, friction: f64, seed: u64) -> Verdict {
     let blocked = opening < 0.3 && friction > 0.0;
     let jitter = 0.5 * (seed as f64 - 2.0);
     let rate = bed().discharge_rate(opening, constants(friction)) + jitter;
-    Verdict {
-        label: if blocked {
-            Label::Arching
-        } else if opening < 0.35 {
-            Label::Flowing
-        } else {
-            Label::Emptied
-        },
-        measures: Measures::Silo(SiloMeasures {
-            order: SiloOrder {
-                packing_fraction: Some(PACKING),
-                discharge_rate: (!blocked).then_some(rate),
-                discharged_share: Some(if blocked { 0.01 } else { 1.0 }),
-                ..SiloOrder::default()
-            },
-            ..SiloMeasures::default()
-        }),
-    }
+    let label = if blocked {
+        Label::ARCHING
+    } else if opening < 0.35 {
+        Label::FLOWING
+    } else {
+        Label::EMPTIED
+    };
+    let values = [
+        ("packing_fraction", Some(PACKING)),
+        ("discharge_rate", (!blocked).then_some(rate)),
+        ("discharged_share", Some(if blocked { 0.01 } else { 1.0 })),
+    ];
+    let verdict = Verdict::unmeasured(&SILO, label);
+    values.into_iter().fold(verdict, |verdict, (name, value)| {
+        verdict.with(name, value).unwrap()
+    })
 }
 
 fn source<'a>(sweep: &'a Sweep, table: &'a LabelTable, program: &'a Program) -> Source<'a> {
@@ -250,10 +248,10 @@ fn figures_of_the_other_family_are_refused() {
     for figure in plot::figures() {
         let found = drawn(figure.name, &sweep, &table);
         let refused = matches!(found, Err(PlotError::OtherFamily { .. }));
-        assert_eq!(refused, !figure.applies_to(Family::Silo), "{}", figure.name);
+        assert_eq!(refused, !figure.applies_to(&SILO), "{}", figure.name);
     }
-    for family in [Family::Tank, Family::Silo] {
-        for name in plot::default_figures(family) {
+    for family in FAMILIES {
+        for name in family.default_figures {
             let figures = plot::figures();
             let figure = figures.iter().find(|figure| figure.name == *name).unwrap();
             assert!(figure.applies_to(family), "{name}");
@@ -280,11 +278,10 @@ fn the_law_is_fitted_with_the_gravity_of_each_line() {
             GRAVITIES[0]
         };
         row.values[1] = gravity;
-        row.verdict = verdict(row.values[0], 0.0, row.seed);
-        if let Measures::Silo(measures) = &mut row.verdict.measures {
-            let rate = measures.order.discharge_rate.as_mut().unwrap();
-            *rate *= (gravity / GRAVITIES[0]).sqrt();
-        }
+        let verdict = verdict(row.values[0], 0.0, row.seed);
+        let rate = verdict.value("discharge_rate").unwrap();
+        let rate = rate * (gravity / GRAVITIES[0]).sqrt();
+        row.verdict = verdict.with("discharge_rate", Some(rate)).unwrap();
     }
     let lines = fitted_lines(&source(&sweep, &table, &Program::current())).unwrap();
     assert_eq!(lines.len(), 2);

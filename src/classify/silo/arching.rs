@@ -1,7 +1,8 @@
 //! The sieve for arches: the outflow has stopped.
 
 use super::outflow::Outflow;
-use crate::classify::{ClassifyError, window};
+use crate::classify::measure::{evidence, measures};
+use crate::classify::{ClassifyError, Label, window};
 use crate::document::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -22,13 +23,43 @@ impl Default for ArchingSieve {
     }
 }
 
+impl Label {
+    /// The grains of a silo have stopped to leave it, and most are still in.
+    pub const ARCHING: Self = Self::new(6, "arching", 0x7a_1f_4d);
+}
+
+measures! {
+    /// What the arching sieve says; empty in a run whose door did not open.
+    struct ArchingEvidence {
+        /// Time without an outflow (s): from the last grain that left, or from the opening of the
+        /// door if none did, to the end of the run. A run that ended because all grains were at
+        /// rest would have gone on so to its duration, and has one window at least.
+        arching_pause: evidence("time without an outflow", "s"),
+        /// That time over the window, less 1.
+        arching_margin: evidence("margin of the arching sieve", "").signed(),
+        /// Number of grains over the opening at the end; empty in a scene whose geometry has no
+        /// door to tell where that is. Without any nothing blocks it, and what is left lies beside
+        /// it.
+        over_opening: evidence("grains over the opening at the end", ""),
+    }
+}
+
 impl ArchingSieve {
-    pub(in crate::classify) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
+    pub(super) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
         window::check("arching.window", self.window, interval)
     }
 
+    pub(super) fn sift(&self, run: &Outflow<'_>) -> ArchingEvidence {
+        let pause = self.pause(run);
+        ArchingEvidence {
+            arching_pause: pause,
+            arching_margin: pause.map(|pause| self.margin(run, pause)),
+            over_opening: run.over_opening(),
+        }
+    }
+
     /// Time without an outflow at the end of the run (s).
-    pub(super) fn pause(&self, run: &Outflow<'_>) -> Option<f64> {
+    fn pause(&self, run: &Outflow<'_>) -> Option<f64> {
         let last = run.last_exit()?;
         Some(if run.stopped {
             (run.record.scene.time.duration - last).max(self.window)
@@ -38,15 +69,11 @@ impl ArchingSieve {
     }
 
     /// That time over the window, less 1.
-    pub(super) fn margin(&self, run: &Outflow<'_>) -> Option<f64> {
-        let pause = self.pause(run)?;
+    fn margin(&self, run: &Outflow<'_>, pause: f64) -> f64 {
         // A window that ends at the last frame is whole, whatever the last digits of its times say.
-        let pause = if (pause - self.window).abs() < run.tolerance() {
-            self.window
-        } else {
-            pause
-        };
-        Some(pause / self.window - 1.0)
+        let is_window = (pause - self.window).abs() < run.tolerance();
+        let pause = if is_window { self.window } else { pause };
+        pause / self.window - 1.0
     }
 }
 
@@ -58,18 +85,18 @@ mod tests {
     #[test]
     fn an_arch_holds_for_a_window() {
         let arching = judge(&draining(50, 2.0));
-        assert_eq!(arching.label, Label::Arching);
-        assert_eq!(arching.silo().unwrap().evidence.arching_margin, Some(0.0));
+        assert_eq!(arching.label, Label::ARCHING);
+        assert_eq!(arching.value("arching_margin"), Some(0.0));
         let flowing = judge(&draining(50, 1.95));
-        assert_eq!(flowing.label, Label::Flowing);
-        assert!(flowing.silo().unwrap().evidence.arching_margin.unwrap() < 0.0);
+        assert_eq!(flowing.label, Label::FLOWING);
+        assert!(flowing.value("arching_margin").unwrap() < 0.0);
     }
 
     #[test]
     fn a_silo_that_nothing_left_is_blocked_from_its_opening_on() {
         let verdict = judge(&draining(0, 0.0));
-        assert_eq!(verdict.label, Label::Arching);
-        let pause = verdict.silo().unwrap().evidence.arching_pause.unwrap();
+        assert_eq!(verdict.label, Label::ARCHING);
+        let pause = verdict.value("arching_pause").unwrap();
         assert!((pause - (DURATION - OPENED)).abs() < 1e-9, "{pause}");
     }
 
@@ -77,15 +104,12 @@ mod tests {
     fn a_run_that_came_to_rest_needs_no_whole_window() {
         let end = OPENED + 1.0;
         let verdict = judge(&draining_until(end, 5, 0.5).at_rest(end));
-        assert_eq!(verdict.label, Label::Arching);
+        assert_eq!(verdict.label, Label::ARCHING);
         // Nothing more would have happened until its duration.
-        let pause = verdict.silo().unwrap().evidence.arching_pause.unwrap();
+        let pause = verdict.value("arching_pause").unwrap();
         assert!(pause > DURATION - end, "{pause}");
         let late = draining(5, 0.5).at_rest(DURATION - 0.1);
-        assert_eq!(
-            judge(&late).silo().unwrap().evidence.arching_margin,
-            Some(0.0)
-        );
+        assert_eq!(judge(&late).value("arching_margin"), Some(0.0));
     }
 
     #[test]
@@ -104,7 +128,7 @@ mod tests {
     #[test]
     fn grains_beside_the_opening_are_no_arch() {
         let mut record = draining(180, 3.0);
-        assert_eq!(judge(&record).label, Label::Arching);
+        assert_eq!(judge(&record).label, Label::ARCHING);
         // 20 grains left, all of them far to the side.
         let mut last = record.snapshots[0].clone();
         last.time = DURATION;
@@ -115,11 +139,11 @@ mod tests {
         }
         record.snapshots.push(last);
         let verdict = judge(&record);
-        assert_eq!(verdict.label, Label::Emptied);
-        assert_eq!(verdict.silo().unwrap().evidence.over_opening, Some(0.0));
+        assert_eq!(verdict.label, Label::EMPTIED);
+        assert_eq!(verdict.value("over_opening"), Some(0.0));
         // One that sits over it holds nothing up by itself, but something holds it.
         let last = record.snapshots.last_mut().unwrap();
         last.position[[0, 0]] = 1.0;
-        assert_eq!(judge(&record).label, Label::Arching);
+        assert_eq!(judge(&record).label, Label::ARCHING);
     }
 }

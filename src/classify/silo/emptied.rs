@@ -1,7 +1,8 @@
 //! The sieve for emptied silos: (nearly) all grains have left.
 
 use super::outflow::Outflow;
-use crate::classify::{ClassifyError, window};
+use crate::classify::measure::{evidence, measures};
+use crate::classify::{ClassifyError, Label, window};
 use crate::document::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -23,15 +24,30 @@ impl Default for EmptiedSieve {
     }
 }
 
+impl Label {
+    /// (Nearly) all grains have left a silo.
+    pub const EMPTIED: Self = Self::new(8, "emptied", 0xe2_bd_6c);
+}
+
+measures! {
+    /// What the emptied sieve says; empty in a run whose door did not open.
+    struct EmptiedEvidence {
+        /// Share of the grains that left, less the threshold.
+        emptied_margin: evidence("margin of the emptied sieve", "").signed(),
+    }
+}
+
 impl EmptiedSieve {
-    pub(in crate::classify) fn check(&self) -> Result<(), ClassifyError> {
+    pub(super) fn check(&self) -> Result<(), ClassifyError> {
         window::check_share("emptied.share", self.share)
     }
 
-    /// Share of the grains that left, less the threshold.
-    pub(super) fn margin(&self, run: &Outflow<'_>) -> Option<f64> {
-        run.opened
-            .map(|_| run.discharged() / run.grains - self.share)
+    pub(super) fn sift(&self, run: &Outflow<'_>) -> EmptiedEvidence {
+        EmptiedEvidence {
+            emptied_margin: run
+                .opened
+                .map(|_| run.discharged() / run.grains - self.share),
+        }
     }
 }
 
@@ -44,18 +60,18 @@ mod tests {
     fn the_share_itself_is_enough() {
         // Of 200 grains, 190 are 95 %.
         let emptied = judge(&draining(190, 1.0).at_rest(30.0));
-        assert_eq!(emptied.label, Label::Emptied);
-        assert_eq!(emptied.silo().unwrap().evidence.emptied_margin, Some(0.0));
+        assert_eq!(emptied.label, Label::EMPTIED);
+        assert_eq!(emptied.value("emptied_margin"), Some(0.0));
         let arching = judge(&draining(189, 1.0).at_rest(30.0));
-        assert_eq!(arching.label, Label::Arching);
-        assert!(arching.silo().unwrap().evidence.emptied_margin.unwrap() < 0.0);
+        assert_eq!(arching.label, Label::ARCHING);
+        assert!(arching.value("emptied_margin").unwrap() < 0.0);
     }
 
     #[test]
     fn an_empty_silo_is_empty_however_late_its_last_grain_left() {
         let verdict = judge(&draining(200, 0.05));
-        assert_eq!(verdict.label, Label::Emptied);
-        assert!(verdict.silo().unwrap().evidence.flowing_margin.unwrap() >= 0.0);
+        assert_eq!(verdict.label, Label::EMPTIED);
+        assert!(verdict.value("flowing_margin").unwrap() >= 0.0);
     }
 
     #[test]

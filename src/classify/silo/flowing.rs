@@ -1,7 +1,8 @@
 //! The sieve for silos that flow: grains are leaving when the run ends.
 
 use super::outflow::Outflow;
-use crate::classify::{ClassifyError, window};
+use crate::classify::measure::{evidence, measures};
+use crate::classify::{ClassifyError, Label, window};
 use crate::document::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -28,8 +29,23 @@ impl Default for FlowingSieve {
     }
 }
 
+impl Label {
+    /// Grains are leaving a silo when the run ends.
+    pub const FLOWING: Self = Self::new(7, "flowing", 0x3f_92_d2);
+}
+
+measures! {
+    /// What the flowing sieve says; empty in a run whose door did not open.
+    struct FlowingEvidence {
+        /// Number of grains that left in the last window.
+        flowing_count: evidence("grains in the last window", ""),
+        /// That number over the threshold, less 1.
+        flowing_margin: evidence("margin of the flowing sieve", "").signed(),
+    }
+}
+
 impl FlowingSieve {
-    pub(in crate::classify) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
+    pub(super) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
         window::check("flowing.window", self.window, interval)?;
         if self.least == 0 {
             return Err(ClassifyError::Threshold {
@@ -41,15 +57,15 @@ impl FlowingSieve {
         Ok(())
     }
 
-    /// Number of grains that left in the last window.
-    pub(super) fn count(&self, run: &Outflow<'_>) -> Option<f64> {
-        let from = run.opened?.max(run.end - self.window);
-        Some(run.discharged() - run.discharged_by(from))
-    }
-
-    /// That number over the threshold, less 1.
-    pub(super) fn margin(&self, run: &Outflow<'_>) -> Option<f64> {
-        Some(self.count(run)? / self.least as f64 - 1.0)
+    pub(super) fn sift(&self, run: &Outflow<'_>) -> FlowingEvidence {
+        let count = run.opened.map(|opened| {
+            let from = opened.max(run.end - self.window);
+            run.discharged() - run.discharged_by(from)
+        });
+        FlowingEvidence {
+            flowing_count: count,
+            flowing_margin: count.map(|count| count / self.least as f64 - 1.0),
+        }
     }
 }
 
@@ -62,28 +78,28 @@ mod tests {
     fn enough_grains_in_the_last_window_are_a_flow() {
         let record = draining(50, 0.0);
         let verdict = judge(&record);
-        assert_eq!(verdict.label, Label::Flowing);
-        let count = verdict.silo().unwrap().evidence.flowing_count.unwrap();
+        assert_eq!(verdict.label, Label::FLOWING);
+        let count = verdict.value("flowing_count").unwrap();
         assert!(count >= 1.0);
 
         let mut sieves = Sieves::default();
         sieves.flowing.least = count as usize;
-        assert_eq!(classify(&record, &sieves).unwrap().label, Label::Flowing);
+        assert_eq!(classify(&record, &sieves).unwrap().label, Label::FLOWING);
         sieves.flowing.least += 1;
         let trickle = classify(&record, &sieves).unwrap();
         // Too few for a flow, and not stopped for a window.
-        assert_eq!(trickle.label, Label::Unsettled);
-        assert!(trickle.silo().unwrap().evidence.flowing_margin.unwrap() < 0.0);
+        assert_eq!(trickle.label, Label::UNSETTLED);
+        assert!(trickle.value("flowing_margin").unwrap() < 0.0);
     }
 
     #[test]
     fn a_door_that_opened_just_before_the_end_says_nothing() {
         let late = draining_until(OPENED + 1.0, 0, 0.0);
         let verdict = judge(&late);
-        assert_eq!(verdict.label, Label::Unsettled);
-        let evidence = &verdict.silo().unwrap().evidence;
-        assert_eq!(evidence.flowing_count, Some(0.0));
-        assert!(evidence.arching_margin.unwrap() < 0.0);
+        assert_eq!(verdict.label, Label::UNSETTLED);
+        let evidence = &verdict;
+        assert_eq!(evidence.value("flowing_count"), Some(0.0));
+        assert!(evidence.value("arching_margin").unwrap() < 0.0);
     }
 
     #[test]

@@ -3,38 +3,39 @@
 use super::EmptiedSieve;
 use super::outflow::Outflow;
 use super::packing::packing_fraction;
-use serde::{Deserialize, Serialize};
+use crate::classify::measure::{measured, measures};
 
 /// Shares of the grains between which the discharge rate is measured: neither while the flow begins
 /// nor while the last grains trickle out.
 const RATE_SHARES: [f64; 2] = [0.2, 0.8];
 
-/// Continuous measures of a silo, filled and flowing. Fields are empty where a measure is undefined:
-/// what is measured at rest if the door opened before, or not at all; what is measured of the flow if
-/// that stopped before.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct SiloOrder {
-    /// Time at which all grains were at rest behind the closed door (s).
-    pub rest_time: Option<f64>,
-    /// Height of the centre of the highest grain at rest, at the last frame before the door opened
-    /// (m).
-    pub heap_height: Option<f64>,
-    /// Packing fraction at rest (see [`packing_fraction`]), of the snapshot nearest to the time of
-    /// rest in which all grains are in and the door is closed.
-    pub packing_fraction: Option<f64>,
-    /// Mean number of contacts of a grain at rest, with grains and with walls, at the last frame before
-    /// the door opened.
-    pub coordination: Option<f64>,
-    /// Grains per second, from the frame by which a fifth of all had left to that by which four
-    /// fifths had.
-    pub discharge_rate: Option<f64>,
-    /// The same in kg/s.
-    pub mass_rate: Option<f64>,
-    /// Share of all grains that left.
-    pub discharged_share: Option<f64>,
-    /// Time from the opening of the door until the share of the grains had left that the emptied sieve
-    /// asks for (s).
-    pub emptying_time: Option<f64>,
+measures! {
+    /// Continuous measures of a silo, filled and flowing. Fields are empty where a measure is
+    /// undefined: what is measured at rest if the door opened before, or not at all; what is
+    /// measured of the flow if that stopped before.
+    struct SiloOrder {
+        /// Time at which all grains were at rest behind the closed door (s).
+        rest_time: measured("time at rest", "s"),
+        /// Height of the centre of the highest grain at rest, at the last frame before the door
+        /// opened (m).
+        heap_height: measured("height of the highest centre at rest", "m"),
+        /// Packing fraction at rest (see [`packing_fraction`]), of the snapshot nearest to the time
+        /// of rest in which all grains are in and the door is closed.
+        packing_fraction: measured("packing fraction at rest", ""),
+        /// Mean number of contacts of a grain at rest, with grains and with walls, at the last
+        /// frame before the door opened.
+        coordination: measured("contacts of a grain at rest", ""),
+        /// Grains per second, from the frame by which a fifth of all had left to that by which four
+        /// fifths had.
+        discharge_rate: measured("discharge rate", "grains/s"),
+        /// The same in kg/s.
+        mass_rate: measured("discharge rate", "kg/s"),
+        /// Share of all grains that left.
+        discharged_share: measured("share of the grains that left", "").share(),
+        /// Time from the opening of the door until the share of the grains had left that the
+        /// emptied sieve asks for (s).
+        emptying_time: measured("time to empty", "s"),
+    }
 }
 
 impl SiloOrder {
@@ -129,13 +130,13 @@ mod tests {
     use crate::classify::silo::synthetic::{
         DURATION, GRAINS, OPENED, REST, draining, judge, square_lattice,
     };
-    use crate::classify::{Label, Sieves, SiloOrder, classify};
+    use crate::classify::{Label, Sieves, Verdict, classify};
     use crate::observe::Snapshot;
     use crate::record::{MilestoneKind, RunRecord};
     use std::f64::consts::PI;
 
-    fn measure(record: &RunRecord) -> SiloOrder {
-        judge(record).silo().unwrap().order.clone()
+    fn measure(record: &RunRecord) -> Verdict {
+        judge(record)
     }
 
     fn close(measured: Option<f64>, expected: f64, tolerance: f64) -> bool {
@@ -147,8 +148,11 @@ mod tests {
         let mut record = draining(GRAINS, 1.0);
         let rate = GRAINS as f64 / (DURATION - 1.0 - OPENED);
         let order = measure(&record);
-        assert!(close(order.discharge_rate, rate, 0.02), "{order:?}");
-        assert!(close(order.mass_rate, rate, 0.02));
+        assert!(
+            close(order.value("discharge_rate"), rate, 0.02),
+            "{order:?}"
+        );
+        assert!(close(order.value("mass_rate"), rate, 0.02));
         // Grains of half the mass, and what happens before and after does not matter.
         for mass in &mut record.observations.mass_inside {
             *mass *= 0.5;
@@ -161,16 +165,26 @@ mod tests {
             };
         }
         let order = measure(&record);
-        assert!(close(order.discharge_rate, rate, 0.02), "{order:?}");
-        assert!(close(order.mass_rate, 0.5 * rate, 0.02));
+        assert!(
+            close(order.value("discharge_rate"), rate, 0.02),
+            "{order:?}"
+        );
+        assert!(close(order.value("mass_rate"), 0.5 * rate, 0.02));
     }
 
     #[test]
     fn a_flow_that_stops_before_four_fifths_has_no_rate() {
         let order = measure(&draining(159, 1.0));
-        assert_eq!((order.discharge_rate, order.mass_rate), (None, None));
-        assert_eq!(order.discharged_share, Some(159.0 / 200.0));
-        assert!(measure(&draining(160, 1.0)).discharge_rate.is_some());
+        assert_eq!(
+            (order.value("discharge_rate"), order.value("mass_rate")),
+            (None, None)
+        );
+        assert_eq!(order.value("discharged_share"), Some(159.0 / 200.0));
+        assert!(
+            measure(&draining(160, 1.0))
+                .value("discharge_rate")
+                .is_some()
+        );
     }
 
     #[test]
@@ -178,13 +192,13 @@ mod tests {
         let record = draining(190, 1.0);
         let order = measure(&record);
         assert!(
-            close(order.emptying_time, DURATION - 1.0 - OPENED, 1e-9),
+            close(order.value("emptying_time"), DURATION - 1.0 - OPENED, 1e-9),
             "{order:?}"
         );
         let mut sieves = Sieves::default();
         sieves.emptied.share = 0.96;
         let later = classify(&record, &sieves).unwrap();
-        assert_eq!(later.silo().unwrap().order.emptying_time, None);
+        assert_eq!(later.value("emptying_time"), None);
     }
 
     #[test]
@@ -194,12 +208,15 @@ mod tests {
         record.observations.height_max[opening - 1] = 2.5;
         record.observations.coordination[opening - 1] = 3.5;
         let order = measure(&record);
-        assert_eq!(order.rest_time, Some(REST));
+        assert_eq!(order.value("rest_time"), Some(REST));
         assert_eq!(
-            (order.heap_height, order.coordination),
+            (order.value("heap_height"), order.value("coordination")),
             (Some(2.5), Some(3.5))
         );
-        assert!(close(order.packing_fraction, PI / 4.0, 0.01), "{order:?}");
+        assert!(
+            close(order.value("packing_fraction"), PI / 4.0, 0.01),
+            "{order:?}"
+        );
     }
 
     #[test]
@@ -220,21 +237,24 @@ mod tests {
             square_lattice(10.2),
             stretched(OPENED + 1.0),
         ];
-        assert!(close(measure(&record).packing_fraction, PI / 4.0, 0.01));
+        assert!(close(
+            measure(&record).value("packing_fraction"),
+            PI / 4.0,
+            0.01
+        ));
         record.snapshots = vec![stretched(OPENED + 0.5)];
-        assert_eq!(measure(&record).packing_fraction, None);
+        assert_eq!(measure(&record).value("packing_fraction"), None);
     }
 
     #[test]
     fn a_door_that_stays_closed_leaves_the_run_unsettled_and_unmeasured() {
         let verdict = judge(&draining(0, 0.0).before(MilestoneKind::DoorOpened));
-        assert_eq!(verdict.label, Label::Unsettled);
-        let measures = verdict.silo().unwrap();
-        assert_eq!(measures.evidence, Default::default());
-        assert_eq!(measures.order.discharged_share, None);
+        assert_eq!(verdict.label, Label::UNSETTLED);
+        assert_eq!(verdict.value("arching_margin"), None);
+        assert_eq!(verdict.value("discharged_share"), None);
         let restless = judge(&draining(0, 0.0).before(MilestoneKind::AtRest));
-        assert_eq!(restless.label, Label::Unsettled);
-        assert_eq!(restless.silo().unwrap().order, SiloOrder::default());
+        assert_eq!(restless.label, Label::UNSETTLED);
+        assert_eq!(restless.values, [None; 14]);
     }
 
     #[test]
@@ -242,8 +262,8 @@ mod tests {
         let mut record = draining(100, 0.5).before(MilestoneKind::AtRest);
         record.scene.door = None;
         let verdict = judge(&record);
-        assert_eq!(verdict.label, Label::Flowing);
-        assert_eq!(verdict.silo().unwrap().order.heap_height, None);
+        assert_eq!(verdict.label, Label::FLOWING);
+        assert_eq!(verdict.value("heap_height"), None);
     }
 
     #[test]
@@ -260,8 +280,8 @@ mod tests {
         record.observations.discharged.pop();
         assert!(classify(&record, &Sieves::default()).is_err());
         let verdict = judge(&record.unstable());
-        assert_eq!(verdict.label, Label::Unstable);
-        assert_eq!(verdict.silo(), Some(&Default::default()));
+        assert_eq!(verdict.label, Label::UNSTABLE);
+        assert_eq!(verdict.values, [None; 14]);
     }
 
     /// Symptom: a door that opened while grains came in gave a mass per second far too small. Cause:
@@ -269,13 +289,13 @@ mod tests {
     #[test]
     fn the_mass_rate_is_not_known_while_grains_come_in() {
         let mut record = draining(GRAINS, 1.0);
-        assert!(judge(&record).silo().unwrap().order.mass_rate.is_some());
+        assert!(judge(&record).value("mass_rate").is_some());
         let last = record.observations.released.len() - 1;
         for (frame, released) in record.observations.released.iter_mut().enumerate() {
             *released *= frame as f32 / last as f32;
         }
-        let order = &judge(&record).silo().unwrap().order.clone();
-        assert!(order.discharge_rate.is_some());
-        assert_eq!(order.mass_rate, None);
+        let order = judge(&record);
+        assert!(order.value("discharge_rate").is_some());
+        assert_eq!(order.value("mass_rate"), None);
     }
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::classify::{Label, SILO, TANK};
 use proptest::prelude::*;
 
 fn in_file<T>(content: &str, read: impl FnOnce(&Path) -> T) -> T {
@@ -20,28 +21,19 @@ fn example() -> LabelTable {
         id: format!("0123456789abcde{seed}"),
         values: vec![0.1 + 0.2, 40.0],
         seed,
-        verdict: Verdict {
-            label,
-            measures: Measures::Tank(TankMeasures {
-                settle_time,
-                evidence: Evidence {
-                    fluid_margin: Some(-0.9),
-                    ..Evidence::default()
-                },
-                order: OrderParameters {
-                    spout_count: Some(1e-300),
-                    ..OrderParameters::default()
-                },
-            }),
-        },
+        verdict: Verdict::unmeasured(&TANK, label)
+            .with("settle_time", settle_time)
+            .and_then(|it| it.with("fluid_margin", Some(-0.9)))
+            .and_then(|it| it.with("spout_count", Some(1e-300)))
+            .unwrap(),
     };
     LabelTable {
-        family: Family::Tank,
+        family: &TANK,
         axes: vec!["radius".to_owned(), "omega".to_owned()],
         rows: vec![
-            row(1, Label::Pinned, Some(0.25)),
-            row(2, Label::SmallSpout, None),
-            row(3, Label::Pinned, Some(0.75)),
+            row(1, Label::PINNED, Some(0.25)),
+            row(2, Label::SMALL_SPOUT, None),
+            row(3, Label::PINNED, Some(0.75)),
         ],
     }
 }
@@ -152,26 +144,17 @@ fn silo() -> LabelTable {
         id: format!("0123456789abcde{seed}"),
         values: vec![0.24],
         seed,
-        verdict: Verdict {
-            label,
-            measures: Measures::Silo(SiloMeasures {
-                evidence: SiloEvidence {
-                    arching_pause: Some(2.5),
-                    ..SiloEvidence::default()
-                },
-                order: SiloOrder {
-                    discharge_rate: rate,
-                    ..SiloOrder::default()
-                },
-            }),
-        },
+        verdict: Verdict::unmeasured(&SILO, label)
+            .with("arching_pause", Some(2.5))
+            .and_then(|it| it.with("discharge_rate", rate))
+            .unwrap(),
     };
     LabelTable {
-        family: Family::Silo,
+        family: &SILO,
         axes: vec!["opening".to_owned()],
         rows: vec![
-            row(1, Label::Arching, None),
-            row(2, Label::Emptied, Some(29.7)),
+            row(1, Label::ARCHING, None),
+            row(2, Label::EMPTIED, Some(29.7)),
         ],
     }
 }
@@ -212,77 +195,30 @@ fn a_row_of_another_family_is_not_written() {
     );
 }
 
-/// Measures of a family with these values, as many as it has fields.
-fn measures(family: Family, m: &[Option<f64>]) -> Measures {
-    match family {
-        Family::Tank => Measures::Tank(TankMeasures {
-            settle_time: m[0],
-            evidence: Evidence {
-                settle_change: m[1],
-                fluid_share: m[2],
-                fluid_margin: m[3],
-                pinned_share: m[4],
-                pinned_margin: m[5],
-                spout_share: m[6],
-                spout_margin: m[7],
-                spout_peak: m[8],
-            },
-            order: OrderParameters {
-                hole_radius: m[9],
-                paraboloid_rotation: m[10],
-                paraboloid_residual: m[11],
-                rotation: m[12],
-                mobility: m[13],
-                packing_height: m[14],
-                spout_count: m[15],
-            },
-        }),
-        Family::Silo => Measures::Silo(SiloMeasures {
-            evidence: SiloEvidence {
-                emptied_margin: m[0],
-                arching_pause: m[1],
-                arching_margin: m[2],
-                flowing_count: m[3],
-                over_opening: m[13],
-                flowing_margin: m[4],
-            },
-            order: SiloOrder {
-                rest_time: m[5],
-                heap_height: m[6],
-                packing_fraction: m[7],
-                coordination: m[8],
-                discharge_rate: m[9],
-                mass_rate: m[10],
-                discharged_share: m[11],
-                emptying_time: m[12],
-            },
-        }),
-    }
-}
-
-fn any_row(family: Family, axes: usize) -> impl Strategy<Value = LabelRow> {
+fn any_row(family: &'static Family, axes: usize) -> impl Strategy<Value = LabelRow> {
     let finite = || prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL | prop::num::f64::ZERO;
     (
         "[0-9a-f]{16}",
         prop::collection::vec(finite(), axes),
         any::<u64>(),
-        prop::sample::select(family.labels()),
-        prop::collection::vec(prop::option::of(finite()), 16),
+        prop::sample::select(family.labels),
+        prop::collection::vec(prop::option::of(finite()), family.measures().count()),
     )
-        .prop_map(move |(id, values, seed, label, m)| LabelRow {
+        .prop_map(move |(id, values, seed, label, measured)| LabelRow {
             id,
             values,
             seed,
             verdict: Verdict {
                 label,
-                measures: measures(family, &m),
+                family,
+                values: measured,
             },
         })
 }
 
 fn any_table() -> impl Strategy<Value = LabelTable> {
     let axes = prop::collection::vec("[a-z_]{1,8}|a, \"quoted\" one|seed", 0..5);
-    let family = prop::sample::select(&[Family::Tank, Family::Silo][..]);
+    let family = prop::sample::select(&FAMILIES[..]);
     (axes, family).prop_flat_map(|(axes, family)| {
         let rows = prop::collection::vec(any_row(family, axes.len()), 0..6);
         rows.prop_map(move |rows| LabelTable {

@@ -53,6 +53,51 @@ fn labels_and_figures_can_be_left_out() {
     assert!(!place.path("results/tiny/phase.svg").exists());
 }
 
+/// A scene that is neither tank nor silo was refused labels for want of `tank.radius`.
+#[test]
+fn a_sweep_without_tank_or_outlet_is_labelled_by_its_guards() {
+    let place = Workplace::new();
+    place.write("drop.toml", DROP);
+    place
+        .phase(&["sweep", "drop.toml"])
+        .code(0)
+        .says("2 runs labelled")
+        .says("unstable          1")
+        .says("stable            1")
+        .says("results/drop/phase.png");
+    let labels = place.read("results/drop/labels.csv");
+    assert!(
+        labels.starts_with("id,gravity,seed,label,code\n"),
+        "{labels}"
+    );
+    place
+        .phase(&["plot", "results/drop", "--figure", "settle-time"])
+        .code(2)
+        .complains("`settle-time` is not a figure of a scene without tank or outlet");
+    let with_sieve = format!("{DROP}\n[sieves.fluid]\nshare = 0.5\n");
+    place.write("sieve.toml", &with_sieve);
+    place
+        .phase(&["sweep", "sieve.toml"])
+        .code(2)
+        .complains("`sieves.fluid` is not a sieve of a scene without tank or outlet");
+}
+
+/// A sphere that falls onto a floor, softly, and so fast that a guard ends the run.
+const DROP: &str = r#"
+[[axis]]
+key = "gravity.acceleration"
+name = "gravity"
+values = [9.8, 40000.0]
+
+[scene]
+spheres = { count = 1, radius = 0.004, density = 1000.0 }
+contact = { law = "hertz", young_modulus = 1e5, poisson_ratio = 0.3, restitution = 0.3 }
+tank = { floor = 0.0 }
+start = { kind = "list", spheres = [{ position = [0.0, 0.0, 0.02] }] }
+gravity = { acceleration = 9.8 }
+time = { dt = 1e-5, duration = 0.1, frame_interval = 1e-3 }
+"#;
+
 #[test]
 fn seeds_can_be_replaced() {
     let place = Workplace::new();

@@ -1,7 +1,7 @@
 //! What the tests share: a made-up sweep with its runs, and what an SVG shows.
 
 use ndarray::{Array2, Array3};
-use phase::classify::{Family, Label, Measures, Sieves, TankMeasures, Verdict};
+use phase::classify::{Label, Sieves, TANK, Verdict};
 use phase::classify::{LabelRow, LabelTable};
 use phase::observe::{Observations, Snapshot};
 use phase::plot::{self, PlotError, Source, Svg};
@@ -63,20 +63,16 @@ impl Tank {
                         id: format!("{}-{omega}-{seed}", radius * 1e3),
                         values: vec![radius, omega],
                         seed,
-                        verdict: Verdict {
-                            label: label(radius, omega, seed),
-                            measures: Measures::Tank(TankMeasures {
-                                settle_time: Some(2.0),
-                                ..TankMeasures::default()
-                            }),
-                        },
+                        verdict: Verdict::unmeasured(&TANK, label(radius, omega, seed))
+                            .with("settle_time", Some(2.0))
+                            .unwrap(),
                     });
                 }
             }
         }
         Self {
             table: LabelTable {
-                family: Family::Tank,
+                family: &TANK,
                 axes: axes.iter().map(|axis| axis.name.clone()).collect(),
                 rows,
             },
@@ -129,7 +125,7 @@ impl Tank {
     }
 
     pub(crate) fn settled() -> Self {
-        Self::new(|_, _, _| Label::Settled)
+        Self::new(|_, _, _| Label::SETTLED)
     }
 
     /// Draws a figure with the runs at these points, and remembers which records it reads.

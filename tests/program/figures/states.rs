@@ -10,13 +10,13 @@ use phase::record::RunRecord;
 #[test]
 fn one_run_of_every_state() {
     let tank = Tank::new(|radius, omega, seed| match (radius, omega) {
-        (_, 0.0) => Label::Settled,
-        (0.002, 2.0) => Label::LargeSpout,
-        (0.004, 2.0 | 6.0) | (0.006, 2.0) => Label::Fluid,
+        (_, 0.0) => Label::SETTLED,
+        (0.002, 2.0) => Label::LARGE_SPOUT,
+        (0.004, 2.0 | 6.0) | (0.006, 2.0) => Label::FLUID,
         // Only one of two seeds, and not that of the majority.
-        (0.002, 6.0) if seed == 2 => Label::SmallSpout,
-        (0.006, 40.0) => Label::Unstable,
-        _ => Label::Pinned,
+        (0.002, 6.0) if seed == 2 => Label::SMALL_SPOUT,
+        (0.006, 40.0) => Label::UNSTABLE,
+        _ => Label::PINNED,
     });
     let svg = tank.draw("state-energies", "state-energies", &[]);
     let chosen = ["4-0-1", "4-2-1", "4-12-1", "2-6-2", "2-2-1"];
@@ -50,7 +50,7 @@ fn one_run_of_every_state() {
 
 #[test]
 fn figures_of_states_say_that_all_runs_are_unstable() {
-    let tank = Tank::new(|_, _, _| Label::Unstable);
+    let tank = Tank::new(|_, _, _| Label::UNSTABLE);
     for figure in ["states", "state-energies"] {
         let svg = tank.draw(&format!("{figure}-unstable"), figure, &[]);
         shows(&svg, &["not shown: unstable, 30 of 30 runs"]);
@@ -107,7 +107,7 @@ fn tracks_of_many_spheres_are_thinned_and_arrows_named_if_there_are_any() {
 
 #[test]
 fn png_of_the_states_holds_the_pictures() {
-    let tank = Tank::new(|_, _, _| Label::Pinned);
+    let tank = Tank::new(|_, _, _| Label::PINNED);
     let svg = tank.try_draw("states", &["radius=0.004,omega=6"]).unwrap();
     let bytes = svg.to_png_bytes().unwrap();
     let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes))

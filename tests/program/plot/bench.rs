@@ -1,6 +1,6 @@
 //! What the tests share: synthetic tables, and what an SVG shows.
 
-use phase::classify::{Family, Label, Measures, OrderParameters, Sieves, TankMeasures, Verdict};
+use phase::classify::{Label, Sieves, TANK, Verdict};
 use phase::classify::{LabelRow, LabelTable};
 use phase::plot::{self, PlotError, Source, Svg};
 use phase::record::Program;
@@ -100,25 +100,19 @@ pub(crate) fn table(sweep: &Sweep, verdict: impl Fn(&[f64], u64) -> Option<Verdi
         }
     }
     LabelTable {
-        family: Family::Tank,
+        family: &TANK,
         axes: sweep.axes.iter().map(|axis| axis.name.clone()).collect(),
         rows,
     }
 }
 
 pub(crate) fn verdict(label: Label) -> Verdict {
-    Verdict {
-        label,
-        measures: Measures::none(Family::Tank),
-    }
+    Verdict::unmeasured(&TANK, label)
 }
 
-/// The measures of a row of a tank, to change them.
-pub(crate) fn measures(row: &mut LabelRow) -> &mut TankMeasures {
-    match &mut row.verdict.measures {
-        Measures::Tank(measures) => measures,
-        Measures::Silo(_) => panic!("a row of a silo"),
-    }
+/// Gives a measure of a row another value.
+pub(crate) fn set(row: &mut LabelRow, name: &str, value: f64) {
+    row.verdict = row.verdict.clone().with(name, Some(value)).unwrap();
 }
 
 /// A made-up law with every state, in r (m) and Omega (rad/s).
@@ -126,34 +120,38 @@ pub(crate) fn made_up(radius: f64, omega: f64, jitter: f64) -> Verdict {
     let critical = phase::theory::critical_rotation(256.0, radius, 0.06, 9.8);
     let ratio = omega / critical + jitter;
     let label = if omega >= 39.0 && radius < 0.0025 {
-        Label::Unstable
+        Label::UNSTABLE
     } else if omega > 30.0 && radius > 0.0055 {
-        Label::Unsettled
+        Label::UNSETTLED
     } else if ratio > 1.0 {
-        Label::Pinned
+        Label::PINNED
     } else if radius < 0.0035 && ratio > 0.5 {
-        Label::LargeSpout
+        Label::LARGE_SPOUT
     } else if radius < 0.0042 && ratio > 0.3 {
-        Label::SmallSpout
+        Label::SMALL_SPOUT
     } else if ratio > 0.4 {
-        Label::Fluid
+        Label::FLUID
     } else {
-        Label::Settled
+        Label::SETTLED
     };
     let settle_time = 0.5 + 20.0 * radius * omega + jitter;
-    Verdict {
-        label,
-        measures: Measures::Tank(TankMeasures {
-            settle_time: (label > Label::Unsettled).then_some(settle_time),
-            order: OrderParameters {
-                hole_radius: Some((ratio - 0.6).clamp(0.0, 0.9)),
-                paraboloid_rotation: Some(omega - 0.6 * critical),
-                rotation: (omega > 0.0).then_some(1.0 / (1.0 + 0.1 * ratio)),
-                ..OrderParameters::default()
-            },
-            ..TankMeasures::default()
-        }),
-    }
+    let values = [
+        (
+            "settle_time",
+            (label > Label::UNSETTLED).then_some(settle_time),
+        ),
+        ("hole_radius", Some((ratio - 0.6).clamp(0.0, 0.9))),
+        ("paraboloid_rotation", Some(omega - 0.6 * critical)),
+        (
+            "rotation",
+            (omega > 0.0).then_some(1.0 / (1.0 + 0.1 * ratio)),
+        ),
+    ];
+    values
+        .into_iter()
+        .fold(verdict(label), |verdict, (name, value)| {
+            verdict.with(name, value).unwrap()
+        })
 }
 
 /// A figure of a table alone.
@@ -230,16 +228,16 @@ pub(crate) fn nine() -> (Sweep, LabelTable) {
         let column = radii.iter().position(|radius| *radius == values[0])?;
         let (omega, row) = NINE.iter().find(|row| row.0 == values[1])?;
         let label = match &row[column..=column] {
-            "2" if *omega <= 2.0 => Label::Settled,
-            "2" => Label::Fluid,
-            "3" => Label::Pinned,
-            "4" => Label::SmallSpout,
-            _ => Label::LargeSpout,
+            "2" if *omega <= 2.0 => Label::SETTLED,
+            "2" => Label::FLUID,
+            "3" => Label::PINNED,
+            "4" => Label::SMALL_SPOUT,
+            _ => Label::LARGE_SPOUT,
         };
         // One seed of three disagrees next to the border.
         let odd =
             seed == 3 && column + 1 < 9 && row[column..=column] != row[column + 1..column + 2];
-        Some(verdict(if odd { Label::Fluid } else { label }))
+        Some(verdict(if odd { Label::FLUID } else { label }))
     });
     (sweep, table)
 }

@@ -1,10 +1,9 @@
 //! Phase diagrams, maps and measures over two axes.
 
 use super::bench::{
-    OMEGA, RADIUS, axis, count, draw, has, linear, made_up, measures, nine, sweep, table, texts,
-    verdict,
+    OMEGA, RADIUS, axis, count, draw, has, linear, made_up, nine, set, sweep, table, texts, verdict,
 };
-use phase::classify::{Family, Label};
+use phase::classify::{Label, TANK};
 
 #[test]
 fn the_nine_by_nine_phase_diagram() {
@@ -75,11 +74,11 @@ fn circles(svg: &str) -> usize {
 fn seeds_without_a_majority_are_shown_as_such() {
     let axes = vec![axis(RADIUS, &[0.002, 0.003]), axis(OMEGA, &[0.0, 10.0])];
     let sweep = sweep("Three seeds", axes, &[1, 2, 3]);
-    let three = [Label::Settled, Label::Fluid, Label::Pinned];
+    let three = [Label::SETTLED, Label::FLUID, Label::PINNED];
     let mixed = table(&sweep, |values, seed| {
         let at_once = values[0] == 0.002;
         let label = if at_once {
-            Label::LargeSpout
+            Label::LARGE_SPOUT
         } else {
             three[seed as usize - 1]
         };
@@ -88,7 +87,7 @@ fn seeds_without_a_majority_are_shown_as_such() {
     let svg = draw("no-majority", "phase", &sweep, &mixed);
     assert!(has(&svg, "no majority") && has(&svg, "large spout"));
     for label in three {
-        assert!(!has(&svg, label.name()), "{label:?}");
+        assert!(!has(&svg, label.name), "{label:?}");
     }
     let mut two = mixed.clone();
     two.rows.retain(|row| row.seed < 3);
@@ -99,7 +98,7 @@ fn seeds_without_a_majority_are_shown_as_such() {
 fn unstable_cells_are_a_pattern_and_not_the_black_of_the_critical_rotation() {
     let axes = vec![axis(RADIUS, &[0.002, 0.003]), axis(OMEGA, &[0.0, 10.0])];
     let sweep = sweep("Unstable", axes, &[1]);
-    let table = table(&sweep, |_, _| Some(verdict(Label::Unstable)));
+    let table = table(&sweep, |_, _| Some(verdict(Label::UNSTABLE)));
     let svg = draw("unstable", "phase", &sweep, &table);
     assert!(has(&svg, "unstable"));
     assert_eq!(count(&svg, "#000000"), 0);
@@ -115,7 +114,7 @@ fn maps_without_values_have_no_colour_bar() {
     let without = draw("no-values", "settle-time", &sweep, &table);
     assert!(has(&without, "settle time (s): no values"));
     assert!(!has(&without, "settle time (s)") && !has(&without, "no value"));
-    measures(&mut table.rows[0]).settle_time = Some(2.0);
+    set(&mut table.rows[0], "settle_time", 2.0);
     let with = draw("one-value", "settle-time", &sweep, &table);
     assert!(has(&with, "settle time (s)") && has(&with, "no value"));
 }
@@ -124,7 +123,7 @@ fn maps_without_values_have_no_colour_bar() {
 fn margins_have_zero_in_the_middle_even_if_all_are_negative() {
     let (sweep, mut table) = nine();
     for (index, row) in table.rows.iter_mut().enumerate() {
-        measures(row).evidence.spout_margin = Some(-0.5 - 0.5 * (index % 2) as f64);
+        set(row, "spout_margin", -0.5 - 0.5 * (index % 2) as f64);
     }
     let svg = draw("negative-margins", "spout-margin", &sweep, &table);
     for tick in ["−0.8", "0.0", "0.8"] {
@@ -149,8 +148,8 @@ fn the_full_diagram_with_gaps_and_its_maps() {
         (!missing).then(|| made_up(values[0], values[1], 0.0))
     });
     let svg = draw("full", "phase", &sweep, &table);
-    for &label in Family::Tank.labels() {
-        assert!(has(&svg, &label.name().replace('-', " ")));
+    for &label in TANK.labels {
+        assert!(has(&svg, &label.name.replace('-', " ")));
     }
     assert!(has(&svg, "not run"));
     let svg = draw("full-settle-time", "settle-time", &sweep, &table);

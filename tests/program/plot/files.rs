@@ -1,7 +1,7 @@
 //! What the files hold besides the picture, and what is refused.
 
 use super::bench::{OMEGA, RADIUS, axis, nine, of_table, png, sweep, table, verdict};
-use phase::classify::{Family, Label};
+use phase::classify::{Label, TANK};
 use phase::plot::{self, PlotError, Svg};
 
 #[test]
@@ -51,13 +51,13 @@ fn every_figure_can_be_drawn_of_a_table_without_values() {
     let axes = vec![axis(RADIUS, &[0.002, 0.003]), axis(OMEGA, &[0.0, 10.0])];
     let mut sweep = sweep("", axes, &[1]);
     sweep.title = None;
-    let table = table(&sweep, |_, _| Some(verdict(Label::Unsettled)));
+    let table = table(&sweep, |_, _| Some(verdict(Label::UNSETTLED)));
     let figures = plot::figures();
     assert_eq!(figures[0].name, "phase");
     for figure in figures {
         assert!(!figure.description.is_empty());
         if figure.default_runs.is_none()
-            && figure.applies_to(Family::Tank)
+            && figure.applies_to(&TANK)
             && !["critical-rotation", "net-force", "measures"].contains(&figure.name)
         {
             of_table(figure.name, &sweep, &table).unwrap();
@@ -72,7 +72,7 @@ fn every_figure_can_be_drawn_of_a_table_without_values() {
 fn png_shows_the_colours_of_the_cells() {
     let axes = vec![axis(RADIUS, &[0.002, 0.003]), axis(OMEGA, &[0.0, 10.0])];
     let sweep = sweep("Fluid", axes, &[1]);
-    let table = table(&sweep, |_, _| Some(verdict(Label::Fluid)));
+    let table = table(&sweep, |_, _| Some(verdict(Label::FLUID)));
     let bytes = png(&of_table("phase", &sweep, &table).unwrap());
     let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes))
         .read_info()

@@ -104,9 +104,9 @@ fn logarithmic_axis_without_omega_has_no_curve() {
     let sweep = sweep("Time step", axes, &[1]);
     let table = table(&sweep, |values, _| {
         let label = if values[0] > 1e-3 {
-            Label::Unstable
+            Label::UNSTABLE
         } else {
-            Label::Settled
+            Label::SETTLED
         };
         Some(verdict(label))
     });

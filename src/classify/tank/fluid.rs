@@ -1,7 +1,8 @@
 //! The fluid sieve: a surface that rises from the axis to the wall.
 
 use super::run::Run;
-use super::{ClassifyError, window};
+use crate::classify::measure::{evidence, measures};
+use crate::classify::{ClassifyError, Label, window};
 use crate::document::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -39,6 +40,22 @@ impl Default for FluidSieve {
     }
 }
 
+impl Label {
+    /// The surface rises from the axis to the wall.
+    pub const FLUID: Self = Self::new(2, "fluid", 0x58_a6_e0);
+}
+
+measures! {
+    /// What the fluid sieve says; empty on a run too short for a yes.
+    struct FluidEvidence {
+        /// Largest share of passing frames of any fluid window; frames outside the steady part
+        /// count as failing.
+        fluid_share: evidence("share of fluid frames", ""),
+        /// That share less the threshold.
+        fluid_margin: evidence("margin of the fluid sieve", "").signed(),
+    }
+}
+
 impl FluidSieve {
     pub(super) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
         window::check("fluid.window", self.window, interval)?;
@@ -53,8 +70,17 @@ impl FluidSieve {
         Ok(())
     }
 
-    /// Largest share of passing frames of any window from frame `start` on.
-    pub(super) fn sift(&self, run: &Run<'_>, start: usize) -> Option<f64> {
+    /// Looks for a fluid from frame `start` on.
+    pub(super) fn sift(&self, run: &Run<'_>, start: usize) -> FluidEvidence {
+        let share = self.largest_share(run, start);
+        FluidEvidence {
+            fluid_share: share,
+            fluid_margin: share.map(|share| share - self.share),
+        }
+    }
+
+    /// Largest share of passing frames of any window.
+    fn largest_share(&self, run: &Run<'_>, start: usize) -> Option<f64> {
         let profile = &run.observations.profile;
         if profile.ncols() <= self.failures + 1 {
             return None;
@@ -91,7 +117,7 @@ fn rises(inner: f32, outer: f32, least: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use crate::classify::synthetic::{BINS, RADIUS, START, quiet};
+    use crate::classify::tank::synthetic::{BINS, RADIUS, START, quiet};
     use crate::classify::{Label, Sieves, Verdict, classify};
     use crate::record::RunRecord;
 
@@ -113,68 +139,56 @@ mod tests {
     #[test]
     fn nine_tenths_of_a_window_make_a_fluid() {
         let fluid = judge(&quiet(FRAMES).with_fluid(1000..2350));
-        assert_eq!(fluid.label, Label::Fluid);
-        assert_eq!(fluid.of_tank().evidence.fluid_margin, Some(0.0));
+        assert_eq!(fluid.label, Label::FLUID);
+        assert_eq!(fluid.value("fluid_margin"), Some(0.0));
 
         let almost = judge(&quiet(FRAMES).with_fluid(1000..2349));
-        assert_eq!(almost.label, Label::Settled);
-        assert_eq!(almost.of_tank().evidence.fluid_share, Some(1349.0 / 1500.0));
-        assert!(almost.of_tank().evidence.fluid_margin.unwrap() < 0.0);
+        assert_eq!(almost.label, Label::SETTLED);
+        assert_eq!(almost.value("fluid_share"), Some(1349.0 / 1500.0));
+        assert!(almost.value("fluid_margin").unwrap() < 0.0);
     }
 
     #[test]
     fn hits_must_lie_in_one_window() {
         // 1350 hits within 1500 frames, then within 1501.
         let near = quiet(FRAMES).with_fluid(1000..1675).with_fluid(1825..2500);
-        assert_eq!(judge(&near).label, Label::Fluid);
+        assert_eq!(judge(&near).label, Label::FLUID);
         let far = quiet(FRAMES).with_fluid(1000..1675).with_fluid(1826..2501);
-        assert_eq!(judge(&far).label, Label::Settled);
+        assert_eq!(judge(&far).label, Label::SETTLED);
     }
 
     #[test]
     fn frames_before_the_steady_part_do_not_count() {
         let early = quiet(FRAMES).with_fluid(0..START + 1349);
-        assert_eq!(judge(&early).label, Label::Settled);
+        assert_eq!(judge(&early).label, Label::SETTLED);
         // No whole window needs to have passed.
         let enough = quiet(FRAMES).with_fluid(0..START + 1350);
-        assert_eq!(judge(&enough).label, Label::Fluid);
+        assert_eq!(judge(&enough).label, Label::FLUID);
     }
 
     #[test]
     fn a_run_too_short_for_a_yes_has_no_evidence() {
         let frames = START + 1350;
-        assert!(
-            judge(&quiet(frames))
-                .of_tank()
-                .evidence
-                .fluid_share
-                .is_some()
-        );
-        assert_eq!(
-            judge(&quiet(frames - 1)).of_tank().evidence.fluid_share,
-            None
-        );
-        assert_eq!(
-            judge(&quiet(frames - 1)).of_tank().evidence.fluid_margin,
-            None
-        );
+        assert!(judge(&quiet(frames)).value("fluid_share").is_some());
+        assert_eq!(judge(&quiet(frames - 1)).value("fluid_share"), None);
+        assert_eq!(judge(&quiet(frames - 1)).value("fluid_margin"), None);
     }
 
     #[test]
     fn one_bin_may_fail() {
         let slope = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0].map(|step| step * 1e-3);
-        assert_eq!(judge(&surface(slope)).label, Label::Fluid);
+        assert_eq!(judge(&surface(slope)).label, Label::FLUID);
         let mut one = slope;
         one[4] = 0.010;
-        assert_eq!(judge(&surface(one)).label, Label::Fluid);
+        assert_eq!(judge(&surface(one)).label, Label::FLUID);
         let mut two = one;
         two[1] = 0.002;
-        assert_eq!(judge(&surface(two)).label, Label::Settled);
+        assert_eq!(judge(&surface(two)).label, Label::SETTLED);
     }
 
     #[test]
     fn a_step_counts_from_a_tenth_of_the_radius() {
-        for (step, label) in [(1.001, Label::Fluid), (0.999, Label::Settled)] {
+        for (step, label) in [(1.001, Label::FLUID), (0.999, Label::SETTLED)] {
             let step = step * 0.1 * RADIUS as f32;
             let tops = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0].map(|bin| bin * step);
             assert_eq!(judge(&surface(tops)).label, label);
@@ -185,31 +199,16 @@ mod tests {
     fn an_empty_bin_is_lowest_and_two_empty_neighbours_fail() {
         let empty = f32::NAN;
         let hole = [empty, 0.001, 0.002, 0.003, 0.004, 0.005, 0.006, 0.007];
-        assert_eq!(
-            judge(&surface(hole)).of_tank().evidence.fluid_share,
-            Some(1.0)
-        );
+        assert_eq!(judge(&surface(hole)).value("fluid_share"), Some(1.0));
         // Below the bin inside it, above that outside: one failure.
         let gap = [0.0, 0.001, 0.002, empty, 0.004, 0.005, 0.006, 0.007];
-        assert_eq!(
-            judge(&surface(gap)).of_tank().evidence.fluid_share,
-            Some(1.0)
-        );
+        assert_eq!(judge(&surface(gap)).value("fluid_share"), Some(1.0));
         let wide_gap = [0.0, 0.001, empty, empty, 0.004, 0.005, 0.006, 0.007];
-        assert_eq!(
-            judge(&surface(wide_gap)).of_tank().evidence.fluid_share,
-            Some(0.0)
-        );
+        assert_eq!(judge(&surface(wide_gap)).value("fluid_share"), Some(0.0));
         let wide_hole = [empty, empty, 0.002, 0.003, 0.004, 0.005, 0.006, 0.007];
-        assert_eq!(
-            judge(&surface(wide_hole)).of_tank().evidence.fluid_share,
-            Some(1.0)
-        );
+        assert_eq!(judge(&surface(wide_hole)).value("fluid_share"), Some(1.0));
         let wider_hole = [empty, empty, empty, 0.003, 0.004, 0.005, 0.006, 0.007];
-        assert_eq!(
-            judge(&surface(wider_hole)).of_tank().evidence.fluid_share,
-            Some(0.0)
-        );
+        assert_eq!(judge(&surface(wider_hole)).value("fluid_share"), Some(0.0));
     }
 
     #[test]
@@ -217,7 +216,7 @@ mod tests {
         let mut record = quiet(FRAMES);
         record.observations.profile = ndarray::Array2::zeros((FRAMES, 2));
         let verdict = judge(&record);
-        assert_eq!(verdict.label, Label::Settled);
-        assert_eq!(verdict.of_tank().evidence.fluid_share, None);
+        assert_eq!(verdict.label, Label::SETTLED);
+        assert_eq!(verdict.value("fluid_share"), None);
     }
 }

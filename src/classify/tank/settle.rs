@@ -1,7 +1,8 @@
 //! The settle sieve: from when a run counts as steady.
 
 use super::run::Run;
-use super::{ClassifyError, window};
+use crate::classify::measure::{evidence, measured, measures};
+use crate::classify::{ClassifyError, Label, window};
 use crate::document::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -37,12 +38,20 @@ impl Default for SettleSieve {
     }
 }
 
-/// What the settle sieve says.
-pub(super) struct Settling {
-    /// The first frame of the steady part.
-    pub(super) start: Option<usize>,
-    /// Least mean change of any window that is low enough, over the tolerance.
-    pub(super) least_change: Option<f64>,
+impl Label {
+    /// Steady, and in no state that has a name.
+    pub const SETTLED: Self = Self::new(1, "settled", 0xe2_bd_6c);
+}
+
+measures! {
+    /// What the settle sieve says.
+    struct Settling {
+        /// Time from which the run counts as steady (s): the middle of the first steady window.
+        settle_time: measured("settle time", "s"),
+        /// Least mean energy change of any window in which all spheres are low enough, over the
+        /// tolerance; yes up to 1. Empty if there is no such window.
+        settle_change: evidence("least change of energy / tolerance", ""),
+    }
 }
 
 impl SettleSieve {
@@ -63,8 +72,8 @@ impl SettleSieve {
         Ok(())
     }
 
-    /// Looks for the first steady window of a run.
-    pub(super) fn sift(&self, run: &Run<'_>) -> Settling {
+    /// Looks for the first steady window of a run: the first frame of the steady part.
+    pub(super) fn sift(&self, run: &Run<'_>) -> (Option<usize>, Settling) {
         let window = window::frames(self.window, run.interval);
         // Single precision, as the heights: a centre at the limit is not above it.
         let limit = self.height as f32;
@@ -73,26 +82,23 @@ impl SettleSieve {
         let highs = window::sums(&high, window);
         let changes = window::sums(&changes(run), window);
 
-        let mut settling = Settling {
-            start: None,
-            least_change: None,
-        };
+        let (mut start, mut least) = (None, None);
         for (first, (change, high)) in changes.into_iter().zip(highs).enumerate() {
             if high > 0.0 {
                 continue;
             }
             let change = change / window as f64 / self.tolerance;
-            settling.least_change = Some(
-                settling
-                    .least_change
-                    .map_or(change, |least: f64| least.min(change)),
-            );
-            if settling.start.is_none() && change <= 1.0 {
+            least = Some(least.map_or(change, |least: f64| least.min(change)));
+            if start.is_none() && change <= 1.0 {
                 // Changes are counted from the second frame.
-                settling.start = Some(1 + first + window / 2);
+                start = Some(1 + first + window / 2);
             }
         }
-        settling
+        let settling = Settling {
+            settle_time: start.map(|frame| run.time(frame)),
+            settle_change: least,
+        };
+        (start, settling)
     }
 }
 
@@ -114,7 +120,7 @@ fn changes(run: &Run<'_>) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use crate::classify::synthetic::{ENERGY_UNIT, START, quiet};
+    use crate::classify::tank::synthetic::{ENERGY_UNIT, START, quiet};
     use crate::classify::{ClassifyError, Label, Sieves, Verdict, classify};
     use crate::record::RunRecord;
 
@@ -135,27 +141,27 @@ mod tests {
     #[test]
     fn a_run_settles_in_the_middle_of_its_first_steady_window() {
         let verdict = judge(&quiet(1000));
-        assert_eq!(verdict.label, Label::Settled);
-        assert_eq!(verdict.of_tank().settle_time, Some(START as f64 * 1e-3));
-        assert_eq!(verdict.of_tank().evidence.settle_change, Some(0.0));
+        assert_eq!(verdict.label, Label::SETTLED);
+        assert_eq!(verdict.value("settle_time"), Some(START as f64 * 1e-3));
+        assert_eq!(verdict.value("settle_change"), Some(0.0));
     }
 
     #[test]
     fn a_window_needs_all_its_frames() {
         // A change into each of 500 frames, that is 501 frames.
-        assert_eq!(judge(&quiet(501)).label, Label::Settled);
+        assert_eq!(judge(&quiet(501)).label, Label::SETTLED);
         let short = judge(&quiet(500));
-        assert_eq!(short.label, Label::Unsettled);
-        assert_eq!(short.of_tank().evidence.settle_change, None);
-        assert_eq!(judge(&quiet(0)).label, Label::Unsettled);
+        assert_eq!(short.label, Label::UNSETTLED);
+        assert_eq!(short.value("settle_change"), None);
+        assert_eq!(judge(&quiet(0)).label, Label::UNSETTLED);
     }
 
     #[test]
     fn energy_changes_count_up_to_the_tolerance() {
-        for (jump, label) in [(0.99e-3, Label::Settled), (1.01e-3, Label::Unsettled)] {
+        for (jump, label) in [(0.99e-3, Label::SETTLED), (1.01e-3, Label::UNSETTLED)] {
             let verdict = judge(&restless(jump));
             assert_eq!(verdict.label, label);
-            let change = verdict.of_tank().evidence.settle_change.unwrap();
+            let change = verdict.value("settle_change").unwrap();
             assert!((change - jump / 1e-3).abs() < 1e-5, "{change}");
         }
     }
@@ -166,7 +172,7 @@ mod tests {
             let mut record = quiet(1000);
             let energies = std::mem::take(&mut restless(2e-3).observations.kinetic);
             *record.observations.scalar_mut(name).unwrap() = energies;
-            let settled = judge(&record).label == Label::Settled;
+            let settled = judge(&record).label == Label::SETTLED;
             assert_eq!(settled, name == "elastic", "{name}");
         }
     }
@@ -175,7 +181,7 @@ mod tests {
     fn changes_are_per_millisecond_whatever_the_frames() {
         let mut record = restless(4e-3);
         record.scene.time.frame_interval = 5e-3;
-        let change = judge(&record).of_tank().evidence.settle_change.unwrap();
+        let change = judge(&record).value("settle_change").unwrap();
         assert!((change - 0.8).abs() < 1e-5, "{change}");
     }
 
@@ -185,7 +191,7 @@ mod tests {
         // after the frame it leads into.
         let mut record = quiet(2000);
         record.observations.gravitational[300..].fill((256.0 * ENERGY_UNIT * 0.6) as f32);
-        assert_eq!(judge(&record).of_tank().settle_time, Some(551.0 * 1e-3));
+        assert_eq!(judge(&record).value("settle_time"), Some(551.0 * 1e-3));
     }
 
     #[test]
@@ -193,19 +199,19 @@ mod tests {
         let mut record = quiet(2000);
         record.observations.height_max.fill(0.2);
         assert_eq!(
-            judge(&record).of_tank().settle_time,
+            judge(&record).value("settle_time"),
             Some(START as f64 * 1e-3)
         );
         record.observations.height_max[400] = 0.200_001;
-        assert_eq!(judge(&record).of_tank().settle_time, Some(651.0 * 1e-3));
+        assert_eq!(judge(&record).value("settle_time"), Some(651.0 * 1e-3));
         record.observations.height_max.fill(0.3);
         let high = judge(&record);
-        assert_eq!(high.label, Label::Unsettled);
-        assert_eq!(high.of_tank().evidence.settle_change, None);
+        assert_eq!(high.label, Label::UNSETTLED);
+        assert_eq!(high.value("settle_change"), None);
     }
 
     #[test]
-    fn without_gravity_or_tank_there_is_no_energy_scale() {
+    fn without_gravity_there_is_no_energy_scale() {
         let mut record = quiet(1000);
         record.scene.gravity = None;
         let error = classify(&record, &Sieves::default()).unwrap_err();
@@ -214,11 +220,16 @@ mod tests {
             error.to_string().contains("`gravity.acceleration`"),
             "{error}"
         );
+    }
 
+    #[test]
+    fn spheres_without_a_tank_are_judged_by_no_sieve() {
         let mut record = quiet(1000);
         record.scene.tank = None;
-        let error = classify(&record, &Sieves::default()).unwrap_err();
-        assert!(error.to_string().contains("`tank.radius`"), "{error}");
+        let verdict = classify(&record, &Sieves::default()).unwrap();
+        assert_eq!(verdict.label, Label::STABLE);
+        let unstable = classify(&record.unstable(), &Sieves::default()).unwrap();
+        assert_eq!(unstable.label, Label::UNSTABLE);
     }
 
     #[test]

@@ -1,30 +1,31 @@
 //! Continuous measures of the state, which tell apart what one label holds together.
 
 use super::run::Run;
-use serde::{Deserialize, Serialize};
+use crate::classify::measure::{measured, measures};
 
-/// Continuous measures of the state, each a mean over time. Fields are empty where a measure is
-/// undefined.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct OrderParameters {
-    /// Mean radius of the hole about the axis, over R.
-    pub hole_radius: Option<f64>,
-    /// Curvature of the paraboloid z = z0 + a rho^2 fitted to the mean surface profile, as the
-    /// angular velocity sqrt(2 g a) (rad/s) of the fluid that has it (Rice, 2012, eq. 38);
-    /// negative for a heap. Bins count that are occupied at least half of the time; empty if
-    /// those are fewer than three.
-    pub paraboloid_rotation: Option<f64>,
-    /// Root mean square residual of that fit, in (mean) radii of the spheres.
-    pub paraboloid_residual: Option<f64>,
-    /// Rotation rate of the spheres over Omega, signed: 1 if they turn with the air. Empty
-    /// without swirl.
-    pub rotation: Option<f64>,
-    /// Velocity fluctuation over sqrt(2 r g): small in a bed, of order 1 in a gas.
-    pub mobility: Option<f64>,
-    /// Twice the mean height above the floor, over R. Empty without a floor.
-    pub packing_height: Option<f64>,
-    /// Mean number of rising spheres, as the spout sieve counts them, over all spheres.
-    pub spout_count: Option<f64>,
+measures! {
+    /// Continuous measures of the state, each a mean over time. Fields are empty where a measure
+    /// is undefined.
+    struct OrderParameters {
+        /// Mean radius of the hole about the axis, over R.
+        hole_radius: measured("hole radius / $R$", ""),
+        /// Curvature of the paraboloid z = z0 + a rho^2 fitted to the mean surface profile, as the
+        /// angular velocity sqrt(2 g a) (rad/s) of the fluid that has it (Rice, 2012, eq. 38);
+        /// negative for a heap. Bins count that are occupied at least half of the time; empty if
+        /// those are fewer than three.
+        paraboloid_rotation: measured("paraboloid rotation", "rad/s").signed(),
+        /// Root mean square residual of that fit, in (mean) radii of the spheres.
+        paraboloid_residual: measured("paraboloid residual / $r$", ""),
+        /// Rotation rate of the spheres over Omega, signed: 1 if they turn with the air. Empty
+        /// without swirl.
+        rotation: measured("rotation of the spheres / $Ω$", ""),
+        /// Velocity fluctuation over sqrt(2 r g): small in a bed, of order 1 in a gas.
+        mobility: measured("velocity fluctuation / √(2$rg$)", ""),
+        /// Twice the mean height above the floor, over R. Empty without a floor.
+        packing_height: measured("packing height / $R$", ""),
+        /// Mean number of rising spheres, as the spout sieve counts them, over all spheres.
+        spout_count: measured("rising spheres / $n$", ""),
+    }
 }
 
 impl OrderParameters {
@@ -125,16 +126,12 @@ impl Paraboloid {
 
 #[cfg(test)]
 mod tests {
-    use crate::classify::synthetic::{BINS, RADIUS, quiet};
-    use crate::classify::{Label, OrderParameters, Sieves, classify};
+    use crate::classify::tank::synthetic::{BINS, RADIUS, quiet};
+    use crate::classify::{Label, Sieves, Verdict, classify};
     use crate::record::RunRecord;
 
-    fn measure(record: &RunRecord) -> OrderParameters {
-        classify(record, &Sieves::default())
-            .unwrap()
-            .of_tank()
-            .order
-            .clone()
+    fn measure(record: &RunRecord) -> Verdict {
+        classify(record, &Sieves::default()).unwrap()
     }
 
     fn close(measured: Option<f64>, expected: f64) -> bool {
@@ -157,9 +154,9 @@ mod tests {
     fn the_fitted_paraboloid_is_that_of_the_surface() {
         for rotation in [3.0, 12.0, -5.0] {
             let order = measure(&paraboloid(rotation));
-            let fitted = order.paraboloid_rotation.unwrap();
+            let fitted = order.value("paraboloid_rotation").unwrap();
             assert!((fitted - rotation).abs() < 1e-2, "{fitted}");
-            assert!(order.paraboloid_residual.unwrap() < 1e-2);
+            assert!(order.value("paraboloid_residual").unwrap() < 1e-2);
         }
     }
 
@@ -171,7 +168,7 @@ mod tests {
         for ((_, bin), top) in record.observations.profile.indexed_iter_mut() {
             *top = if bin % 2 == 0 { 0.004 } else { -0.004 };
         }
-        let residual = measure(&record).paraboloid_residual.unwrap();
+        let residual = measure(&record).value("paraboloid_residual").unwrap();
         assert!((0.9..=1.0).contains(&residual), "{residual}");
     }
 
@@ -183,15 +180,15 @@ mod tests {
         for (frame, top) in profile.column_mut(3).iter_mut().enumerate() {
             *top = if frame % 4 == 0 { 1.0 } else { f32::NAN };
         }
-        assert!(close(measure(&record).paraboloid_rotation, 10.0));
+        assert!(close(measure(&record).value("paraboloid_rotation"), 10.0));
 
         for bin in [1, 2, 4] {
             record.observations.profile.column_mut(bin).fill(f32::NAN);
         }
-        assert!(measure(&record).paraboloid_rotation.is_some());
+        assert!(measure(&record).value("paraboloid_rotation").is_some());
         record.observations.profile.column_mut(5).fill(f32::NAN);
-        assert_eq!(measure(&record).paraboloid_rotation, None);
-        assert_eq!(measure(&record).paraboloid_residual, None);
+        assert_eq!(measure(&record).value("paraboloid_rotation"), None);
+        assert_eq!(measure(&record).value("paraboloid_residual"), None);
     }
 
     #[test]
@@ -203,37 +200,40 @@ mod tests {
         record.observations.fluctuation.fill(0.14);
         record.observations.height_mean.fill(-0.17);
         let order = measure(&record);
-        assert!(close(order.hole_radius, 0.25));
-        assert!(close(order.rotation, 0.8));
-        assert!(close(order.mobility, 0.14 / (2.0 * RADIUS * 9.8).sqrt()));
-        assert!(close(order.packing_height, 1.0));
-        assert!(close(order.spout_count, 0.25));
+        assert!(close(order.value("hole_radius"), 0.25));
+        assert!(close(order.value("rotation"), 0.8));
+        assert!(close(
+            order.value("mobility"),
+            0.14 / (2.0 * RADIUS * 9.8).sqrt()
+        ));
+        assert!(close(order.value("packing_height"), 1.0));
+        assert!(close(order.value("spout_count"), 0.25));
 
         record.scene.swirl.as_mut().unwrap().omega = 0.0;
         record.scene.tank.as_mut().unwrap().floor = None;
         let order = measure(&record);
-        assert_eq!(order.rotation, None);
-        assert_eq!(order.packing_height, None);
+        assert_eq!(order.value("rotation"), None);
+        assert_eq!(order.value("packing_height"), None);
     }
 
     #[test]
     fn means_are_over_the_steady_part_or_else_the_last_quarter() {
         let mut record = quiet(1000);
         record.observations.hole_radius[..251].fill(0.06);
-        assert_eq!(measure(&record).hole_radius, Some(0.0));
+        assert_eq!(measure(&record).value("hole_radius"), Some(0.0));
 
         let mut record = quiet(1000);
         record.observations.height_max.fill(1.0);
         record.observations.hole_radius[750..].fill(0.06);
         let verdict = classify(&record, &Sieves::default()).unwrap();
-        assert_eq!(verdict.label, Label::Unsettled);
-        assert!(close(verdict.of_tank().order.hole_radius, 1.0));
+        assert_eq!(verdict.label, Label::UNSETTLED);
+        assert!(close(verdict.value("hole_radius"), 1.0));
     }
 
     #[test]
     fn nothing_is_measured_on_nothing() {
-        assert_eq!(measure(&quiet(0)), OrderParameters::default());
+        assert_eq!(measure(&quiet(0)).values, [None; 16]);
         // The first frame is no frame of a rise.
-        assert_eq!(measure(&quiet(1)).spout_count, None);
+        assert_eq!(measure(&quiet(1)).value("spout_count"), None);
     }
 }

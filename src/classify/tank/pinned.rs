@@ -1,7 +1,8 @@
 //! The pinned sieve: a hole about the axis.
 
 use super::run::Run;
-use super::{ClassifyError, window};
+use crate::classify::measure::{evidence, measures};
+use crate::classify::{ClassifyError, Label, window};
 use crate::document::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -33,6 +34,22 @@ impl Default for PinnedSieve {
     }
 }
 
+impl Label {
+    /// A hole about the axis.
+    pub const PINNED: Self = Self::new(3, "pinned", 0x2a_8a_5c);
+}
+
+measures! {
+    /// What the pinned sieve says; empty on a run too short for a yes.
+    struct PinnedEvidence {
+        /// Largest share of frames with a hole of any pinned window; frames outside the steady
+        /// part count as having none.
+        pinned_share: evidence("share of frames with a hole", ""),
+        /// That share less the threshold.
+        pinned_margin: evidence("margin of the pinned sieve", "").signed(),
+    }
+}
+
 impl PinnedSieve {
     pub(super) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
         window::check("pinned.window", self.window, interval)?;
@@ -47,8 +64,17 @@ impl PinnedSieve {
         Ok(())
     }
 
-    /// Largest share of frames with a hole of any window from frame `start` on.
-    pub(super) fn sift(&self, run: &Run<'_>, start: usize) -> Option<f64> {
+    /// Looks for a hole from frame `start` on.
+    pub(super) fn sift(&self, run: &Run<'_>, start: usize) -> PinnedEvidence {
+        let share = self.largest_share(run, start);
+        PinnedEvidence {
+            pinned_share: share,
+            pinned_margin: share.map(|share| share - self.share),
+        }
+    }
+
+    /// Largest share of frames with a hole of any window.
+    fn largest_share(&self, run: &Run<'_>, start: usize) -> Option<f64> {
         // Single precision, as the distances: a centre at the limit is not beyond it.
         let limit = (self.hole * run.radius) as f32;
         let distances = &run.observations.hole_radius[start..];
@@ -63,7 +89,7 @@ impl PinnedSieve {
 
 #[cfg(test)]
 mod tests {
-    use crate::classify::synthetic::{RADIUS, START, quiet};
+    use crate::classify::tank::synthetic::{RADIUS, START, quiet};
     use crate::classify::{Label, Sieves, Verdict, classify};
     use crate::record::RunRecord;
 
@@ -77,12 +103,12 @@ mod tests {
     #[test]
     fn half_of_a_window_pins() {
         let pinned = judge(&quiet(FRAMES).with_hole(WIDE, 500..1500));
-        assert_eq!(pinned.label, Label::Pinned);
-        assert_eq!(pinned.of_tank().evidence.pinned_margin, Some(0.0));
+        assert_eq!(pinned.label, Label::PINNED);
+        assert_eq!(pinned.value("pinned_margin"), Some(0.0));
 
         let almost = judge(&quiet(FRAMES).with_hole(WIDE, 500..1499));
-        assert_eq!(almost.label, Label::Settled);
-        assert_eq!(almost.of_tank().evidence.pinned_share, Some(0.4995));
+        assert_eq!(almost.label, Label::SETTLED);
+        assert_eq!(almost.value("pinned_share"), Some(0.4995));
     }
 
     #[test]
@@ -90,43 +116,34 @@ mod tests {
         let near = quiet(FRAMES)
             .with_hole(WIDE, 500..1000)
             .with_hole(WIDE, 2000..2500);
-        assert_eq!(judge(&near).label, Label::Pinned);
+        assert_eq!(judge(&near).label, Label::PINNED);
         let far = quiet(FRAMES)
             .with_hole(WIDE, 500..1000)
             .with_hole(WIDE, 2001..2501);
-        assert_eq!(judge(&far).label, Label::Settled);
+        assert_eq!(judge(&far).label, Label::SETTLED);
     }
 
     #[test]
     fn frames_before_the_steady_part_do_not_count() {
         let early = quiet(FRAMES).with_hole(WIDE, 0..START + 999);
-        assert_eq!(judge(&early).label, Label::Settled);
+        assert_eq!(judge(&early).label, Label::SETTLED);
         let enough = quiet(FRAMES).with_hole(WIDE, 0..START + 1000);
-        assert_eq!(judge(&enough).label, Label::Pinned);
+        assert_eq!(judge(&enough).label, Label::PINNED);
     }
 
     #[test]
     fn a_hole_is_wider_than_two_radii() {
         let border = (2.0 * RADIUS) as f32;
         let at = quiet(FRAMES).with_hole(border, 0..FRAMES);
-        assert_eq!(judge(&at).label, Label::Settled);
+        assert_eq!(judge(&at).label, Label::SETTLED);
         let beyond = quiet(FRAMES).with_hole(border.next_up(), 0..FRAMES);
-        assert_eq!(judge(&beyond).label, Label::Pinned);
+        assert_eq!(judge(&beyond).label, Label::PINNED);
     }
 
     #[test]
     fn a_run_too_short_for_a_yes_has_no_evidence() {
         let frames = START + 1000;
-        assert!(
-            judge(&quiet(frames))
-                .of_tank()
-                .evidence
-                .pinned_share
-                .is_some()
-        );
-        assert_eq!(
-            judge(&quiet(frames - 1)).of_tank().evidence.pinned_share,
-            None
-        );
+        assert!(judge(&quiet(frames)).value("pinned_share").is_some());
+        assert_eq!(judge(&quiet(frames - 1)).value("pinned_share"), None);
     }
 }

@@ -1,6 +1,5 @@
 //! Made-up records to try the sieves on.
 
-use super::{TankMeasures, Verdict};
 use crate::observe::Observations;
 use crate::record::{Guard, Instability, Outcome, Program, RunRecord};
 use ndarray::{Array2, Array3};
@@ -64,13 +63,6 @@ const COLUMNS: [&str; 11] = [
     "fluctuation",
 ];
 
-impl Verdict {
-    /// The measures of what must be a tank.
-    pub(super) fn of_tank(&self) -> &TankMeasures {
-        self.tank().unwrap()
-    }
-}
-
 /// First frame of the steady part of a quiet run.
 pub(super) const START: usize = 251;
 
@@ -103,7 +95,7 @@ impl RunRecord {
     }
 
     /// Ends the run by a guard.
-    pub(super) fn unstable(mut self) -> Self {
+    pub(in crate::classify) fn unstable(mut self) -> Self {
         self.outcome = Outcome::Unstable(Instability {
             guard: Guard::Overlap,
             step: 1,

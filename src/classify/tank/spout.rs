@@ -1,7 +1,8 @@
 //! The spout sieve: spheres that keep rising in the middle.
 
 use super::run::Run;
-use super::{ClassifyError, window};
+use crate::classify::measure::{evidence, measures};
+use crate::classify::{ClassifyError, Label, window};
 use crate::document::unit;
 use crate::scene::Output;
 use schemars::JsonSchema;
@@ -48,23 +49,25 @@ impl Default for SpoutSieve {
     }
 }
 
-/// Kind of a spout.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Spout {
-    Small,
-    Large,
+impl Label {
+    /// A few spheres rise in the middle.
+    pub const SMALL_SPOUT: Self = Self::new(4, "small-spout", 0x98_2c_74);
+
+    /// Many spheres rise in the middle.
+    pub const LARGE_SPOUT: Self = Self::new(5, "large-spout", 0x3a_14_57);
 }
 
-/// What the spout sieve says; empty where the run leaves no room for a window.
-#[derive(Default)]
-pub(super) struct Spouting {
-    pub(super) kind: Option<Spout>,
-    /// Largest share of qualifying frames of any window.
-    pub(super) share: Option<f64>,
-    /// Longest stretch of qualifying frames, in windows.
-    pub(super) longest: Option<f64>,
-    /// Largest number of rising spheres in the deciding window, over all spheres.
-    pub(super) peak: Option<f64>,
+measures! {
+    /// What the spout sieve says; empty where the run leaves no room for a window.
+    struct SpoutEvidence {
+        /// Largest share of frames that qualify as a spout of any spout window.
+        spout_share: evidence("share of frames with a spout", ""),
+        /// Longest time without a frame that does not qualify as a spout, over the window, less 1.
+        spout_margin: evidence("margin of the spout sieve", "").signed(),
+        /// Largest number of rising spheres in the window that decided for a spout, over all
+        /// spheres: a small spout below the threshold `small`. Empty without a spout.
+        spout_peak: evidence("most rising spheres / $n$", ""),
+    }
 }
 
 impl SpoutSieve {
@@ -105,8 +108,8 @@ impl SpoutSieve {
         ))
     }
 
-    /// Looks for the earliest window with a spout from frame `start` on.
-    pub(super) fn sift(&self, run: &Run<'_>, start: usize) -> Spouting {
+    /// Looks for the earliest window with a spout from frame `start` on: its label, if there is one.
+    pub(super) fn sift(&self, run: &Run<'_>, start: usize) -> (Option<Label>, SpoutEvidence) {
         let window = window::frames(self.window, run.interval);
         let count = run.count as f64;
         let below = |rising: usize, share: f64| (rising as f64) < share * count;
@@ -118,7 +121,7 @@ impl SpoutSieve {
             .map(|&it| usize::from(it))
             .collect();
         if rising.len() < window {
-            return Spouting::default();
+            return Default::default();
         }
         let qualifies: Vec<bool> = rising
             .iter()
@@ -134,25 +137,22 @@ impl SpoutSieve {
             }
         }
         let peak = deciding.and_then(|window| window.iter().copied().max());
-        let kind = |peak| {
-            if below(peak, self.small) {
-                Spout::Small
-            } else {
-                Spout::Large
-            }
+        let label = peak.map(|peak| match below(peak, self.small) {
+            true => Label::SMALL_SPOUT,
+            false => Label::LARGE_SPOUT,
+        });
+        let evidence = SpoutEvidence {
+            spout_share: window::largest_share(&qualifies, window, 1.0),
+            spout_margin: Some(longest as f64 / window as f64 - 1.0),
+            spout_peak: peak.map(|peak| peak as f64 / count),
         };
-        Spouting {
-            kind: peak.map(kind),
-            share: window::largest_share(&qualifies, window, 1.0),
-            longest: Some(longest as f64 / window as f64),
-            peak: peak.map(|peak| peak as f64 / count),
-        }
+        (label, evidence)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::classify::synthetic::{START, quiet};
+    use crate::classify::tank::synthetic::{START, quiet};
     use crate::classify::{ClassifyError, Label, Sieves, Verdict, classify};
     use crate::record::RunRecord;
 
@@ -165,40 +165,37 @@ mod tests {
     #[test]
     fn every_frame_of_a_window_must_qualify() {
         let spout = judge(&quiet(FRAMES).with_rising(5, 500..2500));
-        assert_eq!(spout.label, Label::SmallSpout);
-        assert_eq!(spout.of_tank().evidence.spout_share, Some(1.0));
-        assert_eq!(spout.of_tank().evidence.spout_margin, Some(0.0));
-        assert_eq!(spout.of_tank().evidence.spout_peak, Some(5.0 / 256.0));
+        assert_eq!(spout.label, Label::SMALL_SPOUT);
+        assert_eq!(spout.value("spout_share"), Some(1.0));
+        assert_eq!(spout.value("spout_margin"), Some(0.0));
+        assert_eq!(spout.value("spout_peak"), Some(5.0 / 256.0));
 
         let short = judge(&quiet(FRAMES).with_rising(5, 500..2499));
-        assert_eq!(short.label, Label::Settled);
-        assert_eq!(short.of_tank().evidence.spout_share, Some(0.9995));
-        assert!(short.of_tank().evidence.spout_margin.unwrap() < 0.0);
-        assert_eq!(short.of_tank().evidence.spout_peak, None);
+        assert_eq!(short.label, Label::SETTLED);
+        assert_eq!(short.value("spout_share"), Some(0.9995));
+        assert!(short.value("spout_margin").unwrap() < 0.0);
+        assert_eq!(short.value("spout_peak"), None);
 
         let gap = judge(
             &quiet(FRAMES)
                 .with_rising(5, 500..4000)
                 .with_rising(4, 2000..2001),
         );
-        assert_eq!(gap.label, Label::Settled);
-        assert_eq!(gap.of_tank().evidence.spout_share, Some(0.9995));
-        assert_eq!(
-            gap.of_tank().evidence.spout_margin,
-            Some(1999.0 / 2000.0 - 1.0)
-        );
+        assert_eq!(gap.label, Label::SETTLED);
+        assert_eq!(gap.value("spout_share"), Some(0.9995));
+        assert_eq!(gap.value("spout_margin"), Some(1999.0 / 2000.0 - 1.0));
     }
 
     #[test]
     fn the_counts_decide_at_their_borders() {
         // n/8 = 32 and n/4 = 64.
         for (count, label) in [
-            (4, Label::Settled),
-            (5, Label::SmallSpout),
-            (31, Label::SmallSpout),
-            (32, Label::LargeSpout),
-            (63, Label::LargeSpout),
-            (64, Label::Settled),
+            (4, Label::SETTLED),
+            (5, Label::SMALL_SPOUT),
+            (31, Label::SMALL_SPOUT),
+            (32, Label::LARGE_SPOUT),
+            (63, Label::LARGE_SPOUT),
+            (64, Label::SETTLED),
         ] {
             let record = quiet(FRAMES).with_rising(count, 0..FRAMES);
             assert_eq!(judge(&record).label, label, "{count}");
@@ -210,8 +207,8 @@ mod tests {
         let record = quiet(FRAMES)
             .with_rising(10, 0..FRAMES)
             .with_rising(32, 1000..1001);
-        assert_eq!(judge(&record).label, Label::LargeSpout);
-        assert_eq!(judge(&record).of_tank().evidence.spout_peak, Some(0.125));
+        assert_eq!(judge(&record).label, Label::LARGE_SPOUT);
+        assert_eq!(judge(&record).value("spout_peak"), Some(0.125));
     }
 
     #[test]
@@ -220,25 +217,25 @@ mod tests {
         let after = quiet(FRAMES)
             .with_rising(10, 0..FRAMES)
             .with_rising(40, decided..FRAMES);
-        assert_eq!(judge(&after).label, Label::SmallSpout);
+        assert_eq!(judge(&after).label, Label::SMALL_SPOUT);
         let within = quiet(FRAMES)
             .with_rising(10, 0..FRAMES)
             .with_rising(40, decided - 1..FRAMES);
-        assert_eq!(judge(&within).label, Label::LargeSpout);
+        assert_eq!(judge(&within).label, Label::LARGE_SPOUT);
         // Chaos delays the earliest window.
         let chaos = after.with_rising(64, decided - 1..decided);
-        assert_eq!(judge(&chaos).label, Label::LargeSpout);
+        assert_eq!(judge(&chaos).label, Label::LARGE_SPOUT);
     }
 
     #[test]
     fn a_rise_takes_two_frames() {
         let frames = START + 1 + 2000;
         let enough = quiet(frames).with_rising(10, 0..frames);
-        assert_eq!(judge(&enough).label, Label::SmallSpout);
+        assert_eq!(judge(&enough).label, Label::SMALL_SPOUT);
         let short = judge(&quiet(frames - 1).with_rising(10, 0..frames - 1));
-        assert_eq!(short.label, Label::Settled);
-        assert_eq!(short.of_tank().evidence.spout_share, None);
-        assert_eq!(short.of_tank().evidence.spout_margin, None);
+        assert_eq!(short.label, Label::SETTLED);
+        assert_eq!(short.value("spout_share"), None);
+        assert_eq!(short.value("spout_margin"), None);
     }
 
     #[test]
@@ -255,8 +252,11 @@ mod tests {
                 _ => ndarray::Slice::from(..),
             })
             .fill(10);
-        assert_eq!(judge(&record).label, Label::Settled);
-        assert_eq!(classify(&record, &sieves).unwrap().label, Label::SmallSpout);
+        assert_eq!(judge(&record).label, Label::SETTLED);
+        assert_eq!(
+            classify(&record, &sieves).unwrap().label,
+            Label::SMALL_SPOUT
+        );
 
         sieves.spout.rise_speed = 12.0;
         let error = classify(&record, &sieves).unwrap_err();

@@ -1,0 +1,22 @@
+//! Scenes without a tank and without an outlet, such as a box or a cradle: all that is said of
+//! their runs is whether a guard ended them.
+
+use super::{Family, Label};
+
+impl Label {
+    /// No guard ended the run, of which no sieve says more.
+    pub const STABLE: Self = Self::new(9, "stable", 0xe6_e2_f7);
+}
+
+/// Scenes that are neither tank nor silo.
+pub static NONE: Family = Family {
+    name: "scene without tank or outlet",
+    labels: &[Label::UNSTABLE, Label::STABLE],
+    sieves: &[],
+    measures: &[],
+    default_figures: &["phase"],
+    takes: |_| true,
+    check: |_, _| Ok(()),
+    windows: |_| Vec::new(),
+    judge: |_, _| Ok((Label::STABLE, Vec::new())),
+};

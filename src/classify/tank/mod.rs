@@ -1,0 +1,198 @@
+//! Tanks: spheres that stay, in the vortex of the air (Rice, 2012, section 3).
+//!
+//! A run first has to settle. Each further sieve then looks for its state in what follows, and the
+//! last of them in the order of the table that says yes decides.
+
+mod fluid;
+mod order;
+mod pinned;
+mod run;
+mod settle;
+mod spout;
+#[cfg(test)]
+mod synthetic;
+
+pub use fluid::FluidSieve;
+pub use pinned::PinnedSieve;
+pub use settle::SettleSieve;
+pub use spout::SpoutSieve;
+
+use super::{ClassifyError, Family, Label, Sieves};
+use crate::record::RunRecord;
+use crate::scene::Scene;
+use fluid::FluidEvidence;
+use order::OrderParameters;
+use pinned::PinnedEvidence;
+use run::Run;
+use settle::Settling;
+use spout::SpoutEvidence;
+
+/// Scenes with a cylindrical tank and without an outlet.
+pub static TANK: Family = Family {
+    name: "tank",
+    labels: &[
+        Label::UNSTABLE,
+        Label::UNSETTLED,
+        Label::SETTLED,
+        Label::FLUID,
+        Label::PINNED,
+        Label::SMALL_SPOUT,
+        Label::LARGE_SPOUT,
+    ],
+    sieves: &["settle", "fluid", "pinned", "spout"],
+    measures: &[
+        Settling::MEASURES,
+        FluidEvidence::MEASURES,
+        PinnedEvidence::MEASURES,
+        SpoutEvidence::MEASURES,
+        OrderParameters::MEASURES,
+    ],
+    default_figures: &["phase", "settle-time"],
+    takes: |scene| {
+        scene
+            .tank
+            .as_ref()
+            .is_some_and(|tank| tank.radius.is_some())
+    },
+    check,
+    windows: |sieves| {
+        vec![
+            ("settle", sieves.settle.window),
+            ("fluid", sieves.fluid.window),
+            ("pinned", sieves.pinned.window),
+            ("spout", sieves.spout.window),
+        ]
+    },
+    judge,
+};
+
+fn check(sieves: &Sieves, scene: &Scene) -> Result<(), ClassifyError> {
+    let interval = scene.time.frame_interval;
+    sieves.settle.check(interval)?;
+    sieves.fluid.check(interval)?;
+    sieves.pinned.check(interval)?;
+    sieves.spout.check(interval)?;
+    sieves.spout.column(&scene.output)?;
+    run::energy_scale(scene).map(|_| ())
+}
+
+fn judge(record: &RunRecord, sieves: &Sieves) -> Result<(Label, Vec<Option<f64>>), ClassifyError> {
+    let run = Run::new(record, sieves.spout.column(&record.scene.output)?)?;
+    let (start, settling) = sieves.settle.sift(&run);
+    let (mut fluid, mut pinned) = (FluidEvidence::default(), PinnedEvidence::default());
+    let mut spout = SpoutEvidence::default();
+    let mut label = Label::UNSETTLED;
+    if let Some(start) = start {
+        fluid = sieves.fluid.sift(&run, start);
+        pinned = sieves.pinned.sift(&run, start);
+        let (kind, evidence) = sieves.spout.sift(&run, start);
+        spout = evidence;
+        let yes = |margin: Option<f64>| margin.is_some_and(|margin| margin >= 0.0);
+        label = match kind {
+            Some(kind) => kind,
+            None if yes(pinned.pinned_margin) => Label::PINNED,
+            None if yes(fluid.fluid_margin) => Label::FLUID,
+            None => Label::SETTLED,
+        };
+    }
+    // Of a run that did not settle, what it does at its end.
+    let from = start.unwrap_or(run.frames() * 3 / 4);
+    let order = OrderParameters::measure(&run, from);
+    let values = [
+        settling.values(),
+        fluid.values(),
+        pinned.values(),
+        spout.values(),
+        order.values(),
+    ];
+    Ok((label, values.concat()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::classify::classify;
+    use crate::classify::tank::synthetic::quiet;
+
+    const FRAMES: usize = 5000;
+
+    fn label(record: &RunRecord) -> Label {
+        classify(record, &Sieves::default()).unwrap().label
+    }
+
+    #[test]
+    fn sieves_decide_in_their_order() {
+        let run = quiet(FRAMES);
+        assert_eq!(label(&run), Label::SETTLED);
+        let run = run.with_fluid(0..FRAMES);
+        assert_eq!(label(&run), Label::FLUID);
+        let run = run.with_hole(0.02, 0..FRAMES);
+        assert_eq!(label(&run), Label::PINNED);
+        let run = run.with_rising(10, 0..FRAMES);
+        assert_eq!(label(&run), Label::SMALL_SPOUT);
+        let run = run.with_rising(40, 0..FRAMES);
+        assert_eq!(label(&run), Label::LARGE_SPOUT);
+        let mut unsettled = run.clone();
+        unsettled.observations.height_max.fill(1.0);
+        assert_eq!(label(&unsettled), Label::UNSETTLED);
+        assert_eq!(label(&run.unstable()), Label::UNSTABLE);
+    }
+
+    #[test]
+    fn all_sieves_give_evidence_whichever_decides() {
+        let run = quiet(FRAMES)
+            .with_fluid(0..FRAMES)
+            .with_hole(0.02, 0..FRAMES)
+            .with_rising(10, 0..FRAMES);
+        let evidence = classify(&run, &Sieves::default()).unwrap();
+        assert_eq!(evidence.value("fluid_margin"), Some(1.0 - 0.9));
+        assert_eq!(evidence.value("pinned_margin"), Some(0.5));
+        assert_eq!(evidence.value("spout_margin"), Some(4748.0 / 2000.0 - 1.0));
+    }
+
+    #[test]
+    fn an_unsettled_run_has_no_evidence_of_a_state() {
+        let mut run = quiet(FRAMES).with_fluid(0..FRAMES);
+        run.observations.height_max.fill(1.0);
+        let verdict = classify(&run, &Sieves::default()).unwrap();
+        assert_eq!(verdict.value("settle_time"), None);
+        assert_eq!(verdict.value("fluid_share"), None);
+        assert_eq!(verdict.value("settle_change"), None);
+    }
+
+    #[test]
+    fn nothing_is_measured_on_an_unstable_run() {
+        let verdict = classify(&quiet(FRAMES).unstable(), &Sieves::default()).unwrap();
+        assert_eq!(verdict.values, [None; 16]);
+    }
+
+    #[test]
+    fn windows_are_durations() {
+        // With frames of 5 ms, nine tenths of the fluid window of 1.5 s are 270 frames.
+        let mut run = quiet(1000).with_fluid(500..770);
+        run.scene.time.frame_interval = 5e-3;
+        assert_eq!(label(&run), Label::FLUID);
+        let mut run = quiet(1000).with_fluid(500..769);
+        run.scene.time.frame_interval = 5e-3;
+        assert_eq!(label(&run), Label::SETTLED);
+    }
+
+    #[test]
+    fn a_record_that_contradicts_itself_is_an_error() {
+        let mut run = quiet(FRAMES);
+        run.observations.rotation.pop();
+        let error = classify(&run, &Sieves::default()).unwrap_err();
+        assert!(
+            error.to_string().contains("`rotation` holds 4999 of 5000"),
+            "{error}"
+        );
+
+        let mut run = quiet(FRAMES);
+        run.scene.output.rise_radii.push(0.9);
+        assert!(classify(&run, &Sieves::default()).is_err());
+
+        let mut run = quiet(FRAMES);
+        run.mass.clear();
+        assert!(classify(&run, &Sieves::default()).is_err());
+    }
+}

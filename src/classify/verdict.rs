@@ -1,0 +1,60 @@
+//! What the sieves say of one run.
+
+use super::{ClassifyError, Family, Label, Sieves};
+use crate::record::{Outcome, RunRecord};
+
+/// What the sieves say of one run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// The label.
+    pub label: Label,
+    /// Whose label and measures these are.
+    pub family: &'static Family,
+    /// Values of the family's measures, in their order.
+    pub values: Vec<Option<f64>>,
+}
+
+impl Verdict {
+    /// A label without a measured value.
+    pub fn unmeasured(family: &'static Family, label: Label) -> Self {
+        Self {
+            label,
+            family,
+            values: vec![None; family.measures().count()],
+        }
+    }
+
+    /// The same with a value of the measure of that name; none if the family has no such measure.
+    pub fn with(mut self, name: &str, value: Option<f64>) -> Option<Self> {
+        let place = self.family.measures().position(|it| it.name == name)?;
+        *self.values.get_mut(place)? = value;
+        Some(self)
+    }
+
+    /// Value of the measure of that name; none if it is undefined for the run, or is no measure of
+    /// the family.
+    pub fn value(&self, name: &str) -> Option<f64> {
+        let place = self.family.measures().position(|it| it.name == name)?;
+        self.values.get(place).copied().flatten()
+    }
+}
+
+/// Labels one run: unstable if a guard ended it, else what the sieves of its family say. An
+/// unstable run has no measured value, since its numbers mean nothing.
+///
+/// # Errors
+/// The sieves cannot judge runs of this scene (see [`Sieves::check`]), or the record contradicts
+/// itself.
+pub fn classify(record: &RunRecord, sieves: &Sieves) -> Result<Verdict, ClassifyError> {
+    sieves.check(&record.scene)?;
+    let family = Family::of(&record.scene);
+    if let Outcome::Unstable(_) = record.outcome {
+        return Ok(Verdict::unmeasured(family, Label::UNSTABLE));
+    }
+    let (label, values) = (family.judge)(record, sieves)?;
+    Ok(Verdict {
+        label,
+        family,
+        values,
+    })
+}
