@@ -4,25 +4,32 @@ use super::contact::{Hertz, Linear, NoContact, NormalLaw, Silbert};
 use super::friction::{
     Coulomb, CundallStrack, Frictionless, Mindlin, SilbertFriction, SpinFriction, TangentialLaw,
 };
+use super::particles::Particles;
 use super::simulation::BuildError;
-use super::system::{Engine, Parts, System};
+use super::system::{Engine, Setup, System};
 use super::timestep;
 use crate::scene::{Contact, Friction, Scene};
 
 /// The engine compiled for the scene's contact and friction. Each pair of laws costs time to
 /// compile, so only those are here that go together.
-pub(super) fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, BuildError> {
+pub(super) fn engine(
+    scene: &Scene,
+    setup: Setup,
+    particles: Particles,
+) -> Result<Box<dyn Engine>, BuildError> {
+    type Spheres = (Setup, Particles);
     fn boxed<N: NormalLaw, T: TangentialLaw>(
         normal: N,
         tangential: T,
-        parts: Parts,
+        (setup, particles): Spheres,
     ) -> Box<dyn Engine> {
-        Box::new(System::new(normal, tangential, parts))
+        Box::new(System::new(normal, tangential, setup, particles))
     }
     let dt = scene.time.dt;
+    let spheres = (setup, particles);
     match scene.contact {
         None => match scene.friction {
-            None => Ok(boxed(NoContact, Frictionless, parts)),
+            None => Ok(boxed(NoContact, Frictionless, spheres)),
             Some(_) => Err(BuildError::FrictionWithoutContact),
         },
         Some(Contact::Hertz {
@@ -39,20 +46,20 @@ pub(super) fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, Bui
                 dissipation_factor,
             );
             Ok(match scene.friction {
-                None => boxed(normal, Frictionless, parts),
+                None => boxed(normal, Frictionless, spheres),
                 Some(Friction::CundallStrack { .. } | Friction::Silbert { .. }) => {
                     return Err(BuildError::LawsDoNotGoTogether);
                 }
                 Some(Friction::Spin { coefficient }) => {
-                    boxed(normal, SpinFriction::new(coefficient, dt), parts)
+                    boxed(normal, SpinFriction::new(coefficient, dt), spheres)
                 }
                 Some(Friction::Coulomb {
                     coefficient,
                     regularisation,
-                }) => boxed(normal, Coulomb::new(coefficient, regularisation), parts),
+                }) => boxed(normal, Coulomb::new(coefficient, regularisation), spheres),
                 Some(Friction::Mindlin { coefficient }) => {
                     let law = Mindlin::new(coefficient, young_modulus, poisson_ratio);
-                    boxed(normal, law, parts)
+                    boxed(normal, law, spheres)
                 }
             })
         }
@@ -63,14 +70,14 @@ pub(super) fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, Bui
         }) => {
             let normal = Linear::new(stiffness, damping, drag);
             match scene.friction {
-                None => Ok(boxed(normal, Frictionless, parts)),
+                None => Ok(boxed(normal, Frictionless, spheres)),
                 Some(Friction::Coulomb {
                     coefficient,
                     regularisation,
                 }) => Ok(boxed(
                     normal,
                     Coulomb::new(coefficient, regularisation),
-                    parts,
+                    spheres,
                 )),
                 Some(Friction::CundallStrack {
                     coefficient,
@@ -78,7 +85,7 @@ pub(super) fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, Bui
                     damping,
                 }) => {
                     let law = CundallStrack::new(coefficient, stiffness, damping);
-                    Ok(boxed(normal, law, parts))
+                    Ok(boxed(normal, law, spheres))
                 }
                 Some(
                     Friction::Spin { .. } | Friction::Mindlin { .. } | Friction::Silbert { .. },
@@ -88,17 +95,60 @@ pub(super) fn engine(scene: &Scene, parts: Parts) -> Result<Box<dyn Engine>, Bui
         Some(Contact::Silbert { stiffness, damping }) => {
             let normal = Silbert::new(stiffness, damping);
             match scene.friction {
-                None => Ok(boxed(normal, Frictionless, parts)),
+                None => Ok(boxed(normal, Frictionless, spheres)),
                 Some(Friction::Silbert {
                     coefficient,
                     stiffness,
                     damping,
                 }) => {
                     let law = SilbertFriction::new(coefficient, stiffness, damping);
-                    Ok(boxed(normal, law, parts))
+                    Ok(boxed(normal, law, spheres))
                 }
                 Some(_) => Err(BuildError::LawsDoNotGoTogether),
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dem::Simulation;
+    use serde_json::json;
+
+    #[test]
+    fn the_engine_is_compiled_for_the_pairs_of_laws_that_a_scene_may_name() {
+        let contacts = [
+            json!({ "law": "hertz", "young_modulus": 1e7, "poisson_ratio": 0.3, "restitution": 0.5 }),
+            json!({ "law": "linear", "stiffness": 100.0, "damping": 0.02 }),
+            json!({ "law": "silbert", "stiffness": 1e7, "damping": 1e3 }),
+        ];
+        let frictions = [
+            json!({ "law": "spin", "coefficient": 0.3 }),
+            json!({ "law": "coulomb", "coefficient": 0.3, "regularisation": 1e-3 }),
+            json!({ "law": "cundall-strack", "coefficient": 0.3, "stiffness": 60.0 }),
+            json!({ "law": "mindlin", "coefficient": 0.3 }),
+            json!({ "law": "silbert", "coefficient": 0.3, "stiffness": 1e7 }),
+        ];
+        let mut together = 0;
+        for contact in &contacts {
+            for friction in &frictions {
+                let scene: Scene = serde_json::from_value(json!({
+                    "spheres": { "count": 1, "radius": 0.004, "density": 1e3 },
+                    "contact": contact,
+                    "friction": friction,
+                    "start": { "kind": "list", "spheres": [{ "position": [0.0, 0.0, 0.0] }] },
+                    "time": { "dt": 1e-5, "duration": 1e-3, "frame_interval": 1e-3 },
+                }))
+                .unwrap();
+                let allowed = scene.friction.as_ref().zip(scene.contact.as_ref());
+                let allowed =
+                    allowed.is_some_and(|(friction, contact)| friction.goes_with(contact));
+                together += usize::from(allowed);
+                let built = Simulation::new(&scene);
+                assert_eq!(built.is_ok(), allowed, "{contact} {friction}");
+            }
+        }
+        assert_eq!(together, 6);
     }
 }

@@ -9,7 +9,7 @@ use super::order;
 use super::particles::{Particles, Sphere};
 use super::process::{Feed, Process};
 use super::start::{self, StartError};
-use super::system::{Engine, Parts};
+use super::system::{Engine, Setup};
 use super::vector::Vector;
 use super::walls::TankWall;
 use crate::cpu_time;
@@ -113,7 +113,7 @@ impl Simulation {
             false => waiting_scalars.unwrap_or_else(|| scalars(&particles)),
         };
         let tank = scene.tank.as_ref();
-        let parts = Parts {
+        let setup = Setup {
             walls: tank.map(TankWall::of_tank).unwrap_or_default(),
             effects: effects::of_scene(scene, &particles),
             shielded: scene.updraught.is_some(),
@@ -122,10 +122,9 @@ impl Simulation {
             integrator: scene.time.integrator,
             neighbours: scene.neighbours,
             skin: skin * largest,
-            particles,
             sorted,
         };
-        let mut engine = engine(scene, parts)?;
+        let mut engine = engine(scene, setup, particles)?;
         if scene.output.ledger {
             engine.keep_ledger();
         }

@@ -139,3 +139,55 @@ pub enum Friction {
         damping: f64,
     },
 }
+
+/// Friction laws, each with the contact laws that it goes with. The engine is compiled for these
+/// pairs alone.
+const PAIRS: [(&str, &[&str]); 5] = [
+    ("spin", &["hertz"]),
+    ("coulomb", &["hertz", "linear"]),
+    ("cundall-strack", &["linear"]),
+    ("mindlin", &["hertz"]),
+    ("silbert", &["silbert"]),
+];
+
+impl Contact {
+    /// Name of the law, as in a scene file.
+    pub fn law(&self) -> &'static str {
+        match self {
+            Self::Hertz { .. } => "hertz",
+            Self::Linear { .. } => "linear",
+            Self::Silbert { .. } => "silbert",
+        }
+    }
+}
+
+impl Friction {
+    /// Name of the law, as in a scene file.
+    pub fn law(&self) -> &'static str {
+        match self {
+            Self::Spin { .. } => "spin",
+            Self::Coulomb { .. } => "coulomb",
+            Self::CundallStrack { .. } => "cundall-strack",
+            Self::Mindlin { .. } => "mindlin",
+            Self::Silbert { .. } => "silbert",
+        }
+    }
+
+    /// The contact laws that it goes with, by name.
+    pub fn contacts(&self) -> &'static [&'static str] {
+        let own = PAIRS.iter().find(|(law, _)| *law == self.law());
+        own.map_or(&[], |(_, contacts)| contacts)
+    }
+
+    /// Whether it goes with a contact law.
+    pub fn goes_with(&self, contact: &Contact) -> bool {
+        self.contacts().contains(&contact.law())
+    }
+
+    /// The friction laws that go with a contact law, by name.
+    pub fn laws_with(contact: &Contact) -> impl Iterator<Item = &'static str> + Clone {
+        let law = contact.law();
+        let pairs = PAIRS.iter();
+        pairs.filter_map(move |(friction, contacts)| contacts.contains(&law).then_some(*friction))
+    }
+}

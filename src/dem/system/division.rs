@@ -1,13 +1,13 @@
 //! One simulation on several threads.
 //!
-//! Each thread answers for the forces on a range of indices, which in a sorted scene is a region of
+//! Each thread computes the forces on a range of indices, which in a sorted scene is a region of
 //! space. A pair whose spheres are those of two threads is computed by both, and each adds to its
 //! own sphere, before its other pairs: so every sum is in the order of the list, as with one
 //! thread, and there is nothing to wait for. What such a pair remembers, both have. Where each
 //! moves its spheres at once, such pairs are computed of copies of the spheres around the boundary.
 
+use super::contact_task::{AtWalls, Buffers, ContactSettings, ContactSlice, ContactTask, TooDeep};
 use super::partners::{Copies, Partners};
-use super::share::{AtWalls, Buffers, Known, Scenery, Share, TooDeep};
 use super::stream::Stream;
 use super::sums::Sums;
 use super::wall_contacts::WallContacts;
@@ -25,14 +25,14 @@ use std::ops::Range;
 /// Boundaries are narrow if at most one in this number of spheres is copied for them.
 const NARROW: usize = 8;
 
-/// Who answers for what.
+/// Which thread computes what.
 pub(super) struct Division<H> {
-    parts: Vec<Region<H>>,
+    regions: Vec<Region<H>>,
     /// Before each but the first: from the first to the last sphere of pairs across the boundary.
     boundaries: Vec<Copies>,
 }
 
-/// What one thread answers for.
+/// What one thread computes.
 struct Region<H> {
     spheres: Range<usize>,
     /// Near pairs whose first sphere is one of these.
@@ -44,16 +44,16 @@ struct Region<H> {
     buffers: Box<Buffers<H>>,
 }
 
-/// The contacts that one thread answers for.
-pub(super) struct Portion<'a, H> {
-    pub(super) crossing: Known<'a, NearPair, H>,
-    pub(super) pairs: Known<'a, NearPair, H>,
+/// The contacts that one thread computes.
+pub(super) struct ThreadContacts<'a, H> {
+    pub(super) crossing: ContactSlice<'a, NearPair, H>,
+    pub(super) pairs: ContactSlice<'a, NearPair, H>,
     pub(super) walls: AtWalls<'a, H>,
     pub(super) buffers: &'a mut Buffers<H>,
 }
 
 impl<H: History> Division<H> {
-    /// Among that many threads.
+    /// Candidates that many threads.
     pub(super) fn new(threads: usize) -> Self {
         let region = || Region {
             spheres: 0..0,
@@ -64,7 +64,7 @@ impl<H: History> Division<H> {
             buffers: Buffers::new(),
         };
         Self {
-            parts: (0..threads).map(|_| region()).collect(),
+            regions: (0..threads).map(|_| region()).collect(),
             boundaries: (1..threads).map(|_| Copies::default()).collect(),
         }
     }
@@ -77,7 +77,7 @@ impl<H: History> Division<H> {
         histories: &[H],
         walls: &[WallContacts<H>],
     ) {
-        let threads = self.parts.len();
+        let threads = self.regions.len();
         let bound = |k: usize| match k {
             0 => 0,
             _ if k == threads => spheres,
@@ -91,7 +91,7 @@ impl<H: History> Division<H> {
         // There is no boundary before the first one.
         let mut none = Copies::default();
         let boundaries = std::iter::once(&mut none).chain(&mut self.boundaries);
-        let mut regions: Vec<_> = (self.parts.iter_mut().zip(boundaries))
+        let mut regions: Vec<_> = (self.regions.iter_mut().zip(boundaries))
             .zip(bounds.windows(2))
             .collect();
         in_parallel(&mut regions, &|((region, boundary), bounds)| {
@@ -123,23 +123,23 @@ impl<H: History> Division<H> {
     /// Whether copies of the spheres around the boundaries are few.
     pub(super) fn has_narrow_boundaries(&self) -> bool {
         let copies: usize = self.boundaries.iter().map(|it| it.spheres.len()).sum();
-        let spheres = self.parts.last().map_or(0, |it| it.spheres.end);
+        let spheres = self.regions.last().map_or(0, |it| it.spheres.end);
         copies * NARROW <= spheres
     }
 
-    /// The spheres and contacts that each thread answers for, of all contacts.
-    fn portions<'a>(
-        parts: &'a mut [Region<H>],
-        mut pairs: Known<'a, NearPair, H>,
+    /// The spheres and contacts of each thread, out of all contacts.
+    fn thread_contacts<'a>(
+        regions: &'a mut [Region<H>],
+        mut pairs: ContactSlice<'a, NearPair, H>,
         mut walls: AtWalls<'a, H>,
-    ) -> impl Iterator<Item = (Range<usize>, Portion<'a, H>)> {
-        parts.iter_mut().map(move |region| {
+    ) -> impl Iterator<Item = (Range<usize>, ThreadContacts<'a, H>)> {
+        regions.iter_mut().map(move |region| {
             let mut at_walls = walls.iter_mut().zip(&region.walls).map(|(wall, range)| {
                 let (wall, known) = wall.as_mut()?;
                 Some((*wall, known.split(range.len())))
             });
-            let portion = Portion {
-                crossing: Known {
+            let contacts = ThreadContacts {
+                crossing: ContactSlice {
                     contacts: &region.crossing,
                     histories: &mut region.crossing_history,
                 },
@@ -147,7 +147,7 @@ impl<H: History> Division<H> {
                 walls: std::array::from_fn(|_| at_walls.next().flatten()),
                 buffers: &mut region.buffers,
             };
-            (region.spheres.clone(), portion)
+            (region.spheres.clone(), contacts)
         })
     }
 
@@ -156,14 +156,14 @@ impl<H: History> Division<H> {
     pub(super) fn evaluate<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,
-        scenery: &Scenery<N, T>,
+        settings: &ContactSettings<N, T>,
         partners: Partners<'_>,
         [mut force, mut torque]: [&mut [Vector]; 2],
         clear: bool,
-        (pairs, walls): (Known<'_, NearPair, H>, AtWalls<'_, H>),
+        (pairs, walls): (ContactSlice<'_, NearPair, H>, AtWalls<'_, H>),
     ) -> TooDeep {
-        let portions = Self::portions(&mut self.parts, pairs, walls);
-        let shares = portions.map(|(spheres, of)| Share {
+        let thread_contacts = Self::thread_contacts(&mut self.regions, pairs, walls);
+        let tasks = thread_contacts.map(|(spheres, of)| ContactTask {
             partners,
             sums: Sums {
                 first: spheres.start,
@@ -177,31 +177,34 @@ impl<H: History> Division<H> {
             walls: of.walls,
             too_deep: [None; 1 + TankWall::MOST],
         });
-        let mut shares: Vec<_> = shares.collect();
-        in_parallel(&mut shares, &|share| {
-            share.add_contacts(level, scenery, &mut None);
+        let mut tasks: Vec<_> = tasks.collect();
+        in_parallel(&mut tasks, &|task| {
+            task.add_contacts(level, settings, &mut None);
         });
-        first_too_deep(shares.iter().map(|share| share.too_deep))
+        first_too_deep(tasks.iter().map(|task| task.too_deep))
     }
 
     /// What each thread does where it moves its spheres at once.
     pub(super) fn streams<'a>(
         &'a mut self,
         mut all: Spheres<'a>,
-        pairs: Known<'a, NearPair, H>,
+        pairs: ContactSlice<'a, NearPair, H>,
         walls: AtWalls<'a, H>,
         bodies: &'a mut [Bodies],
     ) -> Vec<Stream<'a, H>> {
-        let Self { parts, boundaries } = self;
+        let Self {
+            regions,
+            boundaries,
+        } = self;
         in_parallel(boundaries, &|boundary| boundary.renew(&all));
         let around = |boundary: &'a Copies| Some(boundary.partners(&all));
         let around: Vec<_> = boundaries.iter().map(around).collect();
         let before = std::iter::once(None).chain(around.iter().copied());
         let after = around.iter().copied().chain(std::iter::once(None));
-        let portions = Self::portions(parts, pairs, walls).zip(bodies);
-        let streams = portions.zip(before.zip(after));
-        let streams = streams.map(|(((spheres, portion), bodies), copies)| {
-            Stream::new(all.split(spheres.len()), portion, bodies, copies)
+        let thread_contacts = Self::thread_contacts(regions, pairs, walls).zip(bodies);
+        let streams = thread_contacts.zip(before.zip(after));
+        let streams = streams.map(|(((spheres, contacts), bodies), copies)| {
+            Stream::new(all.split(spheres.len()), contacts, bodies, copies)
         });
         streams.collect()
     }
@@ -225,7 +228,7 @@ pub(super) fn first_too_deep(
 
 /// Threads that there are, one where the work is not divided.
 pub(super) fn threads<H>(division: &Option<Division<H>>) -> usize {
-    division.as_ref().map_or(1, |it| it.parts.len())
+    division.as_ref().map_or(1, |it| it.regions.len())
 }
 
 #[cfg(test)]
@@ -247,8 +250,7 @@ mod tests {
     }
 
     proptest! {
-        /// Every pair is computed by whoever answers for one of its spheres, of spheres that are
-        /// there.
+        /// Every pair is computed by each thread that has one of its spheres.
         #[test]
         fn pairs_are_inside_their_regions_or_among_the_copies(
             spheres in 2..900_usize,
@@ -260,9 +262,9 @@ mod tests {
             let division = divided(spheres, &pairs, threads);
             let nobody = Copies::default();
             let mut own = 0;
-            for (k, region) in division.parts.iter().enumerate() {
+            for (k, region) in division.regions.iter().enumerate() {
                 let Range { start, end } = region.spheres;
-                prop_assert_eq!(start, if k == 0 { 0 } else { division.parts[k - 1].spheres.end });
+                prop_assert_eq!(start, if k == 0 { 0 } else { division.regions[k - 1].spheres.end });
                 prop_assert!(start.is_multiple_of(BLOCK) || start == spheres);
                 let before = k.checked_sub(1).map_or(&nobody, |k| &division.boundaries[k]);
                 let expected = pairs.iter().filter(|it| (it.i() as usize) < start);
@@ -280,7 +282,7 @@ mod tests {
                 }
                 own += region.pairs.len();
             }
-            prop_assert_eq!(division.parts[threads - 1].spheres.end, spheres);
+            prop_assert_eq!(division.regions[threads - 1].spheres.end, spheres);
             prop_assert_eq!(own, pairs.len());
         }
     }

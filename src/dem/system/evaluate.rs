@@ -1,10 +1,10 @@
 //! One evaluation: the forces and torques of everything, at the present positions and velocities.
 
 use super::System;
-use super::contacts::Among;
+use super::candidates::Candidates;
+use super::contact_task::{ContactSettings, ContactSlice, ContactTask};
 use super::moves::FirstTooFast;
 use super::partners::Partners;
-use super::share::{Known, Scenery, Share};
 use super::sums::Sums;
 use super::touching::come_from_far;
 use crate::dem::contact::NormalLaw;
@@ -23,30 +23,35 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Ok(())
     }
 
-    /// Evaluates those of contacts alone.
+    /// Evaluates forces and torques of contacts alone.
     pub(super) fn evaluate_contacts(&mut self) -> Result<(), Instability> {
         self.hold_near()?;
         self.forces_of_contacts();
         self.check_overlaps()
     }
 
-    /// Looks for near pairs if they do not hold.
+    /// Looks for near pairs if the present ones do not hold.
     fn hold_near(&mut self) -> Result<(), Instability> {
-        match self.stale || self.near.is_too_wide(self.near_age.steps) {
+        match self.neighbours.stale
+            || self
+                .neighbours
+                .near
+                .is_too_wide(self.neighbours.near_age.steps)
+        {
             true => self.refresh(),
             false => Ok(()),
         }
     }
 
     fn forces_of_contacts(&mut self) {
-        let among = self.take_all();
-        self.note_all_contacts(&among);
+        let candidates = self.take_candidates();
+        self.note_all_contacts(&candidates);
         self.mark_ledger();
-        match self.list.is_some() {
-            true => self.forces_among(&among, true),
-            false => self.parts.particles.clear_forces(),
+        match self.neighbours.list.is_some() {
+            true => self.forces_of_candidates(&candidates, true),
+            false => self.particles.clear_forces(),
         }
-        self.return_all(among);
+        self.return_candidates(candidates);
     }
 
     /// Evaluates all forces, kicks for these times (s), and drifts for a time (s), if one is given;
@@ -66,11 +71,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             Some(drift) if clear && self.streams() => self.stream(kicks, drift),
             _ => {
                 self.forces_of_contacts();
-                if !self.parts.sorted {
+                if !self.setup.sorted {
                     self.check_overlaps()?;
                 }
-                self.cleared = clear;
-                self.move_all(0..self.parts.effects.len(), kicks, drift, clear)
+                self.step.forces_are_zero = clear;
+                self.move_all(0..self.setup.effects.len(), kicks, drift, clear)
             }
         };
         self.check_overlaps()?;
@@ -79,40 +84,40 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Forces and torques of all but contacts.
     pub(super) fn evaluate_effects(&mut self) {
-        self.parts.particles.clear_forces();
+        self.particles.clear_forces();
         self.apply_effects();
     }
 
     fn apply_effects(&mut self) {
         self.prepare_effects();
-        let effects = self.parts.effects.len();
+        let effects = self.setup.effects.len();
         if self.ledger.is_none() {
             self.act(0..effects);
             return;
         }
-        let (particles, all) = (&self.parts.particles, &self.parts.effects);
+        let (particles, all) = (&self.particles, &self.setup.effects);
         let potential = all.iter().take_while(|it| it.energy(particles).is_some());
         let potential = potential.count();
         self.act(0..potential);
-        let particles = &self.parts.particles;
+        let particles = &self.particles;
         let before = [particles.force.clone(), particles.torque.clone()];
         self.act(potential..effects);
         if let Some(ledger) = &mut self.ledger {
             ledger
                 .books
-                .note_air([&before[0], &before[1]], &self.parts.particles);
+                .note_air([&before[0], &before[1]], &self.particles);
         }
     }
 
     /// Makes effects ready for the present positions.
     pub(super) fn prepare_effects(&mut self) {
-        if self.parts.shielded {
-            let (near, particles) = (&mut self.near, &self.parts.particles);
+        if self.setup.shielded {
+            let (near, particles) = (&mut self.neighbours.near, &self.particles);
             near.count_shielding(self.level, particles);
             self.mark(Part::Shield);
         }
-        for effect in &mut self.parts.effects {
-            effect.prepare(self.near.shielding());
+        for effect in &mut self.setup.effects {
+            effect.prepare(self.neighbours.near.shielding());
             profile::mark(&mut self.profile, effect.part());
         }
     }
@@ -126,75 +131,79 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Reports a contact that the latest forces found too deep.
     pub(super) fn check_overlaps(&mut self) -> Result<(), Instability> {
-        match self.too_deep.take() {
-            Some((sphere, overlap)) => {
-                Err(self
-                    .parts
-                    .limits
-                    .overlap_broken(self.step, self.parts.dt, sphere, overlap))
-            }
+        match self.step.too_deep.take() {
+            Some((sphere, overlap)) => Err(self.setup.limits.overlap_broken(
+                self.step.number,
+                self.setup.dt,
+                sphere,
+                overlap,
+            )),
             None => Ok(()),
         }
     }
 
-    /// Takes out what may touch, all of it.
-    pub(super) fn take_all(&mut self) -> Among {
-        let mut among = Among {
-            pairs: self.near.take_pairs(),
-            ..Among::default()
+    /// Takes all candidates out of the system, to borrow them beside it.
+    pub(super) fn take_candidates(&mut self) -> Candidates {
+        let mut candidates = Candidates {
+            pairs: self.neighbours.near.take_pairs(),
+            ..Candidates::default()
         };
-        for (all, wall) in among.walls.iter_mut().zip(&mut self.walls) {
+        for (all, wall) in candidates.walls.iter_mut().zip(&mut self.walls) {
             *all = std::mem::take(&mut wall.near);
         }
-        among
+        candidates
     }
 
-    pub(super) fn return_all(&mut self, among: Among) {
-        self.near.return_pairs(among.pairs);
-        for (wall, all) in self.walls.iter_mut().zip(among.walls) {
+    pub(super) fn return_candidates(&mut self, candidates: Candidates) {
+        self.neighbours.near.return_pairs(candidates.pairs);
+        for (wall, all) in self.walls.iter_mut().zip(candidates.walls) {
             wall.near = all;
         }
     }
 
     /// Adds the forces and torques of contacts, or evaluates those of all anew.
-    pub(super) fn forces_among(&mut self, among: &Among, anew: bool) {
-        if anew || !Self::REMEMBERS {
-            self.forces_of(among, anew);
+    pub(super) fn forces_of_candidates(&mut self, candidates: &Candidates, anew: bool) {
+        if anew || !Self::HAS_HISTORY {
+            self.forces_of(candidates, anew);
             return;
         }
-        // Loops over contacts have the history of each beside it; that of some stands among those
+        // Loops over contacts have the history of each beside it; that of some stands candidates those
         // of all.
-        let entries = || among.entries.iter().copied();
+        let entries = || candidates.entries.iter().copied();
         let all = exchange(&mut self.pair_history, entries());
         let mut walls = [const { Vec::new() }; TankWall::MOST];
-        for ((all, wall), near) in walls.iter_mut().zip(&mut self.walls).zip(&among.walls) {
+        for ((all, wall), near) in walls.iter_mut().zip(&mut self.walls).zip(&candidates.walls) {
             *all = exchange(&mut wall.histories, near.iter().map(|sphere| sphere.entry));
         }
-        self.forces_of(among, anew);
+        self.forces_of(candidates, anew);
         put_back(&mut self.pair_history, all, entries());
-        for ((all, wall), near) in walls.into_iter().zip(&mut self.walls).zip(&among.walls) {
+        for ((all, wall), near) in walls
+            .into_iter()
+            .zip(&mut self.walls)
+            .zip(&candidates.walls)
+        {
             put_back(&mut wall.histories, all, near.iter().map(|it| it.entry));
         }
     }
 
-    fn forces_of(&mut self, among: &Among, anew: bool) {
-        let clear = anew && !std::mem::take(&mut self.cleared);
-        let Particles { force, torque, .. } = &mut self.parts.particles;
+    fn forces_of(&mut self, candidates: &Candidates, anew: bool) {
+        let clear = anew && !std::mem::take(&mut self.step.forces_are_zero);
+        let Particles { force, torque, .. } = &mut self.particles;
         let (mut force, mut torque) = (std::mem::take(force), std::mem::take(torque));
-        let scenery = self.scenery();
-        let partners = Partners::all(&self.parts.particles, &self.earlier);
-        let known = among.known(&mut self.pair_history, &mut self.walls);
+        let settings = self.settings();
+        let partners = Partners::all(&self.particles, &self.earlier);
+        let known = candidates.with_histories(&mut self.pair_history, &mut self.walls);
         let too_deep = match self.division.as_mut().filter(|_| anew) {
             Some(division) => {
                 let sums = [&mut force[..], &mut torque[..]];
                 let too_deep =
-                    division.evaluate(self.level, &scenery, partners, sums, clear, known);
+                    division.evaluate(self.level, &settings, partners, sums, clear, known);
                 profile::mark(&mut self.profile, Part::Pairs);
                 too_deep
             }
             None => {
                 let (pairs, walls) = known;
-                let mut share = Share {
+                let mut task = ContactTask {
                     partners,
                     sums: Sums {
                         first: 0,
@@ -203,32 +212,32 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     },
                     clear,
                     buffers: &mut self.buffers,
-                    crossing: Known::none(),
+                    crossing: ContactSlice::none(),
                     pairs,
                     walls,
                     too_deep: [None; 1 + TankWall::MOST],
                 };
-                share.add_contacts(self.level, &scenery, &mut self.profile);
-                share.too_deep.into_iter().flatten().next()
+                task.add_contacts(self.level, &settings, &mut self.profile);
+                task.too_deep.into_iter().flatten().next()
             }
         };
-        self.too_deep = self.too_deep.or(too_deep);
-        (self.parts.particles.force, self.parts.particles.torque) = (force, torque);
+        self.step.too_deep = self.step.too_deep.or(too_deep);
+        (self.particles.force, self.particles.torque) = (force, torque);
     }
 
-    /// What contacts depend on besides their partners and their own memory.
-    pub(super) fn scenery(&self) -> Scenery<N, T> {
-        Scenery {
+    /// What a contact force depends on besides the two spheres and their history.
+    pub(super) fn settings(&self) -> ContactSettings<N, T> {
+        ContactSettings {
             laws: self.laws(),
-            fixed: self.parts.particles.fixed as u32,
+            fixed: self.particles.fixed as u32,
             alike: self.alike,
-            mostly_touch: self.near.mostly_touch(),
+            mostly_touch: self.neighbours.near.mostly_touch(),
             far: come_from_far(&self.pair_history),
         }
     }
 }
 
-/// Puts the histories at these entries in the place of all, and returns those.
+/// Replaces all histories by those at these entries, and returns all.
 fn exchange<H: Copy>(histories: &mut Vec<H>, entries: impl Iterator<Item = u32>) -> Vec<H> {
     let some = entries.map(|entry| histories[entry as usize]).collect();
     std::mem::replace(histories, some)
@@ -247,7 +256,7 @@ mod tests {
     use super::{exchange, put_back};
 
     /// Symptom: springs of an island of adaptive Verlet were those of other contacts. Cause: the
-    /// histories of some contacts were read by their places among these, not by their entries among
+    /// histories of some contacts were read by their places candidates these, not by their entries candidates
     /// all.
     #[test]
     fn some_contacts_find_their_histories_among_all() {

@@ -1,10 +1,10 @@
 //! Integration schemes: one function each, from kicks and drifts.
 
+use super::contact_block::EarlierRows;
+use super::contact_laws::Loading;
 use super::division::threads;
-use super::meeting::Loading;
 use super::moves::{Drift, FirstTooFast, Moves};
-use super::pair_block::EarlierRows;
-use super::{Parts, System};
+use super::{Setup, System};
 use crate::dem::bodies::{Bodies, Spheres};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::TangentialLaw;
@@ -55,41 +55,44 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         clear: bool,
     ) -> FirstTooFast {
         let elapsed = drift.unwrap_or(0.0);
-        self.age.time += elapsed;
-        self.near_age.time += elapsed;
-        let is_listed = self.list.is_some() && drift.is_some();
-        let Parts {
-            particles,
+        self.neighbours.age.time += elapsed;
+        self.neighbours.near_age.time += elapsed;
+        let is_listed = self.neighbours.list.is_some() && drift.is_some();
+        let Setup {
             effects: all,
             limits,
             dt,
             ..
-        } = &mut self.parts;
+        } = &self.setup;
         let moves = Moves {
             effects: &all[effects],
             kicks,
             drift: drift.map(|dt| Drift {
                 dt,
-                allowance: is_listed.then(|| self.near.allowance(self.near_age.time)),
+                allowance: is_listed.then(|| {
+                    self.neighbours
+                        .near
+                        .allowance(self.neighbours.near_age.time)
+                }),
             }),
             clear,
             limits,
             dt: *dt,
         };
         let reference = match is_listed {
-            true => self.near.anchor().position(),
+            true => self.neighbours.near.anchor().position(),
             false => &[],
         };
         self.bodies
             .resize_with(threads(&self.division), Bodies::new);
         let found = moves.of_all(
-            Spheres::new(particles, reference),
+            Spheres::new(&mut self.particles, reference),
             &mut self.bodies,
             self.level,
             &mut self.profile,
         );
         // It may be so already: a sphere came or went.
-        self.stale |= found.far;
+        self.neighbours.stale |= found.far;
         found.too_fast
     }
 
@@ -105,25 +108,25 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Reports who was too fast in this step, or else in the next one, where that has begun.
     pub(super) fn check_speeds(&mut self, too_fast: FirstTooFast) -> Result<(), Instability> {
-        let mut steps = (self.step..).zip(too_fast);
+        let mut steps = (self.step.number..).zip(too_fast);
         let Some((step, it)) = steps.find_map(|(step, it)| Some((step, it?))) else {
             return Ok(());
         };
         // What is there is of no moment before it broke.
-        (self.step, self.begun) = (step, false);
-        let Parts { limits, dt, .. } = &self.parts;
+        (self.step.number, self.step.first_half_done) = (step, false);
+        let Setup { limits, dt, .. } = &self.setup;
         Err(limits.speed_broken(step, *dt, it))
     }
 
     pub(super) fn steps(&mut self, steps: u64) -> Result<(), Instability> {
-        let spheres = (self.parts.particles.len() - self.parts.particles.fixed) as u64;
-        if self.parts.integrator != Integrator::AdaptiveVerlet {
-            self.moves += steps * spheres;
+        let spheres = (self.particles.len() - self.particles.fixed) as u64;
+        if self.setup.integrator != Integrator::AdaptiveVerlet {
+            self.step.moves += steps * spheres;
         }
         for left in (0..steps).rev() {
             self.keep_in_order()?;
-            profile::begin(&mut self.profile, self.step, spheres as usize);
-            match self.parts.integrator {
+            profile::begin(&mut self.profile, self.step.number, spheres as usize);
+            match self.setup.integrator {
                 Integrator::SymplecticEuler => self.symplectic_euler(left > 0)?,
                 Integrator::VelocityVerlet => self.velocity_verlet(left > 0)?,
                 Integrator::SynchronisedVerlet => self.synchronised_verlet()?,
@@ -136,9 +139,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Counts a step.
     pub(super) fn begin_step(&mut self) {
-        self.step += 1;
-        self.age.steps += 1;
-        self.near_age.steps += 1;
+        self.step.number += 1;
+        self.neighbours.age.steps += 1;
+        self.neighbours.near_age.steps += 1;
     }
 
     /// Forces at the start, where no scheme has a latest one. No time goes by, so that contacts do
@@ -154,7 +157,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// another follows at once.
     fn symplectic_euler(&mut self, goes_on: bool) -> Result<(), Instability> {
         self.begin_step();
-        let dt = self.parts.dt;
+        let dt = self.setup.dt;
         let too_fast = if self.ledger.is_some() {
             // The books look at the spheres between one and the other.
             self.evaluate()?;
@@ -163,8 +166,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.drift(dt);
             too_fast
         } else {
-            // After the last step forces stay, for whoever asks.
-            let clear = goes_on && self.list.is_some();
+            // After the last step forces stay, to be read.
+            let clear = goes_on && self.neighbours.list.is_some();
             self.evaluate_and_move(&[dt], Some(dt), clear)?
         };
         self.check_speeds(too_fast)
@@ -175,11 +178,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// another follows at once: its first half then comes with the second one of this.
     fn velocity_verlet(&mut self, goes_on: bool) -> Result<(), Instability> {
         self.begin_step();
-        if self.step == 1 {
+        if self.step.number == 1 {
             self.evaluate_start()?;
         }
-        let (dt, half) = (self.parts.dt, 0.5 * self.parts.dt);
-        if !std::mem::take(&mut self.begun) {
+        let (dt, half) = (self.setup.dt, 0.5 * self.setup.dt);
+        if !std::mem::take(&mut self.step.first_half_done) {
             let too_fast = self.kick(half);
             self.note_kick(half);
             self.check_speeds(too_fast)?;
@@ -194,10 +197,12 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         // The order of spheres follows from where they are after whole steps.
         let begins_next = goes_on && !self.looks_at_order();
         let too_fast = match begins_next {
-            true => self.evaluate_and_move(&[half, half], Some(dt), self.list.is_some())?,
+            true => {
+                self.evaluate_and_move(&[half, half], Some(dt), self.neighbours.list.is_some())?
+            }
             false => self.evaluate_and_move(&[half], None, false)?,
         };
-        self.begun = begins_next;
+        self.step.first_half_done = begins_next;
         self.check_speeds(too_fast)
     }
 
@@ -212,21 +217,21 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// sliding, and loads its spring until it sticks.
     fn synchronised_verlet(&mut self) -> Result<(), Instability> {
         self.begin_step();
-        if self.step == 1 {
+        if self.step.number == 1 {
             self.evaluate_start()?;
         }
-        let (dt, half) = (self.parts.dt, 0.5 * self.parts.dt);
+        let (dt, half) = (self.setup.dt, 0.5 * self.setup.dt);
         // From one middle to the next springs are loaded by the velocity between them.
-        let duration = if self.step == 1 { half } else { dt };
+        let duration = if self.step.number == 1 { half } else { dt };
         self.loading = Loading::earlier(duration, half);
         self.drift(half);
-        self.before.keep(&self.parts.particles);
-        if Self::REMEMBERS {
+        self.before.keep(&self.particles);
+        if Self::HAS_HISTORY {
             self.before.to_rows(&mut self.earlier);
         }
         self.kick(half);
         self.evaluate()?;
-        self.before.put_back(&mut self.parts.particles);
+        self.before.put_back(&mut self.particles);
         let too_fast = self.kick(dt);
         self.note_kick(dt);
         self.check_speeds(too_fast)?;

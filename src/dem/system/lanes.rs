@@ -1,7 +1,7 @@
 //! What a block of contacts holds besides columns of vectors.
 
-use super::couple::Solid;
-use super::meeting::Laws;
+use super::contact_laws::Laws;
+use super::contact_state::SphereProperties;
 use super::partners::Partners;
 use crate::dem::block::{BLOCK, Column, Columns};
 use crate::dem::contact::NormalLaw;
@@ -23,20 +23,20 @@ pub(super) fn whole<'a, C: Copy>(contacts: &'a [C], rest: &'a mut [C; BLOCK]) ->
 }
 
 /// What of the spheres of a block does not change.
-pub(super) struct Solids {
+pub(super) struct PropertyColumns {
     pub(super) radius: Column,
     mass: Column,
     inverse_mass: Column,
     inertia: Column,
 }
 
-impl Solids {
-    pub(super) fn all(solid: Solid) -> Self {
+impl PropertyColumns {
+    pub(super) fn all(properties: SphereProperties) -> Self {
         Self {
-            radius: [solid.radius; BLOCK],
-            mass: [solid.mass; BLOCK],
-            inverse_mass: [solid.inverse_mass; BLOCK],
-            inertia: [solid.inertia; BLOCK],
+            radius: [properties.radius; BLOCK],
+            mass: [properties.mass; BLOCK],
+            inverse_mass: [properties.inverse_mass; BLOCK],
+            inertia: [properties.inertia; BLOCK],
         }
     }
 
@@ -64,8 +64,8 @@ impl Solids {
     }
 
     #[inline(always)]
-    pub(super) fn at(&self, k: usize) -> Solid {
-        Solid {
+    pub(super) fn at(&self, k: usize) -> SphereProperties {
+        SphereProperties {
             radius: self.radius[k],
             mass: self.mass[k],
             inverse_mass: self.inverse_mass[k],
@@ -74,15 +74,15 @@ impl Solids {
     }
 }
 
-/// How the spheres of a block meet a wall.
-pub(super) struct WallMeetings {
+/// Contacts of the spheres of a block with a wall.
+pub(super) struct WallContactColumns {
     normal: Columns,
     overlap: Column,
     /// 1 where they touch, else 0.
     touches: Column,
 }
 
-impl WallMeetings {
+impl WallContactColumns {
     pub(super) const NONE: Self = Self {
         normal: Columns::ZERO,
         overlap: [0.0; BLOCK],

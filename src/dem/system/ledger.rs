@@ -4,8 +4,8 @@
 //! So work is summed up kick by kick, from the forces that the kicks use: what the books then miss
 //! is what the scheme makes of conservative forces, not an error of the bookkeeping.
 
-use super::contacts::Among;
-use super::meeting::Meeting;
+use super::candidates::Candidates;
+use super::contact_laws::ContactForce;
 use super::wall_contacts::{NearSphere, WallContacts};
 use super::{Engine, System};
 use crate::dem::contact::NormalLaw;
@@ -29,11 +29,11 @@ pub(in crate::dem) struct Work {
     pub(in crate::dem) brought: f64,
 }
 
-/// Work so far, and the parts of the latest forces that do it.
+/// Work so far, and the components of the latest forces that do it.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Books {
     pub(super) work: Work,
-    /// Parts of the latest force on each sphere (N) and of its torque (N m).
+    /// Components of the latest force on each sphere (N) and of its torque (N m).
     damping: Vec<Vector>,
     tangential: Vec<Vector>,
     tangential_torque: Vec<Vector>,
@@ -43,7 +43,7 @@ pub(super) struct Books {
 
 impl Books {
     /// What contacts fill, and what the air does.
-    fn parts(&mut self) -> ([&mut Vec<Vector>; 3], [&mut Vec<Vector>; 2]) {
+    fn components(&mut self) -> ([&mut Vec<Vector>; 3], [&mut Vec<Vector>; 2]) {
         let contacts = [
             &mut self.damping,
             &mut self.tangential,
@@ -68,7 +68,7 @@ impl Books {
 
     /// Makes room for that many spheres.
     pub(super) fn resize(&mut self, spheres: usize) {
-        let (contacts, air) = self.parts();
+        let (contacts, air) = self.components();
         for forces in contacts.into_iter().chain(air) {
             forces.resize(spheres, Vector::ZERO);
         }
@@ -76,14 +76,14 @@ impl Books {
 
     /// Forgets the contacts of all spheres.
     fn clear(&mut self) {
-        for forces in self.parts().0 {
+        for forces in self.components().0 {
             forces.fill(Vector::ZERO);
         }
     }
 
     /// Forgets the contacts of one sphere.
     pub(super) fn clear_sphere(&mut self, i: u32) {
-        for forces in self.parts().0 {
+        for forces in self.components().0 {
             forces[i as usize] = Vector::ZERO;
         }
     }
@@ -95,7 +95,7 @@ impl Books {
 
     pub(super) fn retain(&mut self, keep: &[bool]) {
         self.resize(keep.len());
-        let (contacts, air) = self.parts();
+        let (contacts, air) = self.components();
         for forces in contacts.into_iter().chain(air) {
             retain(forces, keep);
         }
@@ -104,7 +104,7 @@ impl Books {
     /// Follows spheres into a new order.
     pub(super) fn reorder(&mut self, order: &[u32]) {
         self.resize(order.len());
-        let (contacts, air) = self.parts();
+        let (contacts, air) = self.components();
         for forces in contacts.into_iter().chain(air) {
             reorder(forces, order);
         }
@@ -121,7 +121,7 @@ impl Books {
     /// Notes what effects of the air added to forces and torques.
     pub(super) fn note_air(&mut self, before: [&[Vector]; 2], particles: &Particles) {
         let after = [&particles.force, &particles.torque];
-        for ((air, before), after) in self.parts().1.into_iter().zip(before).zip(after) {
+        for ((air, before), after) in self.components().1.into_iter().zip(before).zip(after) {
             air.clear();
             let added = after.iter().zip(before);
             air.extend(added.map(|(&after, &before)| after - before));
@@ -152,18 +152,18 @@ pub(super) struct Ledger {
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Energy of the spheres (J) and of tangential springs among it, if books are kept.
+    /// Energy of the spheres (J) and of tangential springs candidates it, if books are kept.
     pub(super) fn energy_in_books(&mut self) -> Option<[f64; 2]> {
         self.ledger.as_ref()?;
         let contacts = self.contacts();
-        let particles = &self.parts.particles;
+        let particles = &self.particles;
         let translation = particles.velocity.iter().zip(&particles.mass);
         let rotation = particles.spin.iter().zip(&particles.inertia);
         let kinetic: f64 = translation
             .chain(rotation)
             .map(|(rate, inertia)| 0.5 * inertia * rate.norm_squared())
             .sum();
-        let effects = self.parts.effects.iter();
+        let effects = self.setup.effects.iter();
         let potential: f64 = effects.filter_map(|effect| effect.energy(particles)).sum();
         let springs = contacts.spring_energy;
         Some([
@@ -188,7 +188,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let Some(ledger) = &mut self.ledger else {
             return;
         };
-        let particles = &self.parts.particles;
+        let particles = &self.particles;
         for i in particles.fixed..particles.len() {
             ledger.books.note_kick(i, particles, dt);
         }
@@ -196,41 +196,41 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Notes all contacts, before their forces are evaluated: histories are not moved on.
-    pub(super) fn note_all_contacts(&mut self, among: &Among) {
+    pub(super) fn note_all_contacts(&mut self, candidates: &Candidates) {
         if let Some(ledger) = &mut self.ledger {
-            ledger.books.resize(self.parts.particles.len());
+            ledger.books.resize(self.particles.len());
             ledger.books.clear();
         }
-        self.note_contacts(among);
+        self.note_contacts(candidates);
     }
 
     /// Notes these contacts, as [`note_all_contacts`](Self::note_all_contacts).
-    pub(super) fn note_contacts(&mut self, among: &Among) {
+    pub(super) fn note_contacts(&mut self, candidates: &Candidates) {
         if !N::ACTS {
             return;
         }
         let Some(mut ledger) = self.ledger.take() else {
             return;
         };
-        self.note_pairs(among, &mut ledger);
-        for (wall, near) in self.walls.iter().zip(&among.walls) {
+        self.note_pairs(candidates, &mut ledger);
+        for (wall, near) in self.walls.iter().zip(&candidates.walls) {
             self.note_wall(wall, near, &mut ledger);
         }
         self.ledger = Some(ledger);
     }
 
-    fn note_pairs(&self, among: &Among, ledger: &mut Ledger) {
+    fn note_pairs(&self, candidates: &Candidates, ledger: &mut Ledger) {
         let laws = self.laws();
-        for (pair, entry) in among.pairs() {
+        for (pair, entry) in candidates.pairs() {
             let (i, j) = (pair.i(), pair.j());
-            let spring = match Self::REMEMBERS {
+            let spring = match Self::HAS_HISTORY {
                 true => self.pair_history[entry].spring(),
                 false => Spring::default(),
             };
-            let meeting = laws.between(&self.couple(i, j), spring);
-            if meeting.touches {
-                let [damping, tangential] = self.parts_of(&meeting);
-                let [one, other] = meeting.torque;
+            let contact = laws.pair_force(&self.contact_state(i, j), spring);
+            if contact.touches {
+                let [damping, tangential] = self.damping_and_friction(&contact);
+                let [one, other] = contact.torque;
                 ledger.books.add(i, damping, tangential, one);
                 ledger.books.add(j, -damping, -tangential, other);
             }
@@ -241,25 +241,25 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let laws = self.laws();
         for &NearSphere { i, entry } in near {
             let spring = wall.histories[entry as usize].spring();
-            let meeting = laws.at_wall(wall.wall, &self.alone(i), spring);
-            if meeting.touches {
-                let [damping, tangential] = self.parts_of(&meeting);
-                ledger.books.add(i, damping, tangential, meeting.torque[0]);
+            let contact = laws.wall_force(wall.wall, &self.state_at_wall(i), spring);
+            if contact.touches {
+                let [damping, tangential] = self.damping_and_friction(&contact);
+                ledger.books.add(i, damping, tangential, contact.torque[0]);
             }
         }
     }
 
     /// Of the force at a contact what the damping does, and the tangential law.
-    fn parts_of(&self, meeting: &Meeting) -> [Vector; 2] {
-        let Meeting {
+    fn damping_and_friction(&self, contact: &ContactForce) -> [Vector; 2] {
+        let ContactForce {
             normal,
             velocity,
             force,
             ..
-        } = *meeting;
+        } = *contact;
         let elastic = self
             .normal
-            .force(meeting.overlap, 0.0, meeting.contact_radius, 0.0);
+            .force(contact.overlap, 0.0, contact.contact_radius, 0.0);
         if !T::ROTATES {
             return [force - normal * elastic, Vector::ZERO];
         }

@@ -1,10 +1,10 @@
 //! When lists of neighbours are made anew, and what becomes of the histories of their contacts.
 
-use super::couple::Solid;
+use super::contact_laws::Laws;
+use super::contact_state::SphereProperties;
 use super::division::threads;
-use super::meeting::Laws;
 use super::wall_contacts::WallContacts;
-use super::{Parts, System};
+use super::{Setup, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::neighbours::NearPair;
@@ -16,23 +16,27 @@ use crate::simulation::Instability;
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Looks for near pairs anew, in a list that holds until they must be looked for again.
     pub(super) fn refresh(&mut self) -> Result<(), Instability> {
-        let Some(list) = &self.list else {
-            self.stale = false;
+        let Some(list) = &self.neighbours.list else {
+            self.neighbours.stale = false;
             return self.check_positions();
         };
-        let age = std::mem::take(&mut self.near_age);
-        self.near.adapt(age.steps, age.time, list.skin());
-        if !list.holds(&self.parts.particles, self.age.time, self.near.reach()) {
+        let age = std::mem::take(&mut self.neighbours.near_age);
+        self.neighbours.near.adapt(age.steps, age.time, list.skin());
+        if !list.holds(
+            &self.particles,
+            self.neighbours.age.time,
+            self.neighbours.near.reach(),
+        ) {
             self.mark(Part::Near);
             self.renew()?;
             self.mark(Part::List);
         }
-        self.stale = false;
-        if let Some(list) = &self.list {
-            let (near, particles) = (&mut self.near, &self.parts.particles);
+        self.neighbours.stale = false;
+        if let Some(list) = &self.neighbours.list {
+            let (near, particles) = (&mut self.neighbours.near, &self.particles);
             let threads = threads(&self.division);
-            if Self::REMEMBERS {
-                let before = near.exchange_pairs(std::mem::take(&mut self.spare_pairs));
+            if Self::HAS_HISTORY {
+                let before = near.exchange_pairs(std::mem::take(&mut self.neighbours.spare_pairs));
                 near.refresh(self.level, list, particles, threads);
                 let (pairs, histories) = (near.pairs(), &mut self.pair_history);
                 both(
@@ -41,8 +45,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     || find_at_walls(&mut self.walls, particles, near.margin()),
                 );
                 // Of many spheres it would be memory for nothing most of the time.
-                if !self.parts.sorted {
-                    self.spare_pairs = before;
+                if !self.setup.sorted {
+                    self.neighbours.spare_pairs = before;
                 }
             } else {
                 near.refresh(self.level, list, particles, threads);
@@ -52,7 +56,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 find_at_walls(&mut self.walls, particles, near.margin());
             }
             if let Some(division) = &mut self.division {
-                let (pairs, histories) = (self.near.pairs(), &self.pair_history);
+                let (pairs, histories) = (self.neighbours.near.pairs(), &self.pair_history);
                 division.divide(particles.len(), pairs, histories, &self.walls);
             }
         }
@@ -60,31 +64,35 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Ok(())
     }
 
-    /// What all spheres are like, if they are alike to the laws.
-    pub(super) fn alike(particles: &Particles) -> Option<Solid> {
-        Solid::of_all(particles, Laws::<N, T>::NEEDS_EFFECTIVE_MASS)
+    /// The properties of all spheres, if they are alike to the laws.
+    pub(super) fn alike(particles: &Particles) -> Option<SphereProperties> {
+        SphereProperties::of_all(particles, Laws::<N, T>::NEEDS_EFFECTIVE_MASS)
     }
 
     /// Fits everything that has an entry per sphere to the spheres that there are now.
     pub(super) fn renumber(&mut self) {
-        if self.list.is_some() {
-            self.alike = Self::alike(&self.parts.particles);
+        if self.neighbours.list.is_some() {
+            self.alike = Self::alike(&self.particles);
         }
-        self.stale = true;
+        self.neighbours.stale = true;
     }
 
     /// Makes sure that every sphere is somewhere, and that the list holds again: it follows those
     /// that strayed, or is built anew.
     fn renew(&mut self) -> Result<(), Instability> {
         self.check_positions()?;
-        let Some(list) = &mut self.list else {
+        let Some(list) = &mut self.neighbours.list else {
             return Ok(());
         };
-        let particles = &self.parts.particles;
-        if list.follow(particles, self.age.time, self.near.reach()) {
+        let particles = &self.particles;
+        if list.follow(
+            particles,
+            self.neighbours.age.time,
+            self.neighbours.near.reach(),
+        ) {
             return Ok(());
         }
-        let age = std::mem::take(&mut self.age);
+        let age = std::mem::take(&mut self.neighbours.age);
         // It says nothing about the skin if the list ended at once, for spheres that changed
         // places.
         if age.steps > 0 {
@@ -95,13 +103,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     pub(super) fn check_positions(&self) -> Result<(), Instability> {
-        let Parts {
-            particles,
-            limits,
-            dt,
-            ..
-        } = &self.parts;
-        limits.check_positions(particles, self.step, *dt)
+        let Setup { limits, dt, .. } = &self.setup;
+        limits.check_positions(&self.particles, self.step.number, *dt)
     }
 }
 

@@ -11,10 +11,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// the motion do not depend on when the list is built.
     pub(super) fn measure_contacts(&mut self) -> Contacts {
         let mut contacts = Contacts::default();
-        if !N::ACTS || self.list.is_none() {
+        if !N::ACTS || self.neighbours.list.is_none() {
             return contacts;
         }
-        if self.stale && self.refresh().is_err() {
+        if self.neighbours.stale && self.refresh().is_err() {
             return contacts;
         }
         let Particles {
@@ -22,9 +22,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             radius,
             fixed,
             ..
-        } = &self.parts.particles;
+        } = &self.particles;
         let (mut energy, mut springs) = (0.0, 0.0);
-        let with_springs = Self::REMEMBERS && self.ledger.is_some();
+        let with_springs = Self::HAS_HISTORY && self.ledger.is_some();
         let spring = |history: &[T::History], at: usize, overlap: f64, effective_radius: f64| {
             match with_springs {
                 true => self
@@ -34,7 +34,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
         };
         let count = &mut contacts.of_moving_spheres;
-        let mut pairs = self.near.pairs().iter().enumerate().peekable();
+        let mut pairs = self.neighbours.near.pairs().iter().enumerate().peekable();
         let mut walls: Vec<_> = self
             .walls
             .iter()

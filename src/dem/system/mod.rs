@@ -1,8 +1,11 @@
 //! A simulation compiled for its contact laws.
 
 mod adaptive;
-mod contacts;
-mod couple;
+mod candidates;
+mod contact_block;
+mod contact_laws;
+mod contact_state;
+mod contact_task;
 mod division;
 mod evaluate;
 mod integrate;
@@ -10,12 +13,9 @@ mod lanes;
 mod ledger;
 mod lists;
 mod measure;
-mod meeting;
 mod moves;
 mod order;
-mod pair_block;
 mod partners;
-mod share;
 mod state;
 mod stream;
 mod sums;
@@ -23,14 +23,14 @@ mod touching;
 mod wall_contacts;
 
 use self::adaptive::Workspace;
-use self::couple::Solid;
+use self::contact_block::EarlierRows;
+use self::contact_laws::Loading;
+use self::contact_state::SphereProperties;
+use self::contact_task::{Buffers, TooDeep};
 use self::division::Division;
 use self::integrate::Before;
 use self::ledger::Ledger;
 pub(in crate::dem) use self::ledger::Work;
-use self::meeting::Loading;
-use self::pair_block::EarlierRows;
-use self::share::Buffers;
 pub(in crate::dem) use self::state::EngineState;
 use self::wall_contacts::WallContacts;
 use super::bodies::Bodies;
@@ -58,7 +58,7 @@ pub(in crate::dem) trait Engine: Send {
     /// What the contacts hold at the present positions.
     fn contacts(&mut self) -> Contacts;
     fn use_baseline_instructions(&mut self);
-    /// Divides the work of a sorted scene among so many threads, of the pool that the engine then
+    /// Divides the work of a sorted scene candidates so many threads, of the pool that the engine then
     /// runs in. Whether it does.
     fn use_threads(&mut self, threads: usize) -> bool;
     /// Begins to keep the books of energy; never changes the motion.
@@ -92,9 +92,8 @@ pub(in crate::dem) struct Contacts {
     pub(in crate::dem) of_moving_spheres: usize,
 }
 
-/// What a system is made of besides its laws.
-pub(in crate::dem) struct Parts {
-    pub(in crate::dem) particles: Particles,
+/// What a scene says of a system besides its laws and its spheres. It does not change.
+pub(in crate::dem) struct Setup {
     /// In the order in which they act.
     pub(in crate::dem) walls: Vec<TankWall>,
     /// Those of a potential first.
@@ -102,6 +101,7 @@ pub(in crate::dem) struct Parts {
     /// Whether an effect needs the number of spheres below each sphere.
     pub(in crate::dem) shielded: bool,
     pub(in crate::dem) limits: Limits,
+    /// Time step (s).
     pub(in crate::dem) dt: f64,
     pub(in crate::dem) integrator: Integrator,
     /// Skin of the neighbour list (m).
@@ -113,11 +113,56 @@ pub(in crate::dem) struct Parts {
 
 /// A simulation compiled for its contact laws.
 pub(in crate::dem) struct System<N, T: TangentialLaw> {
-    parts: Parts,
+    particles: Particles,
+    setup: Setup,
     normal: N,
     tangential: T,
+    step: StepState,
+    neighbours: NeighbourState,
+    /// Histories of near pairs. A law without history has one of no size, and these take no memory.
+    pair_history: Vec<T::History>,
+    /// The walls, the spheres near them, and histories of these contacts.
+    walls: Vec<WallContacts<T::History>>,
+    /// How springs are loaded until the next evaluation.
+    loading: Loading,
+    /// The velocities and spins that load them, if these are not those of the evaluation.
+    earlier: Vec<EarlierRows>,
+    /// Velocities and spins of before a prediction.
+    before: Before,
+    /// Of adaptive Verlet.
+    workspace: Workspace<T::History>,
+    ledger: Option<Ledger>,
+    profile: Option<Box<Profile>>,
+    /// The properties of all spheres, if they are alike.
+    alike: Option<SphereProperties>,
+    buffers: Box<Buffers<T::History>>,
+    /// Of every thread.
+    bodies: Vec<Bodies>,
+    /// Which thread computes which spheres, if there are several.
+    division: Option<Division<T::History>>,
+    level: Level,
+}
+
+/// How far a system is in its steps, and within one.
+#[derive(Default)]
+struct StepState {
+    /// Steps done.
+    number: u64,
+    /// How often a sphere was moved, sub-steps counted.
+    moves: u64,
+    /// Whether forces and torques are zero already.
+    forces_are_zero: bool,
+    /// Whether spheres have done the first half of the next step already.
+    first_half_done: bool,
+    /// The first sphere found beyond the overlap limit in this step, with its overlap.
+    too_deep: TooDeep,
+}
+
+/// The lists of neighbours, and how long they have held.
+struct NeighbourState {
     /// Absent where no pair interacts.
     list: Option<VerletList>,
+    /// The pairs of the list that may touch soon.
     near: Near,
     /// Whether the near pairs must be looked for anew.
     stale: bool,
@@ -125,36 +170,8 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     age: Age,
     /// Since the near pairs were looked for.
     near_age: Age,
-    /// How springs are loaded until the next evaluation.
-    loading: Loading,
-    /// The velocities and spins that load them, if these are not those of the evaluation.
-    earlier: Vec<EarlierRows>,
-    before: Before,
-    workspace: Workspace<T::History>,
-    ledger: Option<Ledger>,
-    profile: Option<Box<Profile>>,
-    /// What all spheres are like, if they are alike.
-    alike: Option<Solid>,
-    buffers: Box<Buffers<T::History>>,
-    /// Of every thread.
-    bodies: Vec<Bodies>,
-    /// The walls, and what may touch them.
-    walls: Vec<WallContacts<T::History>>,
-    /// Histories of near pairs. A law without history has one of no size, and these take no memory.
-    pair_history: Vec<T::History>,
-    /// Who answers for which spheres, if it is not one thread for all.
-    division: Option<Division<T::History>>,
-    /// Whether forces and torques are zero already.
-    cleared: bool,
-    /// Whether spheres have done the first half of the next step already.
-    begun: bool,
     /// The near pairs of before, for their memory.
     spare_pairs: Vec<NearPair>,
-    step: u64,
-    moves: u64,
-    level: Level,
-    /// The first sphere found beyond the overlap limit in this step, with its overlap.
-    too_deep: Option<(usize, f64)>,
 }
 
 /// How long ago something was.
@@ -167,46 +184,34 @@ struct Age {
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    const REMEMBERS: bool = size_of::<T::History>() > 0;
+    const HAS_HISTORY: bool = size_of::<T::History>() > 0;
 
-    pub(in crate::dem) fn new(normal: N, tangential: T, parts: Parts) -> Self {
-        let reach = if parts.shielded {
-            Reach::Column
-        } else {
-            Reach::Contact
-        };
-        let interact = N::ACTS || parts.shielded;
+    pub(in crate::dem) fn new(
+        normal: N,
+        tangential: T,
+        setup: Setup,
+        particles: Particles,
+    ) -> Self {
         Self {
-            list: interact.then(|| {
-                let list = VerletList::new(reach, parts.skin, parts.neighbours);
-                if parts.sorted { list.of_sorted() } else { list }
-            }),
-            stale: true,
-            near: Near::new(N::ACTS, parts.shielded, 0.3 * parts.skin),
-            age: Age::default(),
-            near_age: Age::default(),
-            loading: Loading::present(parts.dt),
+            step: StepState::default(),
+            neighbours: NeighbourState::new(&setup, N::ACTS),
+            pair_history: Vec::new(),
+            walls: setup.walls.iter().copied().map(WallContacts::new).collect(),
+            loading: Loading::present(setup.dt),
             earlier: Vec::new(),
             before: Before::default(),
             workspace: Workspace::default(),
             ledger: None,
             profile: None,
-            alike: Self::alike(&parts.particles),
+            alike: Self::alike(&particles),
             buffers: Buffers::new(),
             bodies: Vec::new(),
-            walls: parts.walls.iter().copied().map(WallContacts::new).collect(),
-            pair_history: Vec::new(),
             division: None,
-            cleared: false,
-            begun: false,
-            spare_pairs: Vec::new(),
+            level: Level::new(),
+            particles,
+            setup,
             normal,
             tangential,
-            parts,
-            step: 0,
-            moves: 0,
-            level: Level::new(),
-            too_deep: None,
         }
     }
 
@@ -225,6 +230,28 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 }
 
+impl NeighbourState {
+    /// Of a system whose spheres act on one another at contacts, or not.
+    fn new(setup: &Setup, touch: bool) -> Self {
+        let reach = match setup.shielded {
+            true => Reach::Column,
+            false => Reach::Contact,
+        };
+        let interact = touch || setup.shielded;
+        Self {
+            list: interact.then(|| {
+                let list = VerletList::new(reach, setup.skin, setup.neighbours);
+                if setup.sorted { list.of_sorted() } else { list }
+            }),
+            near: Near::new(touch, setup.shielded, 0.3 * setup.skin),
+            stale: true,
+            age: Age::default(),
+            near_age: Age::default(),
+            spare_pairs: Vec::new(),
+        }
+    }
+}
+
 impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
     fn advance(&mut self, steps: u64) -> Result<(), Instability> {
         self.profile.iter_mut().for_each(|it| it.enter());
@@ -239,26 +266,26 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
     }
 
     fn use_threads(&mut self, threads: usize) -> bool {
-        let divides = self.parts.sorted && threads > 1;
+        let divides = self.setup.sorted && threads > 1;
         self.division = divides.then(|| Division::new(threads));
-        self.stale = true;
+        self.neighbours.stale = true;
         divides
     }
 
     fn particles(&self) -> &Particles {
-        &self.parts.particles
+        &self.particles
     }
 
     fn step(&self) -> u64 {
-        self.step
+        self.step.number
     }
 
     fn moves(&self) -> u64 {
-        self.moves
+        self.step.moves
     }
 
     fn list(&self) -> Option<&VerletList> {
-        self.list.as_ref()
+        self.neighbours.list.as_ref()
     }
 
     fn keep_ledger(&mut self) {
@@ -279,42 +306,42 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
 
     fn insert(&mut self, sphere: &Sphere) {
         let before = self.energy_in_books();
-        let Parts {
-            particles,
-            limits,
-            dt,
-            ..
-        } = &mut self.parts;
-        particles.push(sphere);
+        self.particles.push(sphere);
         if let Some(ledger) = &mut self.ledger {
             ledger.books.add_sphere();
         }
-        limits.add_sphere(sphere.radius, *dt);
-        self.list.iter_mut().for_each(VerletList::add_sphere);
-        self.near.add_sphere(sphere.position);
+        self.setup.limits.add_sphere(sphere.radius, self.setup.dt);
+        self.neighbours
+            .list
+            .iter_mut()
+            .for_each(VerletList::add_sphere);
+        self.neighbours.near.add_sphere(sphere.position);
         self.renumber();
         self.note_exchange(before);
     }
 
     fn retain(&mut self, keep: &[bool]) {
         let before = self.energy_in_books();
-        self.parts.particles.retain(keep);
+        self.particles.retain(keep);
         if let Some(ledger) = &mut self.ledger {
             ledger.books.retain(keep);
         }
         self.walls.iter_mut().for_each(|wall| wall.retain(keep));
-        let lists = self.list.iter_mut();
+        let lists = self.neighbours.list.iter_mut();
         lists.for_each(|list| list.remove_spheres(keep));
-        retain(&mut self.pair_history, &self.near.remove_spheres(keep));
+        retain(
+            &mut self.pair_history,
+            &self.neighbours.near.remove_spheres(keep),
+        );
         self.renumber();
         self.note_exchange(before);
     }
 
     fn forget_contacts(&mut self) {
-        self.list = None;
-        self.near = Near::new(false, false, 0.0);
+        self.neighbours.list = None;
+        self.neighbours.near = Near::new(false, false, 0.0);
         self.pair_history = Vec::new();
-        self.spare_pairs = Vec::new();
+        self.neighbours.spare_pairs = Vec::new();
         self.walls.clear();
         self.division = None;
         self.earlier = Vec::new();

@@ -11,7 +11,7 @@ use crate::simulation::Instability;
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Whether it is time to look at the order of the spheres.
     pub(super) fn looks_at_order(&self) -> bool {
-        self.parts.sorted && self.step.is_multiple_of(order::INTERVAL)
+        self.setup.sorted && self.step.number.is_multiple_of(order::INTERVAL)
     }
 
     /// Sorts the spheres if it is time to look at their order, and they have mixed.
@@ -19,7 +19,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if !self.looks_at_order() {
             return Ok(());
         }
-        let result = match order::found_anew(&self.parts.particles) {
+        let result = match order::found_anew(&self.particles) {
             Some(order) => self.reorder(&order),
             None => Ok(()),
         };
@@ -30,8 +30,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     fn reorder(&mut self, order: &[u32]) -> Result<(), Instability> {
         let places = order::places(order);
         self.follow_pairs(&places);
-        self.parts.particles.reorder(order);
-        for effect in &mut self.parts.effects {
+        self.particles.reorder(order);
+        for effect in &mut self.setup.effects {
             effect.reorder(order);
         }
         for wall in &mut self.walls {
@@ -40,8 +40,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if let Some(ledger) = &mut self.ledger {
             ledger.books.reorder(order);
         }
-        self.stale = true;
-        if self.list.is_none() {
+        self.neighbours.stale = true;
+        if self.neighbours.list.is_none() {
             return Ok(());
         }
         self.forget_lists();
@@ -51,9 +51,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Takes the near pairs that remember something, with their histories, to new places. These are
     /// most of the memory of a large scene, so all of it happens in their arrays.
     fn follow_pairs(&mut self, places: &[u32]) {
-        let mut pairs = self.near.take_pairs();
+        let mut pairs = self.neighbours.near.take_pairs();
         let histories = &mut self.pair_history;
-        if !Self::REMEMBERS {
+        if !Self::HAS_HISTORY {
             histories.clear();
             return;
         }
@@ -91,6 +91,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
             histories[at] = history;
         }
-        self.near.return_pairs(pairs);
+        self.neighbours.near.return_pairs(pairs);
     }
 }

@@ -1,6 +1,6 @@
 //! What contacts read of spheres.
 
-use super::pair_block::EarlierRows;
+use super::contact_block::EarlierRows;
 use super::wall_contacts::NearSphere;
 use crate::dem::block::BLOCK;
 use crate::dem::bodies::Spheres;

@@ -5,7 +5,7 @@
 
 use super::ledger::Books;
 use super::wall_contacts::WallContacts;
-use super::{Age, Near, NearPair, Parts, System, VerletList};
+use super::{Age, Near, NearPair, Setup, System, VerletList};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::order;
@@ -84,22 +84,22 @@ impl<H: History> Serialize for RememberedPairs<'_, H> {
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     pub(super) fn save(&self) -> EngineState<'_> {
         let pairs = RememberedPairs {
-            near: self.near.pairs(),
+            near: self.neighbours.near.pairs(),
             histories: &self.pair_history,
         };
         let of_wall = |wall: &WallContacts<T::History>| {
             let known = wall.near.iter().zip(&wall.histories);
-            let known = known.filter(|(_, history)| Self::REMEMBERS && !history.is_new());
+            let known = known.filter(|(_, history)| Self::HAS_HISTORY && !history.is_new());
             known
                 .map(|(sphere, &history)| (sphere.i, history))
                 .collect()
         };
         EngineState {
-            step: self.step,
-            moves: self.moves,
-            particles: Cow::Borrowed(&self.parts.particles),
+            step: self.step.number,
+            moves: self.step.moves,
+            particles: Cow::Borrowed(&self.particles),
             histories: encode(&Histories {
-                remembers: Self::REMEMBERS,
+                remembers: Self::HAS_HISTORY,
                 pairs,
                 walls: self.walls.iter().map(of_wall).collect(),
             }),
@@ -117,7 +117,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         } = state;
         let histories: SavedHistories<T::History> =
             decode(&histories).ok_or(StateError("its contacts follow another law"))?;
-        if histories.remembers != Self::REMEMBERS {
+        if histories.remembers != Self::HAS_HISTORY {
             return Err(StateError("its contacts follow another law"));
         }
         self.accept(&particles, &histories)?;
@@ -129,17 +129,17 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             _ => return Err(StateError("its books of energy are others")),
         }
 
-        self.step = step;
-        self.moves = moves;
-        (self.cleared, self.begun) = (false, false);
-        let Parts {
+        self.step.number = step;
+        self.step.moves = moves;
+        (self.step.forces_are_zero, self.step.first_half_done) = (false, false);
+        let Setup {
             limits,
             dt,
             effects,
-            particles: present,
             sorted,
             ..
-        } = &mut self.parts;
+        } = &mut self.setup;
+        let present = &mut self.particles;
         limits.fit(&particles.radius, *dt);
         if *sorted {
             let order = order::between(&present.number, &particles.number, particles.fixed);
@@ -161,10 +161,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         particles: &Particles,
         histories: &SavedHistories<T::History>,
     ) -> Result<(), StateError> {
-        let Parts { limits, dt, .. } = &self.parts;
+        let Setup { limits, dt, .. } = &self.setup;
         let count = particles.len();
-        let present = &self.parts.particles;
-        let ordered = match self.parts.sorted {
+        let present = &self.particles;
+        let ordered = match self.setup.sorted {
             true => {
                 count == present.len()
                     && particles.fixed == present.fixed
@@ -188,21 +188,21 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return Err(StateError("it has other spheres or contacts"));
         }
         limits
-            .check_positions(particles, self.step, *dt)
+            .check_positions(particles, self.step.number, *dt)
             .map_err(|_| StateError("a sphere is out of bounds"))
     }
 
     /// Makes lists of neighbours for the present spheres, with these histories.
     fn make_lists(&mut self, histories: &[(u32, u32, T::History)]) -> Result<(), Instability> {
-        self.stale = true;
-        if self.list.is_none() {
+        self.neighbours.stale = true;
+        if self.neighbours.list.is_none() {
             return Ok(());
         }
-        self.alike = Self::alike(&self.parts.particles);
-        self.near = Near::new(N::ACTS, self.parts.shielded, 0.3 * self.parts.skin);
+        self.alike = Self::alike(&self.particles);
+        self.neighbours.near = Near::new(N::ACTS, self.setup.shielded, 0.3 * self.setup.skin);
         self.forget_lists();
         let pairs = histories.iter().map(|&(i, j, _)| (i, j));
-        self.near.set_pairs(pairs);
+        self.neighbours.near.set_pairs(pairs);
         self.pair_history.clear();
         let histories = histories.iter().map(|&(_, _, history)| history);
         self.pair_history.extend(histories);
@@ -212,10 +212,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Sees to it that lists are made anew, for spheres that are others or elsewhere.
     pub(super) fn forget_lists(&mut self) {
-        self.list.iter_mut().for_each(VerletList::outdate);
-        self.age = Age::default();
-        self.near_age = Age::default();
-        self.stale = true;
+        self.neighbours
+            .list
+            .iter_mut()
+            .for_each(VerletList::outdate);
+        self.neighbours.age = Age::default();
+        self.neighbours.near_age = Age::default();
+        self.neighbours.stale = true;
     }
 }
 

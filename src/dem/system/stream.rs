@@ -11,10 +11,10 @@
 //! its partners in one place.
 
 use super::System;
-use super::division::{Portion, first_too_deep, threads};
+use super::contact_task::{ContactSettings, ContactSlice, ContactTask, TooDeep};
+use super::division::{ThreadContacts, first_too_deep, threads};
 use super::moves::{Drift, FirstTooFast, Found, Moves};
 use super::partners::Partners;
-use super::share::{Known, Scenery, Share, TooDeep};
 use super::sums::Sums;
 use super::touching::LOOK;
 use crate::dem::block::BLOCK;
@@ -37,7 +37,7 @@ pub(super) struct Stream<'a, H> {
     /// How many of them are moved.
     moved: usize,
     /// What is not done.
-    portion: Portion<'a, H>,
+    contacts: ThreadContacts<'a, H>,
     bodies: &'a mut Bodies,
     /// Copies of spheres around the boundaries.
     before: Option<Partners<'a>>,
@@ -52,8 +52,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Whether forces and moves may come in one pass.
     pub(super) fn streams(&self) -> bool {
         let division = self.division.as_ref();
-        self.parts.sorted
-            && self.list.is_some()
+        self.setup.sorted
+            && self.neighbours.list.is_some()
             && self.ledger.is_none()
             && division.is_none_or(|it| it.has_narrow_boundaries())
     }
@@ -62,39 +62,43 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// time (s), and forgets the forces. Says who was too fast, and notes whether a contact is too
     /// deep.
     pub(super) fn stream(&mut self, kicks: &[f64], drift: f64) -> FirstTooFast {
-        if !std::mem::replace(&mut self.cleared, true) {
-            self.parts.particles.clear_forces();
+        if !std::mem::replace(&mut self.step.forces_are_zero, true) {
+            self.particles.clear_forces();
         }
-        self.age.time += drift;
-        self.near_age.time += drift;
+        self.neighbours.age.time += drift;
+        self.neighbours.near_age.time += drift;
         debug_assert!(
             self.loading.age == 0.0,
             "springs are loaded by present velocities"
         );
-        let among = self.take_all();
-        let scenery = self.scenery();
+        let candidates = self.take_candidates();
+        let settings = self.settings();
         let moves = Moves {
-            effects: &self.parts.effects,
+            effects: &self.setup.effects,
             kicks,
             drift: Some(Drift {
                 dt: drift,
-                allowance: Some(self.near.allowance(self.near_age.time)),
+                allowance: Some(
+                    self.neighbours
+                        .near
+                        .allowance(self.neighbours.near_age.time),
+                ),
             }),
             clear: true,
-            limits: &self.parts.limits,
-            dt: self.parts.dt,
+            limits: &self.setup.limits,
+            dt: self.setup.dt,
         };
-        let reference = self.near.anchor().position();
-        let spheres = Spheres::new(&mut self.parts.particles, reference);
-        let (pairs, walls) = among.known(&mut self.pair_history, &mut self.walls);
+        let reference = self.neighbours.near.anchor().position();
+        let spheres = Spheres::new(&mut self.particles, reference);
+        let (pairs, walls) = candidates.with_histories(&mut self.pair_history, &mut self.walls);
         self.bodies
             .resize_with(threads(&self.division), Bodies::new);
         let bodies = &mut self.bodies[..];
         let mut streams = match &mut self.division {
             Some(division) => division.streams(spheres, pairs, walls, bodies),
             None => {
-                let all = Portion {
-                    crossing: Known::none(),
+                let all = ThreadContacts {
+                    crossing: ContactSlice::none(),
                     pairs,
                     walls,
                     buffers: &mut self.buffers,
@@ -106,14 +110,16 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         // others.
         streams[0].profile = self.profile.take();
         let level = self.level;
-        in_parallel(&mut streams, &|stream| stream.flow(level, &scenery, &moves));
+        in_parallel(&mut streams, &|stream| {
+            stream.flow(level, &settings, &moves)
+        });
         self.profile = streams[0].profile.take();
-        self.too_deep = first_too_deep(streams.iter().map(|it| it.too_deep));
+        self.step.too_deep = first_too_deep(streams.iter().map(|it| it.too_deep));
         let found = streams.iter().map(|it| it.found);
         let found = found.fold(Found::default(), Found::and);
         drop(streams);
-        self.return_all(among);
-        self.stale |= found.far;
+        self.return_candidates(candidates);
+        self.neighbours.stale |= found.far;
         found.too_fast
     }
 }
@@ -123,14 +129,14 @@ impl<'a, H: History> Stream<'a, H> {
     /// after them.
     pub(super) fn new(
         spheres: Spheres<'a>,
-        portion: Portion<'a, H>,
+        contacts: ThreadContacts<'a, H>,
         bodies: &'a mut Bodies,
         (before, after): (Option<Partners<'a>>, Option<Partners<'a>>),
     ) -> Self {
         Self {
             spheres,
             moved: 0,
-            portion,
+            contacts,
             bodies,
             before,
             after,
@@ -143,24 +149,24 @@ impl<'a, H: History> Stream<'a, H> {
     fn flow<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,
-        scenery: &Scenery<N, T>,
+        settings: &ContactSettings<N, T>,
         moves: &Moves<'_>,
     ) {
         let first = self.spheres.first;
         let end = first + self.spheres.len();
         if self.before.is_some() {
-            let crossing = std::mem::replace(&mut self.portion.crossing, Known::none());
+            let crossing = std::mem::replace(&mut self.contacts.crossing, ContactSlice::none());
             self.add(
                 level,
-                scenery,
+                settings,
                 self.before,
-                [crossing, Known::none()],
+                [crossing, ContactSlice::none()],
                 first,
             );
         }
         // From there on spheres have pairs with those of later threads.
         let inside = (self.after).map_or(end, |it| (it.first as usize).clamp(first, end));
-        let own = &mut self.portion.pairs;
+        let own = &mut self.contacts.pairs;
         let within = (own.contacts).partition_point(|it| (it.i() as usize) < inside);
         let mut within = own.split(within);
         while first + self.moved < inside {
@@ -169,12 +175,18 @@ impl<'a, H: History> Stream<'a, H> {
                 None => inside,
             };
             let some = within.split(SPAN);
-            self.add(level, scenery, None, [Known::none(), some], until);
+            self.add(level, settings, None, [ContactSlice::none(), some], until);
             self.move_until(level, moves, until);
         }
         if inside < end {
-            let rest = std::mem::replace(&mut self.portion.pairs, Known::none());
-            self.add(level, scenery, self.after, [Known::none(), rest], end);
+            let rest = std::mem::replace(&mut self.contacts.pairs, ContactSlice::none());
+            self.add(
+                level,
+                settings,
+                self.after,
+                [ContactSlice::none(), rest],
+                end,
+            );
             self.move_until(level, moves, end);
         }
     }
@@ -184,13 +196,13 @@ impl<'a, H: History> Stream<'a, H> {
     fn add<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,
-        scenery: &Scenery<N, T>,
+        settings: &ContactSettings<N, T>,
         copies: Option<Partners<'_>>,
-        [crossing, pairs]: [Known<'_, NearPair, H>; 2],
+        [crossing, pairs]: [ContactSlice<'_, NearPair, H>; 2],
         until: usize,
     ) {
         let mut walls = [const { None }; TankWall::MOST];
-        for (next, wall) in walls.iter_mut().zip(&mut self.portion.walls) {
+        for (next, wall) in walls.iter_mut().zip(&mut self.contacts.walls) {
             let Some((wall, known)) = wall else { break };
             let near = known.contacts;
             let count = near.partition_point(|it| (it.i as usize) < until);
@@ -199,7 +211,7 @@ impl<'a, H: History> Stream<'a, H> {
         let first = self.spheres.first;
         let (partners, [force, torque]) = Partners::of(&mut self.spheres);
         let partners = copies.unwrap_or(partners);
-        let mut share = Share {
+        let mut task = ContactTask {
             partners,
             sums: Sums {
                 first: first.wrapping_sub(partners.first as usize),
@@ -207,14 +219,14 @@ impl<'a, H: History> Stream<'a, H> {
                 torque,
             },
             clear: false,
-            buffers: self.portion.buffers,
+            buffers: self.contacts.buffers,
             crossing,
             pairs,
             walls,
             too_deep: self.too_deep,
         };
-        share.add_contacts(level, scenery, &mut self.profile);
-        self.too_deep = share.too_deep;
+        task.add_contacts(level, settings, &mut self.profile);
+        self.too_deep = task.too_deep;
     }
 
     /// Moves the next spheres, those before `until`.

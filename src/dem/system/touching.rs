@@ -1,7 +1,7 @@
 //! Which of those that are near each other touch: contacts are computed of these alone, unless
 //! nearly all do.
 
-use super::couple::Solid;
+use super::contact_state::SphereProperties;
 use super::partners::Partners;
 use crate::dem::block::{BLOCK, ROWS, row, turned};
 use crate::dem::neighbours::{NearPair, keep_pairs};
@@ -32,7 +32,7 @@ pub(super) struct Touching {
     entries: [u32; ROOM],
     /// Where those of contacts are that do not touch.
     apart: [u32; ROOM],
-    /// Centre of the first partner from that of the second (m).
+    /// Centre of the first sphere from that of the second (m).
     offset: [[f64; ROOM]; 3],
     /// Whether histories are to be sent for.
     pub(super) far: bool,
@@ -43,7 +43,7 @@ pub(super) struct Touching {
 pub(super) struct Lanes<'a> {
     pub(super) pairs: &'a [NearPair; BLOCK],
     pub(super) entries: Entries<'a>,
-    /// Centres of the first partners from those of the second (m), if they are known.
+    /// Centres of the first spheres from those of the second (m), if they are known.
     pub(super) offset: Option<[&'a [f64; BLOCK]; 3]>,
     /// How many lanes have one.
     pub(super) count: usize,
@@ -111,7 +111,7 @@ impl Touching {
         }
     }
 
-    /// Finds who touches among these, up to [`LOOK`] of them, the first of which has its history at
+    /// Finds who touches candidates these, up to [`LOOK`] of them, the first of which has its history at
     /// `from`; histories of the others begin anew. `alike` says what all spheres are like, if they
     /// are alike. Says how many touch.
     #[inline(always)]
@@ -122,7 +122,7 @@ impl Touching {
         from: usize,
         histories: &mut [H],
         partners: &Partners<'_>,
-        alike: Option<Solid>,
+        alike: Option<SphereProperties>,
     ) -> usize {
         const { assert!(LOOK.is_multiple_of(BLOCK)) };
         let (mut found, mut apart) = (0, 0);
@@ -189,7 +189,7 @@ fn touches<S: Simd>(
     simd: S,
     pairs: &[NearPair; ROWS],
     partners: &Partners<'_>,
-    alike: Option<Solid>,
+    alike: Option<SphereProperties>,
 ) -> (mask64x8<S>, [f64x8<S>; 3]) {
     let (position, radius) = (partners.position, partners.radius);
     let [x, y, z] = turned::<S>(
@@ -197,7 +197,7 @@ fn touches<S: Simd>(
         |k| row(simd, position, pairs[k].i()) - row(simd, position, pairs[k].j()),
     );
     let sum = match alike {
-        Some(solid) => f64x8::splat(simd, solid.radius + solid.radius),
+        Some(properties) => f64x8::splat(simd, properties.radius + properties.radius),
         None => {
             let mut sum = [0.0; ROWS];
             for k in 0..ROWS {
@@ -209,7 +209,7 @@ fn touches<S: Simd>(
     ((x * x + y * y + z * z).simd_lt(sum * sum), [x, y, z])
 }
 
-/// Has the processor send for eight histories from there on, which are asked for soon.
+/// Prefetches the next eight histories.
 #[inline(always)]
 fn send_for<H>(histories: &[H], first: usize) {
     const LINE: usize = 64;

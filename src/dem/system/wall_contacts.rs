@@ -25,7 +25,7 @@ pub(super) struct WallContacts<H> {
 }
 
 impl<H: Copy + Default> WallContacts<H> {
-    const REMEMBERS: bool = size_of::<H>() > 0;
+    const HAS_HISTORY: bool = size_of::<H>() > 0;
 
     pub(super) fn new(wall: TankWall) -> Self {
         Self {
@@ -49,7 +49,7 @@ impl<H: Copy + Default> WallContacts<H> {
             }
             let i = i as u32;
             let mut history = H::default();
-            if Self::REMEMBERS {
+            if Self::HAS_HISTORY {
                 while known.next_if(|(known, _)| known.i < i).is_some() {}
                 if let Some((_, &known)) = known.next_if(|(known, _)| known.i == i) {
                     history = known;

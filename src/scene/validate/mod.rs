@@ -11,7 +11,7 @@ use super::{
     Contact, Friction, Geometry, LIST_KEY, Radii, SCENE, START_SPHERE, Scene, Spheres, Start,
     Updraught,
 };
-use crate::document::{Problem, number};
+use crate::document::{Problem, number, one_of};
 
 /// Largest number of spheres: each takes up to 600 bytes of memory.
 const MOST_SPHERES: usize = 10_000_000;
@@ -77,37 +77,14 @@ impl Scene {
             let help = "add [contact] with `law = \"hertz\"`, or remove [friction]";
             problems.push(Problem::new("friction", message).help(help));
         }
-        let refused = match (&self.contact, &self.friction) {
-            (Some(Contact::Silbert { .. }), Some(friction))
-                if !matches!(friction, Friction::Silbert { .. }) =>
-            {
-                Some((
-                    "this friction law does not go with the silbert contact",
-                    "use `law = \"silbert\"` here, or another law in [contact]",
-                ))
-            }
-            (
-                Some(Contact::Hertz { .. } | Contact::Linear { .. }),
-                Some(Friction::Silbert { .. }),
-            ) => Some((
-                "this friction law goes with the silbert contact only",
-                "use `law = \"silbert\"` in [contact], or another law here",
-            )),
-            (
-                Some(Contact::Linear { .. }),
-                Some(Friction::Spin { .. } | Friction::Mindlin { .. }),
-            ) => Some((
-                "this friction law goes with the hertz contact only",
-                "use `law = \"cundall-strack\"` or `\"coulomb\"` here, or `law = \"hertz\"` in \
-                 [contact]",
-            )),
-            (Some(Contact::Hertz { .. }), Some(Friction::CundallStrack { .. })) => Some((
-                "this friction law goes with the linear contact only",
-                "use `law = \"mindlin\"` here, or `law = \"linear\"` in [contact]",
-            )),
-            _ => None,
-        };
-        if let Some((message, help)) = refused {
+        if let (Some(contact), Some(friction)) = (&self.contact, &self.friction)
+            && !friction.goes_with(contact)
+        {
+            let contacts = friction.contacts().join(" or ");
+            let message = format!("this friction law goes with the {contacts} contact only");
+            let here = one_of(Friction::laws_with(contact));
+            let there = one_of(friction.contacts().iter().copied());
+            let help = format!("the law here can be {here}; or that in [contact] {there}");
             problems.push(Problem::new("friction.law", message).help(help));
         }
         if self.spin_damping.is_some() && self.friction.is_none() {

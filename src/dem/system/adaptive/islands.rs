@@ -1,7 +1,7 @@
 //! Which spheres may touch one another within a step.
 
 use crate::dem::neighbours::NearPair;
-use crate::dem::system::contacts::Among;
+use crate::dem::system::candidates::Candidates;
 use crate::dem::system::wall_contacts::NearSphere;
 
 /// Spheres that may touch one another within a step, directly or through others, and all that they
@@ -11,15 +11,15 @@ pub(super) struct Island {
     /// Their indices, in rising order.
     pub(super) spheres: Vec<u32>,
     /// Their contacts, possible ones included.
-    pub(super) among: Among,
+    pub(super) candidates: Candidates,
 }
 
 impl Island {
     fn clear(&mut self) {
         self.spheres.clear();
-        self.among.pairs.clear();
-        self.among.entries.clear();
-        self.among.walls.iter_mut().for_each(Vec::clear);
+        self.candidates.pairs.clear();
+        self.candidates.entries.clear();
+        self.candidates.walls.iter_mut().for_each(Vec::clear);
     }
 }
 
@@ -113,16 +113,16 @@ impl Islands {
         for (pair, entry) in pairs.iter().zip(0..) {
             if self.holds_pair(pair.i(), pair.j(), fixed) {
                 let first = self.first(pair.j());
-                let among = &mut self.island(first).among;
-                among.pairs.push(*pair);
-                among.entries.push(entry);
+                let candidates = &mut self.island(first).candidates;
+                candidates.pairs.push(*pair);
+                candidates.entries.push(entry);
             }
         }
         for (wall, near) in walls.enumerate() {
             for &sphere in near {
                 if !self.is_free(sphere.i as usize) && sphere.i as usize >= fixed {
                     let first = self.first(sphere.i);
-                    self.island(first).among.walls[wall].push(sphere);
+                    self.island(first).candidates.walls[wall].push(sphere);
                 }
             }
         }

@@ -7,10 +7,10 @@ pub(super) use self::workspace::Workspace;
 
 use self::islands::Island;
 use self::workspace::Start;
-use super::contacts::Among;
-use super::meeting::Loading;
+use super::candidates::Candidates;
+use super::contact_laws::Loading;
 use super::wall_contacts::{NearSphere, WallContacts};
-use super::{Engine, Parts, System};
+use super::{Engine, Setup, System};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{Grip, TangentialLaw};
 use crate::dem::particles::Particles;
@@ -40,15 +40,15 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     fn adaptive_step(&mut self, work: &mut Workspace<T::History>) -> Result<(), Instability> {
         self.begin_step();
         self.check_all_speeds()?;
-        let dt = self.parts.dt;
-        work.start.keep(&self.parts.particles);
+        let dt = self.setup.dt;
+        work.start.keep(&self.particles);
         work.held.velocity.clone_from(&work.start.velocity);
         work.held.spin.clone_from(&work.start.spin);
-        if Self::REMEMBERS {
+        if Self::HAS_HISTORY {
             // Of fixed spheres it stays zero.
             self.earlier.clear();
             self.earlier
-                .resize(self.parts.particles.len(), Default::default());
+                .resize(self.particles.len(), Default::default());
         }
         self.slow_forces(work)?;
         self.keep_histories(&mut work.start);
@@ -59,7 +59,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 outcome?;
                 break;
             };
-            work.start.put_back(&mut self.parts.particles);
+            work.start.put_back(&mut self.particles);
             self.put_back_histories(&work.start);
             if let (Some(ledger), Some(books)) = (&mut self.ledger, books) {
                 ledger.books.work = books;
@@ -68,21 +68,16 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.hold_for(reach)?;
             self.keep_histories(&mut work.start);
         }
-        self.age.time += dt;
-        self.near_age.time += dt;
+        self.neighbours.age.time += dt;
+        self.neighbours.near_age.time += dt;
         self.check_all_speeds()
     }
 
     fn check_all_speeds(&mut self) -> Result<(), Instability> {
-        let Parts {
-            particles,
-            limits,
-            dt,
-            ..
-        } = &self.parts;
+        let Setup { limits, dt, .. } = &self.setup;
         let Particles {
             velocity, radius, ..
-        } = particles;
+        } = &self.particles;
         self.check_speeds([limits.first_too_fast(0, velocity, radius, *dt), None])
     }
 
@@ -92,7 +87,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.move_free_spheres(work);
         let islands = std::mem::take(&mut work.islands);
         let outcome = islands.all().iter().try_for_each(|island| {
-            let sub_steps = work.sub_steps(island, self.parts.dt);
+            let sub_steps = work.sub_steps(island, self.setup.dt);
             self.move_island(island, sub_steps, work)
         });
         work.islands = islands;
@@ -102,46 +97,51 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Forces and torques of all but contacts, in the middle of the step as they foretell it, and
     /// how far the spheres may get in the step. Leaves the spheres where they were.
     fn slow_forces(&mut self, work: &mut Workspace<T::History>) -> Result<(), Instability> {
-        let dt = self.parts.dt;
-        if self.stale {
+        let dt = self.setup.dt;
+        if self.neighbours.stale {
             self.refresh()?;
         }
-        self.note_all_contacts(&Among::default());
+        self.note_all_contacts(&Candidates::default());
         self.evaluate_effects();
-        let reach = work.find_reach(&self.parts.particles, dt);
+        let reach = work.find_reach(&self.particles, dt);
         self.hold_for(reach)?;
         let Particles {
             position, velocity, ..
-        } = &mut self.parts.particles;
+        } = &mut self.particles;
         for (position, &velocity) in position.iter_mut().zip(velocity.iter()) {
             *position += velocity * (0.5 * dt);
         }
         self.kick(0.5 * dt);
         self.evaluate_effects();
-        work.force.clone_from(&self.parts.particles.force);
-        work.torque.clone_from(&self.parts.particles.torque);
-        work.start.put_back(&mut self.parts.particles);
+        work.force.clone_from(&self.particles.force);
+        work.torque.clone_from(&self.particles.torque);
+        work.start.put_back(&mut self.particles);
         Ok(())
     }
 
     /// Sees to it that the near pairs hold while no sphere goes farther than `reach` (m).
     fn hold_for(&mut self, reach: f64) -> Result<(), Instability> {
-        let Some(list) = &mut self.list else {
+        let Some(list) = &mut self.neighbours.list else {
             return Ok(());
         };
         // Twice what is needed, to be of use for more than one step.
         let margin = 4.0 * reach;
         list.require(2.0 * margin);
-        let wide = self.near.require(margin);
-        let particles = &self.parts.particles;
-        if wide && self.near.holds(particles, self.near_age.time, reach) {
+        let wide = self.neighbours.near.require(margin);
+        let particles = &self.particles;
+        if wide
+            && self
+                .neighbours
+                .near
+                .holds(particles, self.neighbours.near_age.time, reach)
+        {
             return Ok(());
         }
         self.refresh()
     }
 
     fn keep_histories(&self, start: &mut Start<T::History>) {
-        if Self::REMEMBERS {
+        if Self::HAS_HISTORY {
             start.pair_history.clone_from(&self.pair_history);
             for (kept, wall) in start.wall_history.iter_mut().zip(&self.walls) {
                 kept.clone_from(&wall.histories);
@@ -150,7 +150,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     fn put_back_histories(&mut self, start: &Start<T::History>) {
-        if Self::REMEMBERS {
+        if Self::HAS_HISTORY {
             self.pair_history.copy_from_slice(&start.pair_history);
             for (wall, kept) in self.walls.iter_mut().zip(&start.wall_history) {
                 wall.histories.copy_from_slice(kept);
@@ -160,7 +160,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Finds the islands, and how stiff the contacts of their spheres may become.
     fn group(&self, work: &mut Workspace<T::History>) {
-        let particles = &self.parts.particles;
+        let particles = &self.particles;
         let (count, fixed) = (particles.len(), particles.fixed);
         work.islands.reset(count);
         work.stiffness.clear();
@@ -170,14 +170,15 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if !N::ACTS {
             return;
         }
-        for pair in self.near.pairs() {
+        for pair in self.neighbours.near.pairs() {
             self.look_at_pair(pair.i() as usize, pair.j() as usize, work);
         }
         for wall in &self.walls {
             self.look_at_wall(wall, work);
         }
         let walls = self.walls.iter().map(|wall| &wall.near[..]);
-        work.islands.collect(self.near.pairs(), walls, fixed);
+        work.islands
+            .collect(self.neighbours.near.pairs(), walls, fixed);
     }
 
     fn look_at_pair(&self, i: usize, j: usize, work: &mut Workspace<T::History>) {
@@ -188,7 +189,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             inverse_mass,
             fixed,
             ..
-        } = &self.parts.particles;
+        } = &self.particles;
         let sum = radius[i] + radius[j];
         let way = work.reach[i] + work.reach[j];
         let squared = (position[i] - position[j]).norm_squared();
@@ -209,7 +210,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     fn look_at_wall(&self, wall: &WallContacts<T::History>, work: &mut Workspace<T::History>) {
-        let particles = &self.parts.particles;
+        let particles = &self.particles;
         for &NearSphere { i: sphere, .. } in &wall.near {
             let (wall, i) = (wall.wall, sphere as usize);
             let (centre, radius) = (particles.position[i], particles.radius[i]);
@@ -236,7 +237,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// How easily a force at its surface turns a sphere: r^2 / I (1/kg).
     fn turning(&self, i: usize) -> f64 {
-        let particles = &self.parts.particles;
+        let particles = &self.particles;
         let radius = particles.radius[i];
         let inverse = particles.inverse_inertia.get(i).copied().unwrap_or(0.0);
         radius * radius * inverse
@@ -276,13 +277,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     fn move_free_spheres(&mut self, work: &mut Workspace<T::History>) {
-        let dt = self.parts.dt;
-        let particles = &mut self.parts.particles;
+        let dt = self.setup.dt;
+        let particles = &mut self.particles;
         particles.force.copy_from_slice(&work.force);
         particles.torque.copy_from_slice(&work.torque);
         for i in particles.fixed..particles.len() {
             if work.islands.is_free(i) {
-                self.moves += 1;
+                self.step.moves += 1;
                 particles.position[i] += particles.velocity[i] * (0.5 * dt);
                 kick(particles, i, dt);
                 if let Some(ledger) = &mut self.ledger {
@@ -302,11 +303,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         sub_steps: u64,
         work: &mut Workspace<T::History>,
     ) -> Result<(), Instability> {
-        let time = self.parts.dt / sub_steps as f64;
+        let time = self.setup.dt / sub_steps as f64;
         let half = 0.5 * time;
-        self.moves += sub_steps * island.spheres.len() as u64;
+        self.step.moves += sub_steps * island.spheres.len() as u64;
         for &i in &island.spheres {
-            let (i, particles) = (i as usize, &mut self.parts.particles);
+            let (i, particles) = (i as usize, &mut self.particles);
             particles.force[i] = work.start.force[i];
             if particles.rotate() {
                 particles.torque[i] = work.start.torque[i];
@@ -323,15 +324,15 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 let spheres = island.spheres.iter();
                 spheres.for_each(|&i| ledger.books.clear_sphere(i));
             }
-            self.note_contacts(&island.among);
+            self.note_contacts(&island.candidates);
             self.mark_ledger();
-            self.forces_among(&island.among, false);
+            self.forces_of_candidates(&island.candidates, false);
             self.check_overlaps()?;
             for &i in &island.spheres {
                 self.complete(i as usize, time, work);
             }
         }
-        if Self::REMEMBERS {
+        if Self::HAS_HISTORY {
             self.load_springs(island, half, work);
         }
         Ok(())
@@ -341,7 +342,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     fn load_springs(&mut self, island: &Island, time: f64, work: &mut Workspace<T::History>) {
         self.loading = Loading::present(time);
         let spheres = || island.spheres.iter().map(|&i| i as usize);
-        let particles = &self.parts.particles;
+        let particles = &self.particles;
         work.held.force.clear();
         work.held
             .force
@@ -351,29 +352,29 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             let torques = spheres().map(|i| particles.torque[i]);
             work.held.torque.extend(torques);
         }
-        self.forces_among(&island.among, false);
+        self.forces_of_candidates(&island.candidates, false);
         // Forces of spheres that move are those of the last middle still, and the next step finds
         // what is too deep, if it matters.
-        let particles = &mut self.parts.particles;
+        let particles = &mut self.particles;
         for (i, &force) in spheres().zip(&work.held.force) {
             particles.force[i] = force;
         }
         for (i, &torque) in spheres().zip(&work.held.torque) {
             particles.torque[i] = torque;
         }
-        self.too_deep = None;
+        self.step.too_deep = None;
     }
 
     /// Moves a sphere to the middle of a sub-step, and gives it the velocity and spin that the
     /// latest forces foretell there; its own are held.
     fn foretell(&mut self, i: usize, half: f64, work: &mut Workspace<T::History>) {
-        let particles = &mut self.parts.particles;
+        let particles = &mut self.particles;
         particles.position[i] += particles.velocity[i] * half;
         work.held.velocity[i] = particles.velocity[i];
         if particles.rotate() {
             work.held.spin[i] = particles.spin[i];
         }
-        if Self::REMEMBERS {
+        if Self::HAS_HISTORY {
             self.earlier[i] = [particles.velocity[i].row(), particles.spin[i].row()];
         }
         kick(particles, i, half);
@@ -385,7 +386,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Moves a sphere from the middle to the end of a sub-step.
     fn complete(&mut self, i: usize, time: f64, work: &mut Workspace<T::History>) {
-        let particles = &mut self.parts.particles;
+        let particles = &mut self.particles;
         particles.velocity[i] = work.held.velocity[i];
         particles.force[i] += work.force[i];
         if particles.rotate() {

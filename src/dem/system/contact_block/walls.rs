@@ -1,11 +1,11 @@
 //! Spheres at a wall in blocks of contacts.
 
-use super::PairBlock;
+use super::ContactBlock;
 use crate::dem::block::{BLOCK, ROWS, row};
 use crate::dem::contact::NormalLaw;
 use crate::dem::friction::{History, TangentialLaw};
-use crate::dem::system::couple::Solid;
-use crate::dem::system::meeting::Laws;
+use crate::dem::system::contact_laws::Laws;
+use crate::dem::system::contact_state::SphereProperties;
 use crate::dem::system::partners::Partners;
 use crate::dem::system::sums::Sums;
 use crate::dem::system::wall_contacts::NearSphere;
@@ -13,10 +13,10 @@ use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;
 use fearless_simd::{Simd, SimdFrom, f64x4};
 
-impl<H: History> PairBlock<H> {
-    /// Fetches spheres near a wall, with what they remember.
+impl<H: History> ContactBlock<H> {
+    /// Gathers positions, velocities, spins and histories of spheres near a wall.
     #[inline(always)]
-    pub(in crate::dem::system) fn take_spheres<
+    pub(in crate::dem::system) fn gather_spheres<
         S: Simd,
         N: NormalLaw,
         T: TangentialLaw<History = H>,
@@ -42,14 +42,14 @@ impl<H: History> PairBlock<H> {
             );
         }
         if !self.alike {
-            self.solid[0].take::<N, T>(partners, |k| spheres[k].i);
+            self.properties[0].take::<N, T>(partners, |k| spheres[k].i);
         }
-        self.take_springs(
+        self.gather_springs(
             simd,
             #[inline(always)]
             |k| histories.get(k).copied().unwrap_or_default(),
         );
-        if Self::REMEMBERS && !partners.earlier.is_empty() {
+        if Self::HAS_HISTORY && !partners.earlier.is_empty() {
             let earlier = partners.earlier;
             self.earlier_velocity.fill::<S>(
                 #[inline(always)]
@@ -62,80 +62,84 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Finds how every sphere meets a wall.
+    /// Finds the contact of every sphere with a wall.
     #[inline(always)]
-    pub(in crate::dem::system) fn meet<W: Wall, N: NormalLaw, T: TangentialLaw<History = H>>(
+    pub(in crate::dem::system) fn find_wall_contacts<
+        W: Wall,
+        N: NormalLaw,
+        T: TangentialLaw<History = H>,
+    >(
         &mut self,
         wall: W,
         laws: &Laws<N, T>,
     ) {
         for k in 0..BLOCK {
-            let contact = wall.contact(self.offset.vector(k), self.solid[0].radius[k]);
-            self.meeting.set(k, &contact);
+            let contact = wall.contact(self.offset.vector(k), self.properties[0].radius[k]);
+            self.wall_contact.set(k, &contact);
         }
-        if Self::REMEMBERS && laws.loading.age > 0.0 {
+        if Self::HAS_HISTORY && laws.loading.age > 0.0 {
             for k in 0..BLOCK {
                 let (place, velocity) = (self.offset.vector(k), self.earlier_velocity.vector(k));
                 let place = laws.earlier_place(place, velocity);
-                let contact = wall.contact(place, self.solid[0].radius[k]);
-                self.earlier_meeting.set(k, &contact);
+                let contact = wall.contact(place, self.properties[0].radius[k]);
+                self.earlier_wall_contact.set(k, &contact);
             }
         }
     }
 
-    /// Computes the laws for every sphere, as it [meets](Self::meet) a wall.
+    /// Applies the laws to the [contacts with a wall](Self::find_wall_contacts).
     #[inline(always)]
-    pub(in crate::dem::system) fn interact_with_wall<
+    pub(in crate::dem::system) fn apply_laws_at_wall<
         N: NormalLaw,
         T: TangentialLaw<History = H>,
     >(
         &mut self,
         laws: &Laws<N, T>,
     ) {
-        match Self::REMEMBERS && laws.loading.age > 0.0 {
-            true => self.interact_with_wall_as::<N, T, true>(laws),
-            false => self.interact_with_wall_as::<N, T, false>(laws),
+        match Self::HAS_HISTORY && laws.loading.age > 0.0 {
+            true => self.apply_laws_at_wall_as::<N, T, true>(laws),
+            false => self.apply_laws_at_wall_as::<N, T, false>(laws),
         }
     }
 
     #[inline(always)]
-    fn interact_with_wall_as<N: NormalLaw, T: TangentialLaw<History = H>, const EARLIER: bool>(
+    fn apply_laws_at_wall_as<N: NormalLaw, T: TangentialLaw<History = H>, const EARLIER: bool>(
         &mut self,
         laws: &Laws<N, T>,
     ) {
         self.turn_springs(
             #[inline(always)]
-            |block, k| block.meeting.at(k).normal,
+            |block, k| block.wall_contact.at(k).normal,
         );
         for k in 0..BLOCK {
-            let mut couple = self.couple::<T, EARLIER>(k, Solid::WALL);
-            couple.spin[1] = Vector::ZERO;
-            if let Some(earlier) = &mut couple.earlier {
+            let mut state = self.contact_state::<T, EARLIER>(k, SphereProperties::WALL);
+            state.spin[1] = Vector::ZERO;
+            if let Some(earlier) = &mut state.earlier {
                 earlier.spin[1] = Vector::ZERO;
             }
-            let earlier = self.earlier_meeting.at(k);
+            let earlier = self.earlier_wall_contact.at(k);
             let earlier = EARLIER.then_some(&earlier);
-            let contact = self.meeting.at(k);
+            let contact = self.wall_contact.at(k);
             let spring = self.spring(k);
-            match Self::REMEMBERS {
+            match Self::HAS_HISTORY {
                 true => {
-                    let pressed = laws.pressed_at_contact(&couple, contact, earlier, spring);
-                    self.hold::<T>(k, &pressed);
+                    let loaded = laws.load_at_wall(&state, contact, earlier, spring);
+                    self.store_loaded::<T>(k, &loaded);
                 }
                 false => {
-                    self.keep::<T>(k, &laws.at_contact(&couple, contact, earlier, spring));
+                    self.store_force::<T>(k, &laws.wall_force_at(&state, contact, earlier, spring));
                 }
             }
         }
-        self.rub::<T, true>(
+        self.add_friction_to_all::<T, true>(
             #[inline(always)]
-            |block, k| block.meeting.at(k).normal,
+            |block, k| block.wall_contact.at(k).normal,
         );
     }
 
     /// Adds forces and torques of a wall to those of so many spheres whose sums these are.
     #[inline(always)]
-    pub(in crate::dem::system) fn add_to_spheres<S: Simd, T: TangentialLaw<History = H>>(
+    pub(in crate::dem::system) fn scatter_to_spheres<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
         spheres: &[NearSphere; BLOCK],

@@ -1,10 +1,10 @@
 //! Forces at contacts, block by block: which of them touch, and what acts on whom. One thread
-//! answers for all, or each for a share of the spheres.
+//! computes all, or each those of its own spheres.
 
-use super::couple::Solid;
+use super::contact_block::ContactBlock;
+use super::contact_laws::Laws;
+use super::contact_state::SphereProperties;
 use super::lanes::whole;
-use super::meeting::Laws;
-use super::pair_block::PairBlock;
 use super::partners::Partners;
 use super::sums::Sums;
 use super::touching::{Entries, LOOK, Touching};
@@ -19,28 +19,28 @@ use crate::dem::vector::Vector;
 use crate::dem::walls::TankWall;
 use fearless_simd::{Level, Simd};
 
-/// What contacts depend on besides their partners and their own memory.
+/// What a contact force depends on besides the two spheres and their history.
 #[derive(Clone, Copy)]
-pub(super) struct Scenery<N, T> {
+pub(super) struct ContactSettings<N, T> {
     pub(super) laws: Laws<N, T>,
-    /// How many spheres, the first ones, never move.
+    /// Number of spheres that never move: the first ones.
     pub(super) fixed: u32,
-    /// What all spheres are like, if they are alike.
-    pub(super) alike: Option<Solid>,
-    /// Whether nearly all near pairs touch: the others need not be sorted out then.
+    /// The properties of all spheres, if they are alike.
+    pub(super) alike: Option<SphereProperties>,
+    /// Whether nearly all near pairs touch. The others are then computed too, with a force of zero.
     pub(super) mostly_touch: bool,
-    /// Whether histories of pairs come from farther than the caches.
+    /// Whether the histories of pairs exceed the caches.
     pub(super) far: bool,
 }
 
-/// Contacts, possible ones included, and what they remember.
-pub(super) struct Known<'a, C, H> {
+/// Candidates for contacts, each with its history.
+pub(super) struct ContactSlice<'a, C, H> {
     pub(super) contacts: &'a [C],
     /// Of each of them.
     pub(super) histories: &'a mut [H],
 }
 
-impl<C, H> Known<'_, C, H> {
+impl<C, H> ContactSlice<'_, C, H> {
     pub(super) fn none() -> Self {
         Self {
             contacts: &[],
@@ -58,47 +58,48 @@ impl<C, H> Known<'_, C, H> {
 }
 
 /// Walls, each with the spheres near it.
-pub(super) type AtWalls<'a, H> = [Option<(TankWall, Known<'a, NearSphere, H>)>; TankWall::MOST];
+pub(super) type AtWalls<'a, H> =
+    [Option<(TankWall, ContactSlice<'a, NearSphere, H>)>; TankWall::MOST];
 
 /// A sphere whose contact is beyond the overlap limit, and the overlap (m).
 pub(super) type TooDeep = Option<(usize, f64)>;
 
-/// What a thread computes contacts in.
+/// Buffers of a thread for its contacts.
 pub(super) struct Buffers<H> {
-    block: PairBlock<H>,
+    block: ContactBlock<H>,
     touching: Touching,
-    /// Pairs as partners are counted.
+    /// Pairs by the indices of [`Partners`].
     counted: [NearPair; LOOK],
 }
 
 impl<H: History> Buffers<H> {
     pub(super) fn new() -> Box<Self> {
         Box::new(Self {
-            block: PairBlock::new(),
+            block: ContactBlock::new(),
             touching: Touching::new(),
             counted: [NearPair::default(); LOOK],
         })
     }
 }
 
-/// What a thread answers for: forces and torques of some spheres, or of all.
-pub(super) struct Share<'a, H> {
+/// The work of one thread: forces and torques of some spheres, or of all.
+pub(super) struct ContactTask<'a, H> {
     pub(super) partners: Partners<'a>,
     pub(super) sums: Sums<'a>,
     /// Whether sums begin anew.
     pub(super) clear: bool,
     pub(super) buffers: &'a mut Buffers<H>,
-    /// Pairs whose first sphere is another share's, which answers for its force and the pair's
-    /// history: here is a copy.
-    pub(super) crossing: Known<'a, NearPair, H>,
+    /// Pairs whose first sphere belongs to another thread, which computes its force and keeps the
+    /// pair's history. This is a copy.
+    pub(super) crossing: ContactSlice<'a, NearPair, H>,
     /// Pairs whose first sphere is one of these.
-    pub(super) pairs: Known<'a, NearPair, H>,
+    pub(super) pairs: ContactSlice<'a, NearPair, H>,
     pub(super) walls: AtWalls<'a, H>,
-    /// The first contact found too deep among pairs and at each wall.
+    /// The first contact found too deep candidates pairs and at each wall.
     pub(super) too_deep: [TooDeep; 1 + TankWall::MOST],
 }
 
-impl<H: History> Share<'_, H> {
+impl<H: History> ContactTask<'_, H> {
     /// Adds the forces and torques of all its contacts, in the order of the list.
     ///
     /// The hot loops are compiled once per instruction set, and no more than once: this is most of
@@ -107,17 +108,17 @@ impl<H: History> Share<'_, H> {
     pub(super) fn add_contacts<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,
-        scenery: &Scenery<N, T>,
+        settings: &ContactSettings<N, T>,
         profile: &mut Option<Box<Profile>>,
     ) {
-        fearless_simd::dispatch!(level, simd => self.add_all(simd, scenery, profile));
+        fearless_simd::dispatch!(level, simd => self.add_all(simd, settings, profile));
     }
 
     #[inline(always)]
     fn add_all<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        scenery: &Scenery<N, T>,
+        settings: &ContactSettings<N, T>,
         profile: &mut Option<Box<Profile>>,
     ) {
         if self.clear {
@@ -125,10 +126,10 @@ impl<H: History> Share<'_, H> {
             self.sums.torque.fill(Vector::ZERO);
             profile::mark(profile, Part::Rest);
         }
-        self.buffers.block.set_alike::<N, T>(scenery.alike);
+        self.buffers.block.set_alike::<N, T>(settings.alike);
         // In one loop, as all that stands in it is compiled for every instruction set.
         for crossing in [true, false] {
-            self.pair_forces::<S, N, T>(simd, scenery, crossing);
+            self.pair_forces::<S, N, T>(simd, settings, crossing);
         }
         if !N::ACTS {
             return;
@@ -139,7 +140,7 @@ impl<H: History> Share<'_, H> {
                 break;
             };
             let wall = *wall;
-            self.wall_forces::<S, N, T>(simd, wall, place, scenery);
+            self.wall_forces::<S, N, T>(simd, wall, place, settings);
             profile::mark(profile, wall.part());
         }
     }
@@ -148,30 +149,30 @@ impl<H: History> Share<'_, H> {
     fn pair_forces<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
-        scenery: &Scenery<N, T>,
+        settings: &ContactSettings<N, T>,
         crossing: bool,
     ) {
-        let Scenery {
+        let ContactSettings {
             laws,
             fixed,
             alike,
             mostly_touch,
             far,
-        } = scenery;
+        } = settings;
         let partners = &self.partners;
-        let known = match crossing {
+        let slice = match crossing {
             true => &mut self.crossing,
             false => &mut self.pairs,
         };
-        debug_assert!(known.contacts.len() <= known.histories.len());
+        debug_assert!(slice.contacts.len() <= slice.histories.len());
         let Buffers {
             block,
             touching,
             counted,
         } = &mut *self.buffers;
         touching.far = *far;
-        let histories = &mut *known.histories;
-        for (first, near) in (0..).step_by(LOOK).zip(known.contacts.chunks(LOOK)) {
+        let histories = &mut *slice.histories;
+        for (first, near) in (0..).step_by(LOOK).zip(slice.contacts.chunks(LOOK)) {
             let near = partners.counted(near, counted);
             let found = match *mostly_touch {
                 true => near.len(),
@@ -182,24 +183,24 @@ impl<H: History> Share<'_, H> {
                     true => touching.first_of(&near[at..], first + at),
                     false => touching.block(at, found),
                 };
-                block.take_pairs::<S, N, T>(simd, lanes, histories, partners);
-                block.interact(laws);
+                block.gather_pairs::<S, N, T>(simd, lanes, histories, partners);
+                block.apply_laws(laws);
                 match lanes.entries {
-                    Entries::Listed(entries) => block.remember(
+                    Entries::Listed(entries) => block.store_histories(
                         simd,
                         histories,
                         #[inline(always)]
                         |k| entries[k] as usize,
                     ),
                     Entries::From(first) => {
-                        block.remember(simd, &mut histories[first..first + BLOCK], |k| k);
+                        block.store_histories(simd, &mut histories[first..first + BLOCK], |k| k);
                     }
                 }
-                block.add_to_pairs::<S, T>(simd, lanes, &mut self.sums);
+                block.scatter_to_pairs::<S, T>(simd, lanes, &mut self.sums);
                 if let Some((k, overlap)) = block.first_too_deep(lanes.count) {
                     let [i, j] = lanes.pairs[k].sides().map(|it| it + partners.first);
                     let sphere = if i < *fixed { j } else { i } as usize;
-                    // The other share says so of one that crosses.
+                    // The thread of the first sphere reports a pair that crosses.
                     if !crossing {
                         self.too_deep[0].get_or_insert((sphere, overlap));
                     }
@@ -215,7 +216,7 @@ impl<H: History> Share<'_, H> {
         simd: S,
         wall: TankWall,
         place: usize,
-        scenery: &Scenery<N, T>,
+        settings: &ContactSettings<N, T>,
     ) {
         let Some((_, near)) = &mut self.walls[place] else {
             return;
@@ -231,14 +232,16 @@ impl<H: History> Share<'_, H> {
         for (spheres, histories) in blocks {
             let lanes = whole(spheres, &mut rest);
             let lanes = partners.counted_at_wall(lanes, &mut counted);
-            block.take_spheres::<S, N, T>(simd, lanes, histories, partners);
+            block.gather_spheres::<S, N, T>(simd, lanes, histories, partners);
             match wall {
-                TankWall::Floor(wall) | TankWall::Side(wall) => block.meet(wall, &scenery.laws),
-                TankWall::Cylinder(wall) => block.meet(wall, &scenery.laws),
+                TankWall::Floor(wall) | TankWall::Side(wall) => {
+                    block.find_wall_contacts(wall, &settings.laws)
+                }
+                TankWall::Cylinder(wall) => block.find_wall_contacts(wall, &settings.laws),
             }
-            block.interact_with_wall(&scenery.laws);
-            block.remember(simd, histories, |k| k);
-            block.add_to_spheres::<S, T>(simd, lanes, spheres.len(), &mut self.sums);
+            block.apply_laws_at_wall(&settings.laws);
+            block.store_histories(simd, histories, |k| k);
+            block.scatter_to_spheres::<S, T>(simd, lanes, spheres.len(), &mut self.sums);
             if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
                 self.too_deep[1 + place].get_or_insert((spheres[k].i as usize, overlap));
             }

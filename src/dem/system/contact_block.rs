@@ -1,4 +1,4 @@
-//! Blocks of contacts: what the laws answer for many pairs at once.
+//! Blocks of contacts: the laws, for many pairs at once.
 //!
 //! For all pairs of a block, touching or not, the laws are computed in a loop that the compiler
 //! turns into vector instructions; a pair that does not touch gets a force of zero. Then the forces
@@ -8,9 +8,9 @@
 mod springs;
 mod walls;
 
-use super::couple::{Couple, Earlier, Solid};
-use super::lanes::{Solids, WallMeetings};
-use super::meeting::{Laws, Meeting, Roots};
+use super::contact_laws::{ContactForce, Laws, Roots};
+use super::contact_state::{ContactState, EarlierMotion, SphereProperties};
+use super::lanes::{PropertyColumns, WallContactColumns};
 use super::partners::Partners;
 use super::sums::Sums;
 use super::touching::{Entries, Lanes};
@@ -29,8 +29,8 @@ const NOT_DEEP: f64 = -1.0;
 pub(super) type EarlierRows = [Row; 2];
 
 /// Everything about the pairs of a block.
-pub(super) struct PairBlock<H> {
-    /// Centre of the first partner from that of the second, or from the origin at a wall (m).
+pub(super) struct ContactBlock<H> {
+    /// Centre of the first sphere from that of the second, or from the origin at a wall (m).
     offset: Columns,
     /// Velocity of the first relative to the second (m/s).
     velocity: Columns,
@@ -40,7 +40,7 @@ pub(super) struct PairBlock<H> {
     earlier_velocity: Columns,
     earlier_spin: [Columns; 2],
     /// What does not change from step to step, of both.
-    solid: [Solids; 2],
+    properties: [PropertyColumns; 2],
     /// Whether all spheres are alike.
     alike: bool,
     /// 1 / (r1 + r2) of a pair (1/m).
@@ -49,13 +49,13 @@ pub(super) struct PairBlock<H> {
     inverse_distance: Column,
     contact_radius: Column,
     effective_mass: Column,
-    /// How spheres meet a wall, now and before.
-    meeting: WallMeetings,
-    earlier_meeting: WallMeetings,
+    /// Contacts with a wall, now and before.
+    wall_contact: WallContactColumns,
+    earlier_wall_contact: WallContactColumns,
     /// Forces of springs (N).
     spring: Columns,
-    /// Of those that are loaded: forces of dashpots (N), what friction carries (N), squares of both
-    /// forces (N2) and 1 / their roots, levers in radii.
+    /// Of loaded springs: forces of dashpots (N), limits of friction (N), squares of both forces
+    /// (N2), 1 / their roots, and levers in radii.
     drag: Columns,
     limit: Column,
     squared: Column,
@@ -68,9 +68,9 @@ pub(super) struct PairBlock<H> {
     memory: PhantomData<H>,
 }
 
-impl<H: History> PairBlock<H> {
+impl<H: History> ContactBlock<H> {
     /// Whether the law has a history.
-    pub(super) const REMEMBERS: bool = size_of::<H>() > 0;
+    pub(super) const HAS_HISTORY: bool = size_of::<H>() > 0;
 
     pub(super) fn new() -> Self {
         let pair = || [Columns::ZERO, Columns::ZERO];
@@ -80,14 +80,17 @@ impl<H: History> PairBlock<H> {
             spin: pair(),
             earlier_velocity: Columns::ZERO,
             earlier_spin: pair(),
-            solid: [Solids::all(Solid::WALL), Solids::all(Solid::WALL)],
+            properties: [
+                PropertyColumns::all(SphereProperties::WALL),
+                PropertyColumns::all(SphereProperties::WALL),
+            ],
             alike: false,
             inverse_sum: [0.0; BLOCK],
             inverse_distance: [0.0; BLOCK],
             contact_radius: [0.0; BLOCK],
             effective_mass: [0.0; BLOCK],
-            meeting: WallMeetings::NONE,
-            earlier_meeting: WallMeetings::NONE,
+            wall_contact: WallContactColumns::NONE,
+            earlier_wall_contact: WallContactColumns::NONE,
             spring: Columns::ZERO,
             drag: Columns::ZERO,
             limit: [0.0; BLOCK],
@@ -101,20 +104,26 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Says what all spheres are like, if they are alike: it is then not fetched.
-    pub(super) fn set_alike<N: NormalLaw, T: TangentialLaw>(&mut self, alike: Option<Solid>) {
+    /// Sets the properties of all spheres, if they are alike: they are then not gathered.
+    pub(super) fn set_alike<N: NormalLaw, T: TangentialLaw>(
+        &mut self,
+        alike: Option<SphereProperties>,
+    ) {
         self.alike = alike.is_some();
-        if let Some(solid) = alike {
-            self.solid = [Solids::all(solid), Solids::all(solid)];
+        if let Some(properties) = alike {
+            self.properties = [
+                PropertyColumns::all(properties),
+                PropertyColumns::all(properties),
+            ];
             self.spin[1] = Columns::ZERO;
-            self.inverse_sum = [1.0 / (solid.radius + solid.radius); BLOCK];
-            self.effective_mass = [Laws::<N, T>::effective_mass([solid, solid]); BLOCK];
+            self.inverse_sum = [1.0 / (properties.radius + properties.radius); BLOCK];
+            self.effective_mass = [Laws::<N, T>::effective_mass([properties, properties]); BLOCK];
         }
     }
 
-    /// Fetches pairs, with what they remember.
+    /// Gathers positions, velocities, spins and histories of pairs.
     #[inline(always)]
-    pub(super) fn take_pairs<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
+    pub(super) fn gather_pairs<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
         pairs: &Lanes<'_>,
@@ -129,7 +138,7 @@ impl<H: History> PairBlock<H> {
         } else {
             position
         };
-        let known = self.take_offset(simd, pairs);
+        let known = self.gather_offset(simd, pairs);
         let [first_spin, second_spin] = &mut self.spin;
         for at in (0..BLOCK).step_by(ROWS) {
             if !known {
@@ -172,9 +181,9 @@ impl<H: History> PairBlock<H> {
             }
         }
         if !self.alike {
-            self.solid[0].take::<N, T>(partners, |k| pairs.pairs[k].i());
-            self.solid[1].take::<N, T>(partners, |k| pairs.pairs[k].j());
-            let [one, other] = &self.solid;
+            self.properties[0].take::<N, T>(partners, |k| pairs.pairs[k].i());
+            self.properties[1].take::<N, T>(partners, |k| pairs.pairs[k].j());
+            let [one, other] = &self.properties;
             for (k, inverse) in self.inverse_sum.iter_mut().enumerate() {
                 *inverse = 1.0 / (one.radius[k] + other.radius[k]);
             }
@@ -183,21 +192,21 @@ impl<H: History> PairBlock<H> {
             }
         }
         match pairs.entries {
-            Entries::Listed(entries) => self.take_springs(
+            Entries::Listed(entries) => self.gather_springs(
                 simd,
                 #[inline(always)]
                 |k| histories[entries[k] as usize],
             ),
             Entries::From(first) => {
                 let histories = &histories[first..first + BLOCK];
-                self.take_springs(
+                self.gather_springs(
                     simd,
                     #[inline(always)]
                     |k| histories[k],
                 );
             }
         }
-        if Self::REMEMBERS && !partners.earlier.is_empty() {
+        if Self::HAS_HISTORY && !partners.earlier.is_empty() {
             let earlier = partners.earlier;
             self.earlier_velocity.fill::<S>(
                 #[inline(always)]
@@ -219,9 +228,9 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Takes offsets, if they are known. Whether they are.
+    /// Copies the offsets, if they are known. Returns whether they are.
     #[inline(always)]
-    fn take_offset<S: Simd>(&mut self, simd: S, pairs: &Lanes<'_>) -> bool {
+    fn gather_offset<S: Simd>(&mut self, simd: S, pairs: &Lanes<'_>) -> bool {
         let Some(offset) = pairs.offset else {
             return false;
         };
@@ -234,21 +243,21 @@ impl<H: History> PairBlock<H> {
         true
     }
 
-    /// Computes the laws for every pair.
+    /// Applies the laws to every pair.
     #[inline(always)]
-    pub(super) fn interact<N: NormalLaw, T: TangentialLaw<History = H>>(
+    pub(super) fn apply_laws<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         laws: &Laws<N, T>,
     ) {
         // Two loops, as a branch in one would keep it from being turned into vector instructions.
-        match Self::REMEMBERS && laws.loading.age > 0.0 {
-            true => self.interact_as::<N, T, true>(laws),
-            false => self.interact_as::<N, T, false>(laws),
+        match Self::HAS_HISTORY && laws.loading.age > 0.0 {
+            true => self.apply_laws_as::<N, T, true>(laws),
+            false => self.apply_laws_as::<N, T, false>(laws),
         }
     }
 
     #[inline(always)]
-    fn interact_as<N: NormalLaw, T: TangentialLaw<History = H>, const EARLIER: bool>(
+    fn apply_laws_as<N: NormalLaw, T: TangentialLaw<History = H>, const EARLIER: bool>(
         &mut self,
         laws: &Laws<N, T>,
     ) {
@@ -258,47 +267,51 @@ impl<H: History> PairBlock<H> {
         }
         if N::WIDENS || T::WIDENS {
             for k in 0..BLOCK {
-                let couple = self.couple::<T, false>(k, self.solid[1].at(k));
-                self.contact_radius[k] = laws.contact_radius(&couple, self.inverse_distance[k]);
+                let state = self.contact_state::<T, false>(k, self.properties[1].at(k));
+                self.contact_radius[k] = laws.contact_radius(&state, self.inverse_distance[k]);
             }
         }
         self.turn_springs(Self::normal);
         for k in 0..BLOCK {
-            let couple = self.couple::<T, EARLIER>(k, self.solid[1].at(k));
+            let state = self.contact_state::<T, EARLIER>(k, self.properties[1].at(k));
             let (roots, spring) = (self.roots(k), self.spring(k));
-            match Self::REMEMBERS {
-                true => self.hold::<T>(k, &laws.pressed_between(&couple, roots, spring)),
-                false => self.keep::<T>(k, &laws.between_with(&couple, roots, spring)),
+            match Self::HAS_HISTORY {
+                true => self.store_loaded::<T>(k, &laws.load_pair(&state, roots, spring)),
+                false => self.store_force::<T>(k, &laws.pair_force_with(&state, roots, spring)),
             }
         }
         match self.alike {
-            true => self.rub::<T, true>(Self::normal),
-            false => self.rub::<T, false>(Self::normal),
+            true => self.add_friction_to_all::<T, true>(Self::normal),
+            false => self.add_friction_to_all::<T, false>(Self::normal),
         }
     }
 
-    /// The partners of a contact, the second of them like that, with what they did before if
-    /// springs are loaded by that.
+    /// The two at a contact, of which the second has the properties `other`, with their earlier
+    /// motion if springs are loaded by that.
     #[inline(always)]
-    fn couple<T: TangentialLaw, const EARLIER: bool>(&self, k: usize, other: Solid) -> Couple {
-        let mut couple = Couple {
+    fn contact_state<T: TangentialLaw, const EARLIER: bool>(
+        &self,
+        k: usize,
+        other: SphereProperties,
+    ) -> ContactState {
+        let mut state = ContactState {
             offset: self.offset.vector(k),
             velocity: self.velocity.vector(k),
             spin: [Vector::ZERO; 2],
-            solid: [self.solid[0].at(k), other],
+            properties: [self.properties[0].at(k), other],
             inverse_sum: self.inverse_sum[k],
             earlier: None,
         };
         if T::ROTATES {
-            couple.spin = [0, 1].map(|side| self.spin[side].vector(k));
+            state.spin = [0, 1].map(|side| self.spin[side].vector(k));
         }
         if EARLIER {
-            couple.earlier = Some(Earlier {
+            state.earlier = Some(EarlierMotion {
                 velocity: self.earlier_velocity.vector(k),
                 spin: [0, 1].map(|side| self.earlier_spin[side].vector(k)),
             });
         }
-        couple
+        state
     }
 
     /// Unit normal of a pair.
@@ -316,19 +329,19 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Keeps what the laws answered.
+    /// Stores force and torques of a contact.
     #[inline(always)]
-    fn keep<T: TangentialLaw>(&mut self, k: usize, meeting: &Meeting) {
-        let touches = meeting.touches;
-        self.too_deep[k] = if meeting.too_deep {
-            meeting.overlap
+    fn store_force<T: TangentialLaw>(&mut self, k: usize, contact: &ContactForce) {
+        let touches = contact.touches;
+        self.too_deep[k] = if contact.too_deep {
+            contact.overlap
         } else {
             NOT_DEEP
         };
-        store(&mut self.force, k, touches, meeting.force);
+        store(&mut self.force, k, touches, contact.force);
         if T::ROTATES {
-            store(&mut self.torque[0], k, touches, meeting.torque[0]);
-            store(&mut self.torque[1], k, touches, meeting.torque[1]);
+            store(&mut self.torque[0], k, touches, contact.torque[0]);
+            store(&mut self.torque[1], k, touches, contact.torque[1]);
         }
     }
 
@@ -344,10 +357,9 @@ impl<H: History> PairBlock<H> {
             .map(|k| (k, self.too_deep[k]))
     }
 
-    /// Adds forces and torques to those partners of so many pairs whose sums these are, one after
-    /// the other.
+    /// Adds forces and torques to the sums of both spheres of each pair, one after the other.
     #[inline(always)]
-    pub(super) fn add_to_pairs<S: Simd, T: TangentialLaw<History = H>>(
+    pub(super) fn scatter_to_pairs<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
         pairs: &Lanes<'_>,
@@ -356,13 +368,13 @@ impl<H: History> PairBlock<H> {
         self.clear_from(pairs.count);
         // Both get the same torque where they are alike, which is then turned into rows once.
         match self.alike {
-            true => self.add_up::<S, T, true>(simd, pairs, sums.here::<T>()),
-            false => self.add_up::<S, T, false>(simd, pairs, sums.here::<T>()),
+            true => self.scatter::<S, T, true>(simd, pairs, sums.here::<T>()),
+            false => self.scatter::<S, T, false>(simd, pairs, sums.here::<T>()),
         }
     }
 
     #[inline(always)]
-    fn add_up<S: Simd, T: TangentialLaw<History = H>, const ALIKE: bool>(
+    fn scatter<S: Simd, T: TangentialLaw<History = H>, const ALIKE: bool>(
         &self,
         simd: S,
         pairs: &Lanes<'_>,
@@ -385,7 +397,7 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Makes nothing act in the lanes from there on.
+    /// Sets forces and torques to zero in the lanes from there on.
     #[inline(always)]
     fn clear_from(&mut self, contacts: usize) {
         if contacts < BLOCK {

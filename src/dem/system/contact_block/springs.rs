@@ -1,18 +1,18 @@
-//! What contacts of a block remember, and what friction carries of it.
+//! Springs of a block of contacts, and the limit of friction.
 
-use super::{NOT_DEEP, PairBlock, if_touching, store};
+use super::{ContactBlock, NOT_DEEP, if_touching, store};
 use crate::dem::block::{BLOCK, ROWS};
 use crate::dem::friction::{History, LoadedSpring, Spring, TangentialLaw, arm};
 use crate::dem::math::inverse_square_root;
-use crate::dem::system::meeting::Pressed;
+use crate::dem::system::contact_laws::LoadedContact;
 use crate::dem::vector::Vector;
 use fearless_simd::Simd;
 
-impl<H: History> PairBlock<H> {
-    /// Fetches springs.
+impl<H: History> ContactBlock<H> {
+    /// Gathers springs.
     #[inline(always)]
-    pub(super) fn take_springs<S: Simd>(&mut self, simd: S, history: impl Fn(usize) -> H) {
-        if Self::REMEMBERS {
+    pub(super) fn gather_springs<S: Simd>(&mut self, simd: S, history: impl Fn(usize) -> H) {
+        if Self::HAS_HISTORY {
             self.spring.fill::<S>(
                 #[inline(always)]
                 |k| history(k).spring().force.simd(simd),
@@ -20,14 +20,14 @@ impl<H: History> PairBlock<H> {
         }
     }
 
-    /// Adds what friction carries of the springs to the forces; with `ONE`, the first torque alone,
-    /// where both are the same or nobody asks for the other.
+    /// Adds friction to the forces: the springs, up to the limit of friction; with `FIRST_ONLY`, the first torque alone,
+    /// where both are the same or the other is not needed.
     #[inline(always)]
-    pub(super) fn rub<T: TangentialLaw<History = H>, const ONE: bool>(
+    pub(super) fn add_friction_to_all<T: TangentialLaw<History = H>, const FIRST_ONLY: bool>(
         &mut self,
         normal: impl Fn(&Self, usize) -> Vector,
     ) {
-        if !Self::REMEMBERS {
+        if !Self::HAS_HISTORY {
             return;
         }
         for at in (0..BLOCK).step_by(ROWS) {
@@ -42,12 +42,12 @@ impl<H: History> PairBlock<H> {
                     let loaded = self.loaded::<T>(k);
                     let (force, spring) = loaded.capped(self.squared[k], self.inverse_root[k]);
                     self.spring.set(k, spring.force);
-                    self.add_friction::<ONE>(k, force, normal(self, k));
+                    self.add_friction::<FIRST_ONLY>(k, force, normal(self, k));
                 }
             } else {
                 for k in eight {
                     let force = self.loaded::<T>(k).force();
-                    self.add_friction::<ONE>(k, force, normal(self, k));
+                    self.add_friction::<FIRST_ONLY>(k, force, normal(self, k));
                 }
             }
         }
@@ -66,40 +66,40 @@ impl<H: History> PairBlock<H> {
     }
 
     #[inline(always)]
-    fn add_friction<const ONE: bool>(&mut self, k: usize, force: Vector, normal: Vector) {
+    fn add_friction<const FIRST_ONLY: bool>(&mut self, k: usize, force: Vector, normal: Vector) {
         let arm = arm(force, normal);
         self.force.set(k, self.force.vector(k) + force);
-        let [one, other] = [0, 1].map(|side| self.solid[side].radius[k] * self.lever[k]);
+        let [one, other] = [0, 1].map(|side| self.properties[side].radius[k] * self.lever[k]);
         self.torque[0].set(k, arm * one);
-        if !ONE {
+        if !FIRST_ONLY {
             self.torque[1].set(k, arm * other);
         }
     }
 
-    /// Keeps what the laws answered of a contact with a spring so far.
+    /// Stores a contact whose spring is loaded, before the limit of friction applies.
     #[inline(always)]
-    pub(super) fn hold<T: TangentialLaw>(&mut self, k: usize, pressed: &Pressed) {
-        let touches = pressed.touches;
-        self.too_deep[k] = if pressed.too_deep {
-            pressed.overlap
+    pub(super) fn store_loaded<T: TangentialLaw>(&mut self, k: usize, loaded: &LoadedContact) {
+        let touches = loaded.touches;
+        self.too_deep[k] = if loaded.too_deep {
+            loaded.overlap
         } else {
             NOT_DEEP
         };
-        store(&mut self.force, k, touches, pressed.force);
-        store(&mut self.spring, k, touches, pressed.spring.elastic);
+        store(&mut self.force, k, touches, loaded.force);
+        store(&mut self.spring, k, touches, loaded.spring.elastic);
         if T::DRAGS {
-            store(&mut self.drag, k, touches, pressed.spring.drag);
+            store(&mut self.drag, k, touches, loaded.spring.drag);
         }
-        self.limit[k] = pressed.spring.limit;
-        self.squared[k] = if_touching(touches, pressed.spring.squared());
-        self.lever[k] = pressed.lever;
+        self.limit[k] = loaded.spring.limit;
+        self.squared[k] = if_touching(touches, loaded.spring.squared());
+        self.lever[k] = loaded.lever;
     }
 
     /// Turns springs into the planes across the normals: in a loop of its own, as the roots of
     /// pairs are found.
     #[inline(always)]
     pub(super) fn turn_springs(&mut self, normal: impl Fn(&Self, usize) -> Vector) {
-        if Self::REMEMBERS {
+        if Self::HAS_HISTORY {
             for k in 0..BLOCK {
                 let force = self.spring(k).turned(normal(self, k)).force;
                 self.spring.set(k, force);
@@ -109,22 +109,22 @@ impl<H: History> PairBlock<H> {
 
     #[inline(always)]
     pub(super) fn spring(&self, k: usize) -> Spring {
-        let force = match Self::REMEMBERS {
+        let force = match Self::HAS_HISTORY {
             true => self.spring.vector(k),
             false => Vector::ZERO,
         };
         Spring { force }
     }
 
-    /// Writes down what the contacts remember, each at its entry.
+    /// Stores the histories of the contacts, each at its entry.
     #[inline(always)]
-    pub(in crate::dem::system) fn remember<S: Simd>(
+    pub(in crate::dem::system) fn store_histories<S: Simd>(
         &self,
         simd: S,
         histories: &mut [H],
         entry: impl Fn(usize) -> usize,
     ) {
-        if !Self::REMEMBERS {
+        if !Self::HAS_HISTORY {
             return;
         }
         for at in (0..BLOCK).step_by(ROWS) {

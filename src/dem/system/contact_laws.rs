@@ -1,8 +1,8 @@
-//! What the laws answer at a contact, the same for pairs and walls.
+//! The force and torques at one contact, of two spheres or of a sphere and a wall.
 //!
 //! Free of branches, as it stands in loops over blocks of contacts, which touch or not.
 
-use super::couple::{Couple, Solid};
+use super::contact_state::{ContactState, SphereProperties};
 use crate::dem::contact::{NormalLaw, contact_radius};
 use crate::dem::friction::{
     LoadedSpring, Spring, TangentialLaw, Touch, Traction, sliding_velocity,
@@ -43,29 +43,29 @@ pub(super) struct Laws<N, T> {
     pub(super) overlap_limit: f64,
 }
 
-/// A contact and what its laws answered.
-pub(super) struct Meeting {
-    /// Whether the partners touch. If they do not, nothing else means anything.
+/// A contact, its force and its torques.
+pub(super) struct ContactForce {
+    /// Whether the two touch. If not, all else is meaningless.
     pub(super) touches: bool,
     /// Whether the overlap is beyond the limit.
     pub(super) too_deep: bool,
-    /// Unit normal, towards the partner that the force acts on.
+    /// Unit normal, towards the sphere that the force acts on.
     pub(super) normal: Vector,
     /// Velocity of its centre relative to the other (m/s).
     pub(super) velocity: Vector,
     /// Overlap (m).
     pub(super) overlap: f64,
-    /// Contact radius (m), if a law asks for it.
+    /// Contact radius (m), if a law needs it.
     pub(super) contact_radius: f64,
     /// Force (N).
     pub(super) force: Vector,
-    /// Torques on both partners (N m), zero without rotation.
+    /// Torques on both (N m), zero without rotation.
     pub(super) torque: [Vector; 2],
 }
 
-/// The answer to a contact with a spring before it is asked how much of that friction carries.
-pub(super) struct Pressed {
-    /// As those of a [`Meeting`].
+/// A contact with its tangential spring loaded, before the limit of friction applies.
+pub(super) struct LoadedContact {
+    /// As those of a [`ContactForce`].
     pub(super) touches: bool,
     pub(super) too_deep: bool,
     pub(super) overlap: f64,
@@ -83,14 +83,14 @@ struct NormalForce {
     total: Vector,
 }
 
-/// Where and how partners meet, whatever the second one is.
-struct Encounter {
+/// Where the two touch, and what of it the laws need. The second may be a wall.
+struct ContactGeometry {
     touches: bool,
     too_deep: bool,
     normal: Vector,
     overlap: f64,
     contact_radius: f64,
-    /// Zero where no law asks for it.
+    /// Zero where no law needs it.
     effective_mass: f64,
     /// Of friction alone, in radii.
     lever: f64,
@@ -107,48 +107,48 @@ struct Encounter {
 pub(super) struct Roots {
     /// 1 / the distance of the centres (1/m).
     pub(super) inverse_distance: f64,
-    /// The contact radius (m), if a law asks for it.
+    /// The contact radius (m), if a law needs it.
     pub(super) contact_radius: f64,
-    /// The effective mass (kg), if a law asks for it.
+    /// The effective mass (kg), if a law needs it.
     pub(super) effective_mass: f64,
 }
 
 impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
-    const REMEMBERS: bool = size_of::<T::History>() > 0;
+    const HAS_HISTORY: bool = size_of::<T::History>() > 0;
     const WIDENS: bool = N::WIDENS | T::WIDENS;
-    /// Whether a law asks for the effective mass.
+    /// Whether a law needs the effective mass.
     pub(super) const NEEDS_EFFECTIVE_MASS: bool =
         N::NEEDS_EFFECTIVE_MASS || T::NEEDS_EFFECTIVE_MASS;
 
     /// Two spheres.
     #[inline(always)]
-    pub(super) fn between(&self, couple: &Couple, spring: Spring) -> Meeting {
-        let inverse_distance = inverse_square_root(couple.offset.norm_squared());
+    pub(super) fn pair_force(&self, state: &ContactState, spring: Spring) -> ContactForce {
+        let inverse_distance = inverse_square_root(state.offset.norm_squared());
         let roots = Roots {
             inverse_distance,
-            contact_radius: self.contact_radius(couple, inverse_distance),
-            effective_mass: Self::effective_mass(couple.solid),
+            contact_radius: self.contact_radius(state, inverse_distance),
+            effective_mass: Self::effective_mass(state.properties),
         };
-        let normal = couple.offset * inverse_distance;
-        self.between_with(couple, roots, Self::turned(spring, normal))
+        let normal = state.offset * inverse_distance;
+        self.pair_force_with(state, roots, Self::turned(spring, normal))
     }
 
     /// The contact radius of two spheres (m).
     #[inline(always)]
-    pub(super) fn contact_radius(&self, couple: &Couple, inverse_distance: f64) -> f64 {
+    pub(super) fn contact_radius(&self, state: &ContactState, inverse_distance: f64) -> f64 {
         if !Self::WIDENS {
             return 0.0;
         }
-        let [one, other] = couple.solid;
-        let distance = couple.offset.norm_squared() * inverse_distance;
+        let [one, other] = state.properties;
+        let distance = state.offset.norm_squared() * inverse_distance;
         let overlap = one.radius + other.radius - distance;
-        contact_radius(overlap, couple.effective_radius())
+        contact_radius(overlap, state.effective_radius())
     }
 
     /// A spring across a normal, if a law has springs.
     #[inline(always)]
     pub(super) fn turned(spring: Spring, normal: Vector) -> Spring {
-        match Self::REMEMBERS {
+        match Self::HAS_HISTORY {
             true => spring.turned(normal),
             false => spring,
         }
@@ -156,21 +156,31 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
 
     /// Two spheres whose roots are known, with a spring across their normal.
     #[inline(always)]
-    pub(super) fn between_with(&self, couple: &Couple, roots: Roots, spring: Spring) -> Meeting {
-        self.answer(couple, &self.encounter(couple, roots), spring)
+    pub(super) fn pair_force_with(
+        &self,
+        state: &ContactState,
+        roots: Roots,
+        spring: Spring,
+    ) -> ContactForce {
+        self.force(state, &self.geometry(state, roots), spring)
     }
 
-    /// The same, until it is asked how much friction carries.
+    /// The same up to the limit of friction, which is applied later.
     #[inline(always)]
-    pub(super) fn pressed_between(&self, couple: &Couple, roots: Roots, spring: Spring) -> Pressed {
-        self.press(couple, &self.encounter(couple, roots), spring)
+    pub(super) fn load_pair(
+        &self,
+        state: &ContactState,
+        roots: Roots,
+        spring: Spring,
+    ) -> LoadedContact {
+        self.load(state, &self.geometry(state, roots), spring)
     }
 
     #[inline(always)]
-    fn encounter(&self, couple: &Couple, roots: Roots) -> Encounter {
-        let [one, other] = couple.solid;
+    fn geometry(&self, state: &ContactState, roots: Roots) -> ContactGeometry {
+        let [one, other] = state.properties;
         let sum = one.radius + other.radius;
-        let distance_squared = couple.offset.norm_squared();
+        let distance_squared = state.offset.norm_squared();
         let touches = distance_squared < sum * sum;
         let distance = distance_squared * roots.inverse_distance;
         let overlap = sum - distance;
@@ -179,11 +189,11 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         let concentric = distance == 0.0;
         // Both centres turn about the point where the surfaces meet, so that the pair keeps its
         // angular momentum.
-        let lever = distance * couple.inverse_sum;
-        let mut encounter = Encounter {
+        let lever = distance * state.inverse_sum;
+        let mut geometry = ContactGeometry {
             touches,
             too_deep: touches & (deep | concentric),
-            normal: couple.offset * roots.inverse_distance,
+            normal: state.offset * roots.inverse_distance,
             overlap,
             contact_radius: roots.contact_radius,
             effective_mass: roots.effective_mass,
@@ -191,29 +201,34 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             lesser_mass: lesser(one.mass, other.mass),
             loading: None,
         };
-        if let (true, Some(earlier)) = (Self::REMEMBERS, &couple.earlier) {
-            let offset = couple.offset - earlier.velocity * self.loading.age;
+        if let (true, Some(earlier)) = (Self::HAS_HISTORY, &state.earlier) {
+            let offset = state.offset - earlier.velocity * self.loading.age;
             let distance_squared = offset.norm_squared();
             let inverse_distance = inverse_square_root(distance_squared);
             let normal = offset * inverse_distance;
-            let lever = couple.solid.map(|it| it.radius * lever);
+            let lever = state.properties.map(|it| it.radius * lever);
             let sliding = sliding_velocity(normal, earlier.velocity, earlier.spin, lever);
             let overlap = sum - distance_squared * inverse_distance;
-            encounter.loading = Some((sliding, contact_radius(overlap, couple.effective_radius())));
+            geometry.loading = Some((sliding, contact_radius(overlap, state.effective_radius())));
         }
-        encounter
+        geometry
     }
 
     /// A sphere and a wall.
-    pub(super) fn at_wall<W: Wall>(&self, wall: W, couple: &Couple, spring: Spring) -> Meeting {
-        let radius = couple.solid[0].radius;
-        let earlier = couple.earlier.as_ref();
+    pub(super) fn wall_force<W: Wall>(
+        &self,
+        wall: W,
+        state: &ContactState,
+        spring: Spring,
+    ) -> ContactForce {
+        let radius = state.properties[0].radius;
+        let earlier = state.earlier.as_ref();
         let earlier = earlier.map(|earlier| {
-            wall.contact(self.earlier_place(couple.offset, earlier.velocity), radius)
+            wall.contact(self.earlier_place(state.offset, earlier.velocity), radius)
         });
-        let contact = wall.contact(couple.offset, radius);
+        let contact = wall.contact(state.offset, radius);
         let spring = Self::turned(spring, contact.normal);
-        self.at_contact(couple, contact, earlier.as_ref(), spring)
+        self.wall_force_at(state, contact, earlier.as_ref(), spring)
     }
 
     /// Where a sphere was that had a velocity (m/s) before.
@@ -222,47 +237,47 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         place - velocity * self.loading.age
     }
 
-    /// A sphere and a wall that meet like this now, and like that before, with a spring across the
+    /// The force of a wall, of its contact now and the one before, with a spring across the
     /// normal.
     #[inline(always)]
-    pub(super) fn at_contact(
+    pub(super) fn wall_force_at(
         &self,
-        couple: &Couple,
+        state: &ContactState,
         contact: WallContact,
         earlier_contact: Option<&WallContact>,
         spring: Spring,
-    ) -> Meeting {
-        let encounter = self.encounter_at_wall(couple, contact, earlier_contact);
-        self.answer(couple, &encounter, spring)
+    ) -> ContactForce {
+        let geometry = self.geometry_at_wall(state, contact, earlier_contact);
+        self.force(state, &geometry, spring)
     }
 
-    /// The same, until it is asked how much friction carries.
+    /// The same up to the limit of friction, which is applied later.
     #[inline(always)]
-    pub(super) fn pressed_at_contact(
+    pub(super) fn load_at_wall(
         &self,
-        couple: &Couple,
+        state: &ContactState,
         contact: WallContact,
         earlier_contact: Option<&WallContact>,
         spring: Spring,
-    ) -> Pressed {
-        let encounter = self.encounter_at_wall(couple, contact, earlier_contact);
-        self.press(couple, &encounter, spring)
+    ) -> LoadedContact {
+        let geometry = self.geometry_at_wall(state, contact, earlier_contact);
+        self.load(state, &geometry, spring)
     }
 
     #[inline(always)]
-    fn encounter_at_wall(
+    fn geometry_at_wall(
         &self,
-        couple: &Couple,
+        state: &ContactState,
         contact: WallContact,
         earlier_contact: Option<&WallContact>,
-    ) -> Encounter {
-        let Solid { radius, mass, .. } = couple.solid[0];
+    ) -> ContactGeometry {
+        let SphereProperties { radius, mass, .. } = state.properties[0];
         let WallContact {
             touches,
             overlap,
             normal,
         } = contact;
-        let mut encounter = Encounter {
+        let mut geometry = ContactGeometry {
             touches,
             too_deep: touches & (overlap > self.overlap_limit * radius),
             normal,
@@ -271,24 +286,24 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
                 true => contact_radius(overlap, radius),
                 false => 0.0,
             },
-            effective_mass: Self::effective_mass(couple.solid),
+            effective_mass: Self::effective_mass(state.properties),
             lever: 1.0,
             lesser_mass: mass,
             loading: None,
         };
         if let (true, Some(earlier), Some(contact)) =
-            (Self::REMEMBERS, &couple.earlier, earlier_contact)
+            (Self::HAS_HISTORY, &state.earlier, earlier_contact)
         {
             let lever = [radius, 0.0];
             let sliding = sliding_velocity(contact.normal, earlier.velocity, earlier.spin, lever);
-            encounter.loading = Some((sliding, contact_radius(contact.overlap, radius)));
+            geometry.loading = Some((sliding, contact_radius(contact.overlap, radius)));
         }
-        encounter
+        geometry
     }
 
-    /// 1 / (1 / m1 + 1 / m2) (kg), where a law asks for it.
+    /// 1 / (1 / m1 + 1 / m2) (kg), where a law needs it.
     #[inline(always)]
-    pub(super) fn effective_mass([one, other]: [Solid; 2]) -> f64 {
+    pub(super) fn effective_mass([one, other]: [SphereProperties; 2]) -> f64 {
         match Self::NEEDS_EFFECTIVE_MASS {
             true => 1.0 / (one.inverse_mass + other.inverse_mass),
             false => 0.0,
@@ -296,11 +311,16 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
     }
 
     #[inline(always)]
-    fn answer(&self, couple: &Couple, encounter: &Encounter, mut spring: Spring) -> Meeting {
-        let mut force = self.normal_force(couple, encounter);
+    fn force(
+        &self,
+        state: &ContactState,
+        geometry: &ContactGeometry,
+        mut spring: Spring,
+    ) -> ContactForce {
+        let mut force = self.normal_force(state, geometry);
         let mut torque = [Vector::ZERO; 2];
         if T::ROTATES {
-            let touch = self.touch(couple, encounter, &force);
+            let touch = self.touch(state, geometry, &force);
             let Traction {
                 force: sideways,
                 torque: torques,
@@ -308,19 +328,19 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             force.total += sideways;
             torque = torques;
         }
-        let Encounter {
+        let ContactGeometry {
             touches,
             too_deep,
             normal,
             overlap,
             contact_radius,
             ..
-        } = *encounter;
-        Meeting {
+        } = *geometry;
+        ContactForce {
             touches,
             too_deep,
             normal,
-            velocity: couple.velocity,
+            velocity: state.velocity,
             overlap,
             contact_radius,
             force: force.total,
@@ -328,31 +348,36 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         }
     }
 
-    /// Answers a contact with a spring, until it is asked how much of that friction carries.
+    /// Normal force and loaded spring of a contact, before the limit of friction applies.
     #[inline(always)]
-    fn press(&self, couple: &Couple, encounter: &Encounter, spring: Spring) -> Pressed {
-        let force = self.normal_force(couple, encounter);
-        let touch = self.touch(couple, encounter, &force);
-        Pressed {
-            touches: encounter.touches,
-            too_deep: encounter.too_deep,
-            overlap: encounter.overlap,
+    fn load(
+        &self,
+        state: &ContactState,
+        geometry: &ContactGeometry,
+        spring: Spring,
+    ) -> LoadedContact {
+        let force = self.normal_force(state, geometry);
+        let touch = self.touch(state, geometry, &force);
+        LoadedContact {
+            touches: geometry.touches,
+            too_deep: geometry.too_deep,
+            overlap: geometry.overlap,
             force: force.total,
-            lever: encounter.lever,
+            lever: geometry.lever,
             spring: self.tangential.load(&touch, spring),
         }
     }
 
     #[inline(always)]
-    fn normal_force(&self, couple: &Couple, encounter: &Encounter) -> NormalForce {
-        let Encounter {
+    fn normal_force(&self, state: &ContactState, geometry: &ContactGeometry) -> NormalForce {
+        let ContactGeometry {
             normal,
             overlap,
             contact_radius,
             effective_mass,
             ..
-        } = *encounter;
-        let velocity = couple.velocity;
+        } = *geometry;
+        let velocity = state.velocity;
         let approach = -velocity.dot(normal);
         let along = (self.normal).force(overlap, approach, contact_radius, effective_mass);
         let mut total = normal * along;
@@ -364,9 +389,14 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
 
     /// The contact as friction sees it.
     #[inline(always)]
-    fn touch(&self, couple: &Couple, encounter: &Encounter, force: &NormalForce) -> Touch {
-        let Couple { velocity, spin, .. } = *couple;
-        let Encounter {
+    fn touch(
+        &self,
+        state: &ContactState,
+        geometry: &ContactGeometry,
+        force: &NormalForce,
+    ) -> Touch {
+        let ContactState { velocity, spin, .. } = *state;
+        let ContactGeometry {
             normal,
             contact_radius,
             effective_mass,
@@ -374,9 +404,9 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             lesser_mass,
             loading,
             ..
-        } = *encounter;
+        } = *geometry;
         // A wall has no radius.
-        let lever = couple.solid.map(|it| it.radius * lever);
+        let lever = state.properties.map(|it| it.radius * lever);
         let (loading_velocity, loading_radius) = match loading {
             Some(loading) => loading,
             None => (
@@ -389,11 +419,11 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             velocity,
             spin,
             lever,
-            inertia: [couple.solid[0].inertia, couple.solid[1].inertia],
+            inertia: [state.properties[0].inertia, state.properties[1].inertia],
             lesser_mass,
             effective_mass,
             contact_radius,
-            // Friction feels none where partners attract each other.
+            // An attractive force carries no friction.
             normal_force: match N::ATTRACTS {
                 true => or_zero(force.along),
                 false => force.along,

@@ -1,38 +1,37 @@
-//! Who meets at a contact.
+//! Position, motion and properties of the two at a contact.
 
 use crate::dem::particles::Particles;
 use crate::dem::vector::Vector;
 
-/// Two partners of a contact, or a sphere and the wall beside it. The first is the one that forces
-/// act on.
+/// Two spheres at a contact, or a sphere and a wall. Forces act on the first.
 #[derive(Clone, Copy)]
-pub(super) struct Couple {
+pub(super) struct ContactState {
     /// Centre of the first from that of the second, or from the origin (m).
     pub(super) offset: Vector,
     /// Velocity of the first relative to the second (m/s).
     pub(super) velocity: Vector,
     /// Spins (rad/s).
     pub(super) spin: [Vector; 2],
-    /// What does not change from step to step.
-    pub(super) solid: [Solid; 2],
+    /// Radius, mass and inertia of both.
+    pub(super) properties: [SphereProperties; 2],
     /// 1 / (r1 + r2) (1/m).
     pub(super) inverse_sum: f64,
-    /// What they did before, by which springs are loaded, if not by the present.
-    pub(super) earlier: Option<Earlier>,
+    /// Their earlier motion, if springs are loaded by that and not by the present one.
+    pub(super) earlier: Option<EarlierMotion>,
 }
 
-impl Couple {
+impl ContactState {
     /// r1 r2 / (r1 + r2) (m).
     #[inline(always)]
     pub(super) fn effective_radius(&self) -> f64 {
-        let [one, other] = self.solid;
+        let [one, other] = self.properties;
         one.radius * other.radius * self.inverse_sum
     }
 }
 
-/// What of a sphere does not change.
+/// What of a sphere does not change with time.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Solid {
+pub(super) struct SphereProperties {
     /// Radius (m).
     pub(super) radius: f64,
     /// Mass (kg).
@@ -43,8 +42,8 @@ pub(super) struct Solid {
     pub(super) inertia: f64,
 }
 
-impl Solid {
-    /// A wall, which friction takes for a partner at rest.
+impl SphereProperties {
+    /// A wall, which friction treats as a body at rest.
     pub(super) const WALL: Self = Self {
         radius: 0.0,
         mass: 0.0,
@@ -52,8 +51,8 @@ impl Solid {
         inertia: 0.0,
     };
 
-    /// What all spheres are like, if they are alike; `mobile` says whether it matters that some are
-    /// fixed.
+    /// The properties of all spheres, if they are alike; `mobile` says whether it matters that some
+    /// are fixed.
     pub(super) fn of_all(particles: &Particles, mobile: bool) -> Option<Self> {
         let Particles {
             radius,
@@ -76,7 +75,7 @@ impl Solid {
 
 /// Relative velocity (m/s) and spins (rad/s) before.
 #[derive(Clone, Copy)]
-pub(super) struct Earlier {
+pub(super) struct EarlierMotion {
     pub(super) velocity: Vector,
     pub(super) spin: [Vector; 2],
 }
