@@ -23,9 +23,8 @@ for kind in "scene", "sweep", "stability":
 
 def complaints(path):
     content = tomllib.loads(path.read_text())
-    is_study = path.parent.name == "stability" or path.name.startswith("stability-")
     is_sweep = bool(content.keys() & {"axis", "scene", "seeds", "sieves", "plot"})
-    kind = "stability" if is_study else "sweep" if is_sweep else "scene"
+    kind = "stability" if "study" in content else "sweep" if is_sweep else "scene"
     return [error.message for error in validators[kind].iter_errors(content)]
 
 

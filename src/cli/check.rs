@@ -9,7 +9,8 @@ use super::time_step::{self, Tightest, tightest_limits};
 use super::{classify, format, job, kind};
 use phase::cost::{Forecast, Leaves, forecast};
 use phase::dem::timestep::{Limit, Standing};
-use phase::scene::{Contact, Friction, Scene, Start, Tank};
+use phase::scene::{Contact, FileKind, Friction, Scene, Start, Tank};
+use phase::study::AnyFile;
 use phase::sweep::{Axis, Job, Sweep, describe, work};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -43,12 +44,13 @@ pub(crate) struct Arguments {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
-    if kind::is_study(&arguments.file) {
-        return study::main(arguments, workers, console);
-    }
-    let (sweep, is_sweep) = kind::load_scene_or_sweep(&arguments.file)?;
+    let (sweep, kind) = match AnyFile::load(&arguments.file).map_err(Failure::refused)? {
+        AnyFile::Scene(scene) => (kind::sweep_of_one(*scene), FileKind::Scene),
+        AnyFile::Sweep(sweep) => (*sweep, FileKind::Sweep),
+        AnyFile::Study(study) => return study::main(&study, arguments, workers, console),
+    };
     let jobs = sweep.jobs().map_err(Failure::refused)?;
-    if is_sweep {
+    if kind == FileKind::Sweep {
         sweep.check_sieves(&jobs).map_err(classify::cannot_label)?;
     }
     console.result(describe_sweep(&sweep, jobs.len()));
@@ -62,7 +64,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.result(line("time step", text));
     }
     time_step::warn_of_jobs(&tightest, &sweep.axes, console);
-    if is_sweep {
+    if kind == FileKind::Sweep {
         super::sweep::warn_of_windows(&sweep, &jobs, console);
     }
     let walls = walls::weakest(&jobs);
@@ -84,7 +86,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let (steps_per_frame, frames) = (scene.time.steps_per_frame(), scene.time.frames());
     console.answer(&Answer {
         file: &arguments.file,
-        kind: kind::name(is_sweep),
+        kind: kind.name(),
         title: sweep.title.as_deref().or(scene.title.as_deref()),
         jobs: jobs.len(),
         axes: &sweep.axes,

@@ -5,7 +5,7 @@ mod dumps;
 
 use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
-use super::{format, kind};
+use super::format;
 use phase::classify::{ClassifyError, Label, LabelTable};
 use phase::sweep::{Folder, Job, Labelled, Labelling, LabellingError, Since, Sweep, work};
 use serde::Serialize;
@@ -49,7 +49,7 @@ pub(crate) struct Arguments {
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
     let edited = match &arguments.sweep {
-        Some(file) => Some(kind::load_sweep(file)?),
+        Some(file) => Some(phase::sweep::load(file).map_err(Failure::refused)?),
         None => None,
     };
     let folders = match &arguments.scene {

@@ -5,6 +5,7 @@ use super::exit::{Exit, Failure};
 use super::{format, job, kind};
 use phase::cost::{PartCost, SweepCost, Tried};
 use phase::record::Outcome;
+use phase::scene::FileKind;
 use phase::sweep::{Axis, describe};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -33,7 +34,7 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    let (sweep, is_sweep) = kind::load_scene_or_sweep(&arguments.file)?;
+    let (sweep, kind) = kind::load_scene_or_sweep(&arguments.file)?;
     let jobs = sweep.jobs().map_err(Failure::refused)?;
     let seconds = format::duration(arguments.seconds.as_secs_f64());
     console.note(format_args!("measuring for up to about {seconds} ..."));
@@ -54,7 +55,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     ));
     console.answer(&Answer::new(
         arguments,
-        is_sweep,
+        kind,
         jobs.len(),
         &cost,
         &sweep.axes,
@@ -166,7 +167,7 @@ fn rows(cost: &SweepCost<'_>) -> Vec<Row> {
 impl<'a> Answer<'a> {
     fn new(
         arguments: &'a Arguments,
-        is_sweep: bool,
+        kind: FileKind,
         jobs: usize,
         cost: &SweepCost<'_>,
         axes: &[Axis],
@@ -183,7 +184,7 @@ impl<'a> Answer<'a> {
         });
         Self {
             file: &arguments.file,
-            kind: kind::name(is_sweep),
+            kind: kind.name(),
             jobs,
             sphere_steps: cost.work(),
             cpu_seconds: cost.total(),

@@ -1,6 +1,8 @@
-//! A job of a sweep, as `--json` names it.
+//! A job of a sweep, as `--json` names it, and what is told of jobs while they run.
 
-use phase::sweep::{Axis, Failure};
+use super::progress::Progress;
+use phase::record::RunRecord;
+use phase::sweep::{Axis, Event, Failure, Job};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -31,4 +33,38 @@ impl NamedJob {
 pub(super) fn point(axes: &[Axis], values: &[f64]) -> BTreeMap<String, f64> {
     let names = axes.iter().map(|axis| axis.name.clone());
     names.zip(values.iter().copied()).collect()
+}
+
+/// Tells what happened to a job that `name` names; `ended` says what became of a run.
+pub(super) fn tell(
+    event: Event<'_>,
+    progress: &Progress<'_>,
+    name: &dyn Fn(&Job) -> String,
+    ended: &dyn Fn(&Job, &RunRecord) -> String,
+) {
+    let named = |job: &Job| format!("{} (job {})", name(job), job.id);
+    match event {
+        Event::Started(_) => {}
+        Event::Resumed(job, work) => {
+            progress.skip(work);
+            let job = named(job);
+            progress.detail(format_args!("goes on from its checkpoint: {job}"));
+        }
+        Event::CheckpointRefused(job, error) => progress.note(format_args!(
+            "job {} starts from the beginning: {error}",
+            job.id
+        )),
+        Event::NoCheckpoint(job, error) => {
+            progress.note(format_args!("no checkpoint of job {}: {error}", job.id));
+        }
+        Event::Advanced(_, work) => progress.advance(work),
+        Event::Finished(job, record, left) => {
+            progress.detail(format_args!("{}", ended(job, record)));
+            progress.job_done(left);
+        }
+        Event::Failed(job, failure) => {
+            progress.detail(format_args!("failed: {}: {}", named(job), failure.reason));
+            progress.job_done(job.work());
+        }
+    }
 }

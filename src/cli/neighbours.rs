@@ -2,7 +2,7 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
-use super::{folders, kind, plot};
+use super::{folders, plot};
 use phase::cost::neighbours::{Cost, Moment};
 use phase::plot::step_time::{self, Against, StepTimes};
 use phase::record::Program;
@@ -57,7 +57,7 @@ struct Row {
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    let scene = kind::load_scene(&arguments.scene)?;
+    let scene = Scene::load(&arguments.scene).map_err(Failure::refused)?;
     let length = side(&scene, arguments.length)?;
     let mut counts: Vec<usize> = arguments
         .count

@@ -6,7 +6,7 @@ mod interruptible;
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::sweep::seconds;
-use super::{folders, format, kind, time_step};
+use super::{folders, format, time_step};
 use again::Original;
 use interruptible::Ran;
 use phase::dem::timestep::Standing;
@@ -97,7 +97,7 @@ fn threads(text: &str) -> Result<usize, String> {
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let (mut scene, default_path, original) = match (&arguments.scene, &arguments.from) {
         (Some(file), _) => {
-            let mut scene = kind::load_scene(file)?;
+            let mut scene = Scene::load(file).map_err(Failure::refused)?;
             scene.seed = arguments.seed.unwrap_or(scene.seed);
             (scene, default_record(file), None)
         }

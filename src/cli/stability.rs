@@ -3,13 +3,13 @@
 use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
 use super::progress::{Progress, Work};
-use super::{builds, folders, format, interrupt, plot, sweep};
+use super::{builds, folders, format, interrupt, job, plot, sweep};
 use phase::plot::stability as figure;
-use phase::record::Program;
+use phase::record::{Program, RunRecord};
 use phase::scene::Integrator;
-use phase::stability::{self, Event, Label, Report, Row, Study, Trials};
 use phase::store;
-use phase::sweep::{Folder, FolderError, Job, describe, work};
+use phase::study::stability::{self, Label, Report, Row, Study, Trials};
+use phase::sweep::{Event, Folder, FolderError, Job, describe, work};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -188,16 +188,12 @@ impl Tried {
     }
 }
 
-fn steps(job: &Job) -> u64 {
-    job.work()
-}
-
 /// Runs what is left of a study; and how long that took (s).
 fn run(trials: &Trials<'_>, known: Vec<Row>, console: &Console) -> Result<(Report, f64), Failure> {
     let is_known = |job: &&Job| known.iter().any(|row| row.id == job.id);
     let done = trials.jobs.iter().filter(is_known);
     let (jobs_done, steps_done) =
-        done.fold((0, 0), |(jobs, sum), job| (jobs + 1, sum + steps(job)));
+        done.fold((0, 0), |(jobs, sum), job| (jobs + 1, sum + job.work()));
     if jobs_done > 0 {
         let runs = format::count(trials.jobs.len(), "run");
         console.note(format_args!("{jobs_done} of {runs} are done already"));
@@ -210,7 +206,7 @@ fn run(trials: &Trials<'_>, known: Vec<Row>, console: &Console) -> Result<(Repor
         Work {
             jobs: trials.jobs.len(),
             jobs_done,
-            steps: trials.jobs.iter().map(steps).sum(),
+            steps: trials.jobs.iter().map(Job::work).sum(),
             steps_done,
         },
     );
@@ -218,21 +214,11 @@ fn run(trials: &Trials<'_>, known: Vec<Row>, console: &Console) -> Result<(Repor
         let point = describe(&trials.study.axes, &job.values, job.seed);
         format!("{}, {point}", job.scene.time.integrator.name())
     };
-    let watch = |event: Event<'_>| match event {
-        Event::Finished(job, row) => {
-            let last = row.broken.map(|(_, step, _)| step);
-            let run = last.map_or(steps(job), |step| {
-                (job.scene.spheres.count as u64).saturating_mul(step)
-            });
-            progress.advance(run);
-            progress.detail(format_args!("{}: {}", row.label.name(), name(job)));
-            progress.job_done(steps(job).saturating_sub(run));
-        }
-        Event::Failed(job, failure) => {
-            progress.note(format_args!("failed: {}: {}", name(job), failure.reason));
-            progress.job_done(steps(job));
-        }
+    let ended = |job: &Job, record: &RunRecord| {
+        let row = trials.study.row(job, record);
+        format!("{}: {}", row.label.name(), name(job))
     };
+    let watch = |event: Event<'_>| job::tell(event, &progress, &name, &ended);
     let trials = Trials {
         watch: &watch,
         ..*trials

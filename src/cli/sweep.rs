@@ -4,8 +4,8 @@ use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
 use super::job::NamedJob;
 use super::progress::{Progress, Work};
-use super::{builds, classify, format, interrupt, kind, plot, time_step};
-use phase::record::Outcome;
+use super::{builds, classify, format, interrupt, job, plot, time_step};
+use phase::record::{Outcome, RunRecord};
 use phase::resume::DEFAULT_INTERVAL;
 use phase::sweep::{
     Event, Failure as JobFailure, Folder, FolderError, Job, Plan, Pool, PoolError, Report,
@@ -78,7 +78,7 @@ pub(super) fn at_least_one(text: &str) -> Result<usize, String> {
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    let mut sweep = kind::load_sweep(&arguments.file)?;
+    let mut sweep = phase::sweep::load(&arguments.file).map_err(Failure::refused)?;
     if !arguments.seed.is_empty() {
         sweep.seeds = distinct(&arguments.seed)?;
     }
@@ -299,47 +299,12 @@ fn run(plan: &Plan, pool: Pool<'_>, console: &Console) -> Result<Run, Failure> {
     for (job, done) in plan.done() {
         note_unstable(job, &done.outcome);
     }
-    let watch = |event: Event<'_>| match event {
-        Event::Started(_) => {}
-        Event::Resumed(job, steps) => {
-            progress.skip(steps);
-            progress.detail(format_args!(
-                "goes on from its checkpoint: {} (job {})",
-                name(job),
-                job.id
-            ));
-        }
-        Event::CheckpointRefused(job, error) => progress.note(format_args!(
-            "job {} starts from the beginning: {error}",
-            job.id
-        )),
-        Event::NoCheckpoint(job, error) => {
-            progress.note(format_args!("no checkpoint of job {}: {error}", job.id))
-        }
-        Event::Advanced(_, steps) => progress.advance(steps),
-        Event::Finished(job, record) => {
-            note_unstable(job, &record.outcome);
-            let frame = (record.observations.frames() as u64).saturating_sub(1);
-            let share = frame as f64 / job.scene.time.frames().max(1) as f64;
-            let run = (share * steps(job) as f64) as u64;
-            progress.detail(format_args!(
-                "done: {} (job {}), {} of CPU",
-                name(job),
-                job.id,
-                format::duration(record.cpu_seconds)
-            ));
-            progress.job_done(steps(job).saturating_sub(run));
-        }
-        Event::Failed(job, failure) => {
-            progress.detail(format_args!(
-                "failed: {} (job {}): {}",
-                name(job),
-                job.id,
-                failure.reason
-            ));
-            progress.job_done(steps(job));
-        }
+    let ended = |job: &Job, record: &RunRecord| {
+        note_unstable(job, &record.outcome);
+        let seconds = format::duration(record.cpu_seconds);
+        format!("done: {} (job {}), {seconds} of CPU", name(job), job.id)
     };
+    let watch = |event: Event<'_>| job::tell(event, &progress, &name, &ended);
     let pool = Pool {
         watch: &watch,
         ..pool

@@ -5,7 +5,7 @@
 
 use crate::classify::Label;
 use crate::color::{self, ColorMap};
-use crate::stability;
+use crate::study::stability;
 use plotters::style::RGBColor;
 
 /// Colour of a state.

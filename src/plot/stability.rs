@@ -12,7 +12,7 @@ use super::{PlotError, palette};
 use crate::dem::timestep::Limit;
 use crate::record::Program;
 use crate::scene::{Integrator, Scene};
-use crate::stability::{Label, Row, Study, Theory};
+use crate::study::stability::{Label, Row, Study, Theory};
 
 /// Draws the rows of a study.
 ///

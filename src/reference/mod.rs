@@ -9,7 +9,7 @@ pub use notation::notation;
 
 use crate::document::Schema;
 use crate::scene::SCENE;
-use crate::stability::STUDY;
+use crate::study::stability::STUDY;
 use crate::sweep::SWEEP;
 use serde_json::{Value, json};
 

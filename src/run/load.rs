@@ -2,7 +2,7 @@
 
 use crate::dem::SAFETY_FACTOR;
 use crate::document::{Document, LoadError, Problem};
-use crate::scene::{AUTO, SCENE, Scene};
+use crate::scene::{AUTO, FileKind, SCENE, Scene};
 use serde_json::Value;
 use std::path::Path;
 
@@ -47,7 +47,8 @@ fn of_document(document: &Document) -> Result<Scene, LoadError> {
     Ok(scene)
 }
 
-fn base_of_document(document: &Document, reading: Reading) -> Result<Scene, LoadError> {
+pub(crate) fn base_of_document(document: &Document, reading: Reading) -> Result<Scene, LoadError> {
+    FileKind::Scene.expect(document)?;
     let scene = base_of_tree(document.tree(), document.folder(), reading);
     scene.map_err(|problems| document.refuse(&problems))
 }

@@ -4,7 +4,7 @@ mod load;
 mod models;
 mod state;
 
-pub(crate) use load::{Reading, base_of_tree, load_base_with};
+pub(crate) use load::{Reading, base_of_document, base_of_tree, load_base_with};
 pub use models::model_of;
 pub use state::frame_of_state;
 

@@ -7,6 +7,7 @@
 
 mod contact;
 mod drag;
+mod file_kind;
 mod files;
 mod forces;
 mod identity;
@@ -26,6 +27,7 @@ mod vary;
 
 pub use contact::{Contact, ContactDrag, Friction};
 pub use drag::{Drag, DragForm, DragLaw};
+pub use file_kind::FileKind;
 pub use forces::{Gravity, SpinDamping, Swirl, Updraught};
 pub use keys::Notation;
 pub(crate) use keys::leaf;

@@ -6,7 +6,7 @@ use super::{Axis, PlotSettings, Sweep};
 use crate::classify::{ClassifyError, Family, Sieves};
 use crate::document::{Document, LoadError, Problem, Schema, one_of, suggest};
 use crate::run::{self, Reading};
-use crate::scene::{LARGEST_SEED, Scene};
+use crate::scene::{FileKind, LARGEST_SEED, Scene};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -81,7 +81,8 @@ pub fn from_str(text: &str, path: &Path) -> Result<Sweep, LoadError> {
     of_document(&Document::parse(text.to_owned(), path)?)
 }
 
-fn of_document(document: &Document) -> Result<Sweep, LoadError> {
+pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
+    FileKind::Sweep.expect(document)?;
     let mut problems = Vec::new();
     SWEEP.kind.check(document.tree(), "", &mut problems);
     document.accept(&problems)?;

@@ -14,6 +14,7 @@ mod select;
 mod spacing;
 mod status;
 pub mod work;
+mod workers;
 
 pub use crate::document::differing_keys;
 pub use axis::Axis;
@@ -26,14 +27,16 @@ pub use job::{Job, PointError};
 pub(crate) use job::{PointScenes, grid, points};
 pub use labelling::{Labelled, Labelling, LabellingError, Since, refuse_to_lose_labels};
 pub(crate) use load::{
-    SWEEP, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes, or_path,
+    SWEEP, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes, of_document,
+    or_path,
 };
 pub use load::{from_str, load};
 pub use plan::{Done, ForeignRecord, Plan, Standing};
-pub(crate) use pool::panic_message;
-pub use pool::{Begin, Event, Pool, PoolError, Report};
+pub use pool::{Pool, PoolError};
 pub use select::{SelectError, parse_point};
 pub use status::{Status, UnderWay};
+pub use workers::{Begin, Event, Report};
+pub(crate) use workers::{Results, Workers};
 
 use crate::classify::Sieves;
 use crate::scene::Scene;

@@ -1,16 +1,12 @@
 //! Runs the jobs of a sweep on all cores.
 
-use super::{Failure, Folder, FolderError, ForeignRecord, Job, Plan, Sweep, work, write_failures};
+use super::workers::{Begin, Event, Report, Results, Workers};
+use super::{Failure, Folder, FolderError, ForeignRecord, Job, Plan, Sweep, write_failures};
 use crate::record::RunRecord;
-use crate::resume::{self, Checkpoints};
-use crate::run::{Progress, Run};
-use crate::simulation::BuildError;
-use crate::store::{self, CheckpointError, StoreError};
-use std::cmp::Reverse;
-use std::ops::ControlFlow;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use crate::resume::Checkpoints;
+use crate::run::Run;
+use crate::store::{self, StoreError};
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 /// How, where and with which callbacks the jobs of a sweep are run.
@@ -32,44 +28,6 @@ pub struct Pool<'a> {
     pub watch: &'a (dyn Fn(Event<'_>) + Sync),
 }
 
-/// Something that happened to a job. Events of different jobs come from different threads.
-#[derive(Clone, Copy, Debug)]
-pub enum Event<'a> {
-    /// A job has begun.
-    Started(&'a Job),
-    /// A job goes on from its checkpoint, where it had done this much work.
-    Resumed(&'a Job, u64),
-    /// A job cannot go on from its checkpoint, and starts from the beginning.
-    CheckpointRefused(&'a Job, &'a CheckpointError),
-    /// A checkpoint of a job could not be written; an older one is still there.
-    NoCheckpoint(&'a Job, &'a StoreError),
-    /// A job did this much work since the last such event.
-    Advanced(&'a Job, u64),
-    /// A job has ended and its record is stored.
-    Finished(&'a Job, &'a RunRecord),
-    /// A job has failed.
-    Failed(&'a Job, &'a Failure),
-}
-
-/// What became of the jobs.
-#[derive(Debug, Default)]
-pub struct Report {
-    /// Runs that ended and whose record is stored.
-    pub finished: usize,
-    /// How many of these went on from a checkpoint.
-    pub resumed: usize,
-    /// Jobs that failed, in the sweep's order.
-    pub failures: Vec<Failure>,
-    /// Jobs left to do, neither finished nor failed.
-    pub left: usize,
-    /// Work of the finished runs, in the unit of their model.
-    pub work: u64,
-    /// Processor time of the finished runs (s).
-    pub cpu_seconds: f64,
-    /// Why no more jobs were started, if a file could not be written.
-    pub halted: Option<StoreError>,
-}
-
 /// Why a sweep does not begin.
 #[derive(Debug, thiserror::Error)]
 pub enum PoolError {
@@ -83,9 +41,6 @@ pub enum PoolError {
     #[error(transparent)]
     Folder(#[from] FolderError),
 }
-
-/// Makes the run of a job, at its start.
-pub type Begin<'a> = &'a (dyn Fn(&Job) -> Result<Run, BuildError> + Sync);
 
 impl Pool<'_> {
     /// Runs what is pending in the plan, and stores each record as soon as it is there.
@@ -109,162 +64,49 @@ impl Pool<'_> {
         self.folder.remove_leftovers()?;
         self.folder.write_sweep(self.sweep)?;
         self.folder.forget_failures()?;
+        let records = Records {
+            folder: self.folder,
+            sweep: self.sweep,
+            interval: self.checkpoint_interval,
+        };
         for (job, _) in plan.done() {
             // Left by a process that was killed between record and removal.
-            self.checkpoints(job).remove().map_err(FolderError::from)?;
+            records
+                .checkpoints(job)
+                .remove()
+                .map_err(FolderError::from)?;
         }
-
-        let mut pending: Vec<(usize, &Job)> = plan.pending().enumerate().collect();
-        // The longest first, so that no worker begins one when the others are done. Those of one
-        // length stay in the sweep's order.
-        pending.sort_by_key(|(_, job)| Reverse(job.work()));
-        let tally = Mutex::new(Tally::default());
-        work::each(self.workers, &pending, |&(position, job)| {
-            if self.stop.load(Ordering::Relaxed) || lock(&tally).halted.is_some() {
-                return;
-            }
-            match self.job(job, begin) {
-                Ending::Finished(record, resumed) => lock(&tally).add(&record, resumed),
-                Ending::Failed(failure) => self.fail(&mut lock(&tally), position, failure),
-                Ending::NotStored(error) => lock(&tally).halted = Some(error),
-                Ending::Interrupted => {}
-            }
-        })?;
-        let tally = tally.into_inner().unwrap_or_else(PoisonError::into_inner);
-        let failures: Vec<_> = tally.failures.into_values().collect();
-        Ok(Report {
-            finished: tally.finished,
-            resumed: tally.resumed,
-            left: pending.len() - tally.finished - failures.len(),
-            failures,
-            work: tally.work,
-            cpu_seconds: tally.cpu_seconds,
-            halted: tally.halted,
-        })
+        let pending: Vec<&Job> = plan.pending().collect();
+        let workers = Workers {
+            results: &records,
+            count: self.workers,
+            stop: self.stop,
+            resume: self.resume,
+            watch: self.watch,
+        };
+        Ok(workers.run(&pending, begin)?)
     }
+}
 
-    /// Runs one job and stores its record.
-    fn job(&self, job: &Job, begin: Begin<'_>) -> Ending {
-        (self.watch)(Event::Started(job));
-        let fail = |reason: String| {
-            let failure = Failure::new(job, reason);
-            (self.watch)(Event::Failed(job, &failure));
-            Ending::Failed(failure)
-        };
-        let run = || begin(job).map(|run| self.drive(job, self.resumed(job, run)));
-        let (record, resumed) = match catch_unwind(AssertUnwindSafe(run)) {
-            Ok(Ok((resume::Ending::Finished(record), resumed))) => (record, resumed),
-            Ok(Ok((resume::Ending::Lost(error), _))) => {
-                (self.watch)(Event::NoCheckpoint(job, &error));
-                return Ending::Interrupted;
-            }
-            Ok(Ok(_)) => return Ending::Interrupted,
-            Ok(Err(error)) => return fail(error.to_string()),
-            Err(panic) => return fail(format!("a bug in phase: {}", panic_message(&*panic))),
-        };
-        match store::write_record(&record, &self.folder.record(&job.id)) {
-            Ok(()) => {
-                // What cannot be removed now is when the sweep is run again.
-                let _ = self.checkpoints(job).remove();
-                (self.watch)(Event::Finished(job, &record));
-                Ending::Finished(record, resumed)
-            }
-            // What does not fit into a record concerns this job alone, unlike a full disk.
-            Err(error @ StoreError::Content { .. }) => fail(error.to_string()),
-            Err(error) => Ending::NotStored(error),
-        }
+/// A folder of records.
+struct Records<'a> {
+    folder: &'a Folder,
+    sweep: &'a Sweep,
+    interval: Duration,
+}
+
+impl Results for Records<'_> {
+    fn keep(&self, job: &Job, record: &RunRecord) -> Result<(), StoreError> {
+        store::write_record(record, &self.folder.record(&job.id))
     }
 
     fn checkpoints(&self, job: &Job) -> Checkpoints {
-        self.folder.checkpoints(&job.id, self.checkpoint_interval)
+        self.folder.checkpoints(&job.id, self.interval)
     }
 
-    /// The run of a job: at its checkpoint, if there is a good one and it may be used.
-    fn resumed(&self, job: &Job, mut run: Run) -> Run {
-        if self.resume {
-            match self.checkpoints(job).restore(&mut run) {
-                Ok(true) => (self.watch)(Event::Resumed(job, job.work_at(&run.progress()))),
-                Ok(false) => {}
-                Err(error) => (self.watch)(Event::CheckpointRefused(job, &error)),
-            }
-        }
-        run
+    fn note_failures(&self, failures: &[Failure]) -> Result<(), StoreError> {
+        write_failures(&self.sweep.axes, failures, &self.folder.failures())
     }
-
-    /// Advances a run to its end and tells of it; and whether it went on from a checkpoint.
-    fn drive(&self, job: &Job, run: Run) -> (resume::Ending, bool) {
-        let first = run.progress().frame;
-        let (mut frame, mut work) = (first, job.work_at(&run.progress()));
-        let mut control = |progress: Progress| {
-            // A frame may take less than a millisecond: too often for people, and for locks.
-            let frames = progress.frames;
-            if progress.frame == frames || (progress.frame - frame) * 100 >= frames {
-                let now = job.work_at(&progress);
-                (self.watch)(Event::Advanced(job, now.saturating_sub(work)));
-                (frame, work) = (progress.frame, now);
-            }
-            if self.stop.load(Ordering::Relaxed) {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        };
-        let mut warn = |error: StoreError| (self.watch)(Event::NoCheckpoint(job, &error));
-        let ending = self.checkpoints(job).run(run, &mut control, &mut warn);
-        (ending, first > 0)
-    }
-
-    /// Notes a failure, in the file too, so that nothing is forgotten if the sweep is killed.
-    fn fail(&self, tally: &mut Tally, position: usize, failure: Failure) {
-        tally.failures.insert(position, failure);
-        let failures: Vec<_> = tally.failures.values().cloned().collect();
-        let path = self.folder.failures();
-        if let Err(error) = write_failures(&self.sweep.axes, &failures, &path) {
-            tally.halted = Some(error);
-        }
-    }
-}
-
-/// How one job ended.
-enum Ending {
-    /// With its record, and whether it went on from a checkpoint.
-    Finished(Box<RunRecord>, bool),
-    Failed(Failure),
-    NotStored(StoreError),
-    Interrupted,
-}
-
-/// What the workers add up together.
-#[derive(Default)]
-struct Tally {
-    finished: usize,
-    resumed: usize,
-    /// By position among the pending jobs.
-    failures: std::collections::BTreeMap<usize, Failure>,
-    work: u64,
-    cpu_seconds: f64,
-    halted: Option<StoreError>,
-}
-
-impl Tally {
-    fn add(&mut self, record: &RunRecord, resumed: bool) {
-        self.finished += 1;
-        self.resumed += usize::from(resumed);
-        self.work += record.work;
-        self.cpu_seconds += record.cpu_seconds;
-    }
-}
-
-/// Locks the tally; a panic elsewhere leaves only whole entries in it.
-fn lock(tally: &Mutex<Tally>) -> MutexGuard<'_, Tally> {
-    tally.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// What a panic said.
-pub(crate) fn panic_message(panic: &(dyn std::any::Any + Send)) -> &str {
-    let text = panic.downcast_ref::<String>().map(String::as_str);
-    text.or_else(|| panic.downcast_ref::<&str>().copied())
-        .unwrap_or("panicked")
 }
 
 #[cfg(test)]
@@ -272,8 +114,12 @@ mod tests {
     use super::*;
     use crate::classify::Sieves;
     use crate::dem;
+    use crate::resume;
     use crate::scene::Scene;
+    use crate::simulation::BuildError;
     use crate::sweep::{Axis, PlotSettings, read_failures};
+    use std::sync::Mutex;
+    use std::sync::atomic::Ordering;
 
     const SCENE: &str = r#"
         spheres = { count = 1, radius = 0.004, density = 1000.0 }

@@ -241,7 +241,7 @@ fn laws_that_do_not_go_together_are_refused() {
         (
             silbert,
             "law = 'mindlin', coefficient = 0.3",
-            "does not go with the silbert contact",
+            "goes with the hertz contact only",
         ),
         (
             linear,

@@ -336,7 +336,10 @@ fn a_study_of_stability_answers_in_json() {
     let axes = "[[axis]]\nkey = \"time.dt\"\nvalues = [1e-4, 2e-2]\n\
                 [[axis]]\nkey = \"contact.young_modulus\"\nvalues = [1e5, 1e6]\n";
     place.write("scene.toml", &scene_file());
-    place.write("study.toml", &format!("scene = \"scene.toml\"\n{axes}"));
+    place.write(
+        "study.toml",
+        &format!("study = \"stability\"\nscene = \"scene.toml\"\n{axes}"),
+    );
     let study = answer(&place, &["stability", "study.toml"], 0);
     assert_eq!(study["folder"], "results/study");
     assert_eq!(

@@ -119,16 +119,24 @@ fn a_seed_counts_once() {
 }
 
 #[test]
-fn a_scene_is_no_sweep_and_a_sweep_is_no_scene() {
+fn a_file_of_another_kind_is_named_with_the_command_for_it() {
     let place = swept();
-    place
-        .phase(&["sweep", "scene.toml"])
-        .code(2)
-        .complains("this is a scene, not a sweep; `phase run scene.toml`");
-    place
-        .phase(&["run", "tiny.toml"])
-        .code(2)
-        .complains("this is a sweep, not a scene; `phase sweep tiny.toml`");
+    let study = TinySweep::default().text() + "\n";
+    place.write("study.toml", &format!("study = \"stability\"\n{study}"));
+    for (command, file, says, command_for_it) in [
+        ("sweep", "scene.toml", "a scene, not a sweep", "run"),
+        ("stability", "scene.toml", "a scene, not a study", "run"),
+        ("run", "tiny.toml", "a sweep, not a scene", "sweep"),
+        ("stability", "tiny.toml", "a sweep, not a study", "sweep"),
+        ("run", "study.toml", "a study, not a scene", "stability"),
+        ("sweep", "study.toml", "a study, not a sweep", "stability"),
+    ] {
+        place
+            .phase(&[command, file])
+            .code(2)
+            .complains(&format!("this is {says}"))
+            .complains(&format!("`phase {command_for_it} {file}` runs it"));
+    }
 }
 
 /// Symptom: a file of another program was called damaged, with the advice to delete it.

@@ -3,7 +3,7 @@
 
 use phase::document::LoadError;
 use phase::scene::{self, Radii, Scene, Start};
-use phase::stability;
+use phase::study::stability;
 use phase::sweep::{self, Sweep};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};

@@ -3,10 +3,11 @@
 
 use crate::support::Workplace;
 use phase::scene::Integrator;
-use phase::stability::read_stability;
-use phase::stability::{self, Event, Label, Report, Row, Study, Theory, Trials};
+use phase::study::stability::read_stability;
+use phase::study::stability::{self, Label, Report, Row, Study, Theory, Trials};
+use phase::sweep::Event;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 fn study(text: &str) -> Study {
     stability::from_str(text, Path::new("study.toml")).unwrap_or_else(|error| panic!("{error}"))
@@ -53,6 +54,7 @@ fn border(rows: &[Row], integrator: Integrator, value: f64) -> [f64; 2] {
 /// A sphere that swings on the floor by a hundredth of the overlap at which it rests, without or
 /// with damping. Steps are 1 % apart.
 const OSCILLATOR: &str = r#"
+    study = "stability"
     integrators = ["symplectic-euler", "velocity-verlet", "synchronised-verlet"]
     [[axis]]
     key = "time.dt"
@@ -120,6 +122,7 @@ fn an_oscillator_breaks_at_the_limit_of_its_integrator() {
 fn sub_steps_leave_the_displacement() {
     let study = study(
         r#"
+        study = "stability"
         integrators = ["adaptive-verlet"]
         [[axis]]
         key = "time.dt"
@@ -153,6 +156,7 @@ fn sub_steps_leave_the_displacement() {
 
 /// A sphere that falls onto the floor, with steps far above the limit, in milliseconds.
 const TINY: &str = r#"
+study = "stability"
 title = "A drop"
 integrators = ["velocity-verlet", "adaptive-verlet"]
 frames = 20
@@ -180,7 +184,7 @@ fn a_study_that_is_stopped_goes_on_where_it_was() {
     let expected = run_into(&study, &whole, Vec::new());
     assert_eq!((expected.rows.len(), expected.left), (12, 0));
 
-    let stop = AtomicBool::new(false);
+    let (stop, ended) = (AtomicBool::new(false), AtomicUsize::new(0));
     let stopping = Trials {
         study: &study,
         jobs: &jobs,
@@ -188,7 +192,7 @@ fn a_study_that_is_stopped_goes_on_where_it_was() {
         workers: 1,
         stop: &stop,
         watch: &|event| {
-            if matches!(event, Event::Finished(job, _) if job.id == jobs[4].id) {
+            if matches!(event, Event::Finished(..)) && ended.fetch_add(1, Ordering::Relaxed) == 4 {
                 stop.store(true, Ordering::Relaxed);
             }
         },
@@ -196,7 +200,8 @@ fn a_study_that_is_stopped_goes_on_where_it_was() {
     let report = stopping.run(Vec::new()).unwrap();
     assert_eq!((report.rows.len(), report.left), (5, 7));
     let known = read_stability(&study.axes, &cut).unwrap();
-    assert_eq!(known, expected.rows[..5]);
+    assert!(known.iter().all(|row| expected.rows.contains(row)));
+    assert_eq!(known.len(), 5);
 
     let report = run_into(&study, &cut, known);
     assert_eq!((report.known, report.rows.len(), report.left), (5, 12, 0));
@@ -328,7 +333,7 @@ fn a_step_longer_than_the_run_is_refused() {
     let error = stability::from_str(&text, Path::new("study.toml")).unwrap_err();
     let error = error.to_string();
     for part in [
-        "study.toml:6:",
+        "study.toml:7:",
         "`time.dt` = 7 s is longer than the run, `time.duration` = 0.5 s",
         "help: use a smaller step",
     ] {

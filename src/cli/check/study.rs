@@ -6,21 +6,21 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::format;
 use phase::cost::Leaves;
 use phase::scene::Integrator;
-use phase::stability::{self, Study, Theory};
+use phase::study::stability::{Study, Theory};
 use phase::sweep::{Axis, Job};
 use serde::Serialize;
 use std::path::Path;
 
 /// Says what the study would run and, with a trial, what that costs.
 pub(super) fn main(
+    study: &Study,
     arguments: &Arguments,
     workers: usize,
     console: &Console,
 ) -> Result<Exit, Failure> {
-    let study = stability::load(&arguments.file).map_err(Failure::refused)?;
     let jobs = study.jobs().map_err(Failure::refused)?;
-    let spans = Span::all(&study, &jobs);
-    console.result(describe(&study, jobs.len()));
+    let spans = Span::all(study, &jobs);
+    console.result(describe(study, jobs.len()));
     for span in &spans {
         console.result(line("time step", span.line()));
     }

@@ -3,8 +3,8 @@
 use super::{cannot_write, tell_of_labels, tell_of_problems};
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
-use crate::cli::kind;
 use phase::classify::Sieves;
+use phase::scene::Scene;
 use phase::sweep::{Folder, FolderError, Labelled, Labelling, find_dumps};
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ pub(super) fn label(
     workers: usize,
     console: &Console,
 ) -> Result<Labelled, Failure> {
-    let scene = kind::load_base_scene(scene)?;
+    let scene = Scene::load_base(scene).map_err(Failure::refused)?;
     sieves.check(&scene).map_err(Failure::refused)?;
     let dumps = dumps_in(folder)?;
     let labelling =

@@ -11,7 +11,7 @@ use super::{
     Contact, Friction, Geometry, LIST_KEY, Radii, SCENE, START_SPHERE, Scene, Spheres, Start,
     Updraught,
 };
-use crate::document::{Problem, number, one_of};
+use crate::document::{Problem, any_of, number};
 
 /// Largest number of spheres: each takes up to 600 bytes of memory.
 const MOST_SPHERES: usize = 10_000_000;
@@ -82,9 +82,10 @@ impl Scene {
         {
             let contacts = friction.contacts().join(" or ");
             let message = format!("this friction law goes with the {contacts} contact only");
-            let here = one_of(Friction::laws_with(contact));
-            let there = one_of(friction.contacts().iter().copied());
-            let help = format!("the law here can be {here}; or that in [contact] {there}");
+            let named = |law: &str| format!("law = \"{law}\"");
+            let here = any_of(Friction::laws_with(contact).map(named));
+            let there = any_of(friction.contacts().iter().copied().map(named));
+            let help = format!("use {here} here, or {there} in [contact]");
             problems.push(Problem::new("friction.law", message).help(help));
         }
         if self.spin_damping.is_some() && self.friction.is_none() {

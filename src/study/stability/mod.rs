@@ -10,9 +10,9 @@ mod run;
 mod table;
 
 pub use label::{Label, energy_gain};
-pub(crate) use load::STUDY;
+pub(crate) use load::{STUDY, of_document};
 pub use load::{from_str, load};
-pub use run::{Event, Report, Row, Trials, TrialsError};
+pub use run::{Report, Row, Trials, TrialsError};
 pub use table::{read_makers, read_stability, write_makers, write_stability};
 
 use crate::dem::timestep::{Limit, limits};

@@ -3,7 +3,7 @@
 use super::{Study, fit_frames, output};
 use crate::document::{Document, LoadError, Problem, Schema, unit};
 use crate::run::Reading;
-use crate::scene::{Integrator, Scene};
+use crate::scene::{FileKind, Integrator, Scene};
 use crate::sweep::{
     Axis, AxisEntry, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes,
     grid, or_path, points,
@@ -35,6 +35,9 @@ pub(crate) static STUDY: LazyLock<Schema> = LazyLock::new(Schema::of::<StudyFile
 /// What a study file says.
 #[derive(Deserialize, JsonSchema)]
 pub(crate) struct StudyFile {
+    /// Which study the file describes.
+    #[serde(rename = "study")]
+    _study: StudyName,
     /// Free text, the title of the figure.
     title: Option<String>,
     /// The scene that every run starts from: the path of its file, relative to this one, or the
@@ -58,6 +61,14 @@ pub(crate) struct StudyFile {
     #[serde(default = "five_percent")]
     #[schemars(transform = unit("").above(0.0))]
     energy_gain: f64,
+}
+
+/// The studies that there are.
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum StudyName {
+    /// Where integrators are stable, over two keys of a scene.
+    Stability,
 }
 
 fn all_integrators() -> Vec<Integrator> {
@@ -102,7 +113,8 @@ pub fn from_str(text: &str, path: &Path) -> Result<Study, LoadError> {
     of_document(&Document::parse(text.to_owned(), path)?)
 }
 
-fn of_document(document: &Document) -> Result<Study, LoadError> {
+pub(crate) fn of_document(document: &Document) -> Result<Study, LoadError> {
+    FileKind::Study.expect(document)?;
     let mut problems = Vec::new();
     STUDY.kind.check(document.tree(), "", &mut problems);
     document.accept(&problems)?;

@@ -1,0 +1,145 @@
+//! The rows of a study, one for each run, in a table that is kept while runs end.
+
+use crate::record::{Program, RunRecord};
+use crate::resume::{Checkpoints, DEFAULT_INTERVAL};
+use crate::store::StoreError;
+use crate::sweep::{Event, Failure, Folder, Job, Report, Results, Workers};
+use std::collections::BTreeMap;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Time between two writings of a table.
+const BETWEEN_WRITINGS: Duration = Duration::from_secs(5);
+
+/// What a study makes of its runs.
+pub(super) trait Table: Sync {
+    /// What is kept of a run.
+    type Row: Send;
+
+    /// The row of a run.
+    fn row(&self, job: &Job, record: &RunRecord) -> Self::Row;
+
+    /// Writes the rows that there are, in the order of the jobs, and beside them which build made
+    /// each, by the identities of the runs.
+    fn write(
+        &self,
+        rows: &[Option<Self::Row>],
+        makers: &BTreeMap<String, Program>,
+    ) -> Result<(), StoreError>;
+}
+
+/// The rows of a study while its runs are made.
+pub(super) struct Rows<'a, T: Table> {
+    table: &'a T,
+    jobs: &'a [Job],
+    /// Where runs leave checkpoints.
+    folder: Folder,
+    state: Mutex<State<T::Row>>,
+}
+
+/// What there is when the workers are done.
+pub(super) struct Completed<R> {
+    /// By index of the job.
+    pub(super) rows: Vec<Option<R>>,
+    pub(super) report: Report,
+}
+
+/// What the workers fill together.
+struct State<R> {
+    /// By index of the job.
+    rows: Vec<Option<R>>,
+    makers: BTreeMap<String, Program>,
+    written: Instant,
+}
+
+impl<'a, T: Table> Rows<'a, T> {
+    /// The rows of jobs, those that are known among them with the builds that made them.
+    pub(super) fn new(
+        table: &'a T,
+        jobs: &'a [Job],
+        folder: Folder,
+        rows: Vec<Option<T::Row>>,
+        makers: BTreeMap<String, Program>,
+    ) -> Self {
+        let state = State {
+            rows,
+            makers,
+            written: Instant::now(),
+        };
+        Self {
+            table,
+            jobs,
+            folder,
+            state: Mutex::new(state),
+        }
+    }
+
+    /// Makes the runs whose row is not known, with that many workers, and returns all rows.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub(super) fn complete(
+        self,
+        workers: usize,
+        stop: &AtomicBool,
+        watch: &(dyn Fn(Event<'_>) + Sync),
+    ) -> Result<Completed<T::Row>, rayon::ThreadPoolBuildError> {
+        let rows = self
+            .lock()
+            .rows
+            .iter()
+            .map(Option::is_some)
+            .collect::<Vec<_>>();
+        let pending = self.jobs.iter().zip(rows).filter(|(_, known)| !known);
+        let pending: Vec<&Job> = pending.map(|(job, _)| job).collect();
+        let workers = Workers {
+            results: &self,
+            count: workers,
+            stop,
+            resume: true,
+            watch,
+        };
+        let mut report = workers.run(&pending, &|job| crate::run::Run::new(&job.scene))?;
+        let written = self.write(&self.lock());
+        report.halted = report.halted.or(written.err());
+        let state = self.state.into_inner();
+        let rows = state.unwrap_or_else(PoisonError::into_inner).rows;
+        Ok(Completed { rows, report })
+    }
+
+    fn write(&self, state: &State<T::Row>) -> Result<(), StoreError> {
+        self.table.write(&state.rows, &state.makers)
+    }
+
+    /// Locks the state; a panic elsewhere leaves only whole entries in it.
+    fn lock(&self) -> MutexGuard<'_, State<T::Row>> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<T: Table> Results for Rows<'_, T> {
+    fn keep(&self, job: &Job, record: &RunRecord) -> Result<(), StoreError> {
+        let row = self.table.row(job, record);
+        let mut state = self.lock();
+        state.makers.insert(job.id.clone(), Program::current());
+        let place = self.jobs.iter().position(|it| it.id == job.id);
+        if let Some(place) = place.and_then(|at| state.rows.get_mut(at)) {
+            *place = Some(row);
+        }
+        if state.written.elapsed() >= BETWEEN_WRITINGS {
+            self.write(&state)?;
+            state.written = Instant::now();
+        }
+        Ok(())
+    }
+
+    fn checkpoints(&self, job: &Job) -> Checkpoints {
+        self.folder.checkpoints(&job.id, DEFAULT_INTERVAL)
+    }
+
+    fn note_failures(&self, _: &[Failure]) -> Result<(), StoreError> {
+        // They have no row, so that the same command tries them again.
+        Ok(())
+    }
+}
