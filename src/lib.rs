@@ -82,6 +82,7 @@ pub mod dem;
 pub mod document;
 mod fonts;
 mod markup;
+pub mod measure;
 pub mod observe;
 pub mod plot;
 pub mod record;

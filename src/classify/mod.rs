@@ -23,7 +23,7 @@ pub use label::Label;
 pub use measure::{Measure, Range};
 pub use none::NONE;
 pub use sieves::Sieves;
-pub use silo::{ArchingSieve, EmptiedSieve, FlowingSieve, SILO, packing_fraction};
+pub use silo::{ArchingSieve, EmptiedSieve, FlowingSieve, SILO};
 pub use table::{LabelRow, LabelTable, Point};
 pub use tank::{FluidSieve, PinnedSieve, SettleSieve, SpoutSieve, TANK};
 pub use verdict::{Verdict, classify};

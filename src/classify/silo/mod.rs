@@ -6,14 +6,12 @@ mod emptied;
 mod flowing;
 mod order;
 mod outflow;
-mod packing;
 #[cfg(test)]
 mod synthetic;
 
 pub use arching::ArchingSieve;
 pub use emptied::EmptiedSieve;
 pub use flowing::FlowingSieve;
-pub use packing::packing_fraction;
 
 use super::lengths::check_lengths;
 use super::{ClassifyError, Family, Label, Sieves};

@@ -2,8 +2,8 @@
 
 use super::EmptiedSieve;
 use super::outflow::Outflow;
-use super::packing::packing_fraction;
 use crate::classify::measure::{measured, measures};
+use crate::measure::packing_fraction;
 
 /// Shares of the grains between which the discharge rate is measured: neither while the flow begins
 /// nor while the last grains trickle out.
