@@ -13,7 +13,7 @@
 //! | a run that is interrupted and goes on from its checkpoint | [`resume`] |
 //! | the label of a record | [`classify`](mod@classify) |
 //! | many scenes at once, their labels, and figures of them | [`sweep`], [`plot`] |
-//! | where an integrator is stable: a phase diagram of the numerics | [`stability`] |
+//! | where an integrator is stable: a phase diagram of the numerics | [`study`] |
 //! | what a run costs, and each of its parts | [`cost`] |
 //! | records and tables as files | [`store`] |
 //! | laws that results are compared with | [`theory`], [`beverloo`] |

@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 use std::{fs, io};
 
 /// Default time between two checkpoints.
-pub const DEFAULT_INTERVAL: Duration = Duration::from_secs(120);
+pub const DEFAULT_INTERVAL: Duration = Duration::from_mins(2);
 
 /// Where a run leaves its checkpoint, and how often.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -88,7 +88,7 @@ fn within(angle: f64, freedom: usize) -> f64 {
     let mut term = if odd { cosine } else { 1.0 };
     let mut sum = 0.0;
     // Powers of the cosine up to freedom - 2, each term made from the one before.
-    for power in (if odd { 1 } else { 0 }..freedom.saturating_sub(1)).step_by(2) {
+    for power in (usize::from(odd)..freedom.saturating_sub(1)).step_by(2) {
         sum += term;
         term *= cosine * cosine * (power + 1) as f64 / (power + 2) as f64;
     }

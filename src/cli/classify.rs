@@ -201,7 +201,7 @@ pub(super) fn label_folder(
 /// Says which records have no label, and why.
 fn tell_of_problems(labelling: &Labelling, console: &Console) {
     name_first(&labelling.problems, |problem| {
-        console.error(format_args!("no label: {problem}"))
+        console.error(format_args!("no label: {problem}"));
     });
 }
 

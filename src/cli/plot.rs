@@ -389,7 +389,6 @@ fn draw_record(path: &Path, arguments: &Arguments, console: &Console) -> Result<
         match (figure.draw)(&record) {
             Err(error @ (PlotError::NoTrajectory | PlotError::NoLedger)) if names.is_empty() => {
                 missing.get_or_insert(error);
-                continue;
             }
             image => {
                 let mut stem = path.file_stem().unwrap_or_default().to_owned();

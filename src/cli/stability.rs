@@ -252,7 +252,7 @@ fn print(
         format!("{point}: {}", failure.reason)
     });
     name_first(&failures.collect::<Vec<_>>(), |name| {
-        console.error(format_args!("failed: {name}"))
+        console.error(format_args!("failed: {name}"));
     });
     if report.left > 0 {
         console.note("interrupted. Go on with the same command");

@@ -374,10 +374,10 @@ impl Run {
             jobs.iter().map(named).collect()
         };
         name_first(&names(&self.unstable), |name| {
-            console.note(format_args!("unstable: {name}"))
+            console.note(format_args!("unstable: {name}"));
         });
         name_first(&names(failures), |name| {
-            console.error(format_args!("failed: {name}"))
+            console.error(format_args!("failed: {name}"));
         });
         Ok(())
     }

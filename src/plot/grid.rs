@@ -61,7 +61,7 @@ impl GridAxis {
         };
         if let Some((scale, symbol)) = scale(&axis.key, axes, scene) {
             shown.factor = 1.0 / scale;
-            shown.symbol = symbol.to_owned();
+            symbol.clone_into(&mut shown.symbol);
             shown.unit = String::new();
         }
         shown

@@ -98,10 +98,10 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
                 MEASURE * LINE_OVER_EM,
                 style,
             );
-            let em = font
-                .layout_box(&run.text)
-                .map(|((left, _), (right, _))| f64::from(right - left) / MEASURE)
-                .unwrap_or(0.6 * run.text.chars().count() as f64);
+            let em = font.layout_box(&run.text).map_or(
+                0.6 * run.text.chars().count() as f64,
+                |((left, _), (right, _))| f64::from(right - left) / MEASURE,
+            );
             em * if run.subscript { SUBSCRIPT_SIZE } else { 1.0 }
         })
         .sum::<f64>()

@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Duration;
 
-const LONG: Duration = Duration::from_secs(600);
+const LONG: Duration = Duration::from_mins(10);
 
 fn realistic(duration: f64) -> Scene {
     let mut scene = phase::scene::Scene::load(Path::new("sweeps/scenes/realistic.toml")).unwrap();

@@ -28,6 +28,7 @@ type Changes = &'static [(&'static str, &'static str)];
 /// Symptom: one number of a file took 20 GB, or ended the program without a word. Cause: walls were
 /// built before they were checked, and nothing bounded states and spheres.
 #[test]
+#[allow(clippy::too_many_lines, reason = "a table")]
 fn no_number_of_a_file_takes_the_memory() {
     let cases: [(&str, String, Changes, &str); 12] = [
         (

@@ -143,7 +143,7 @@ fn every_job_of_the_sweeps_off_the_main_road_is_stable() {
                 .scene
                 .problems()
                 .iter()
-                .map(|it| it.to_string())
+                .map(std::string::ToString::to_string)
                 .collect();
             assert_eq!(problems, Vec::<String>::new(), "{name}: {:?}", job.values);
             let limit = phase::dem::timestep::largest_stable(&job.scene).unwrap();
@@ -277,7 +277,11 @@ fn values_of_every_listed_sphere_are_checked() {
     let spheres = scene.start.list_mut().unwrap();
     spheres[1].radius = Some(-1.0);
     spheres[2].velocity[1] = f64::INFINITY;
-    let problems: Vec<String> = scene.problems().iter().map(|it| it.to_string()).collect();
+    let problems: Vec<String> = scene
+        .problems()
+        .iter()
+        .map(std::string::ToString::to_string)
+        .collect();
     assert_eq!(problems.len(), 2, "{problems:?}");
     assert!(
         problems[0].contains("`start.spheres[1].radius`"),
@@ -312,7 +316,7 @@ fn title_and_output_are_no_part_of_the_identity() {
     let scene = load_scene("tests/good/everything.toml");
     let mut changed = scene.clone();
     changed.title = None;
-    changed.output = Default::default();
+    changed.output = phase::scene::Output::default();
     assert_ne!(changed, scene);
     assert_eq!(changed.identity(), scene.identity());
 }

@@ -50,7 +50,9 @@ impl<'a> Sheets<'a> {
         }
         let stages = sheets.iter().map(|sheet| sheet.stage.seen);
         let seen = stages.reduce(union).unwrap_or_default();
-        sheets.iter_mut().for_each(|sheet| sheet.stage.seen = seen);
+        for sheet in &mut sheets {
+            sheet.stage.seen = seen;
+        }
         Ok(Self { runs, sheets })
     }
 

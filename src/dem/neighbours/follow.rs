@@ -179,7 +179,9 @@ mod tests {
             rotation in -1.0..1.0_f64,
         ) {
             let mut particles = Particles::default();
-            first.iter().for_each(|&sphere| add(&mut particles, sphere));
+            for &sphere in &first {
+                add(&mut particles, sphere);
+            }
             for (velocity, &place) in particles.velocity.iter_mut().zip(&particles.position) {
                 *velocity = Vector::new(-rotation * place.y, rotation * place.x, 0.0);
             }

@@ -41,7 +41,7 @@ impl Search {
         let wide = |width: f64| width * (1.0 + 1e-9);
         match self {
             Self::Cells(cells, width) => {
-                cells.fill(particles, wide(width.unwrap_or(reach)), columns, copied)
+                cells.fill(particles, wide(width.unwrap_or(reach)), columns, copied);
             }
             Self::Hashed(cells, width) => cells.fill(particles, wide(*width), columns),
             Self::AllPairs => {}

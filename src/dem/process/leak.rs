@@ -53,7 +53,7 @@ impl LeakWatch {
             let Some(&(_, from)) = before.next_if(|(other, _)| *other == number) else {
                 continue;
             };
-            if let Some([one, other]) = barrier.crossed(from, now) {
+            if let Some([[x1, z1, ..], [x2, z2, ..]]) = barrier.crossed(from, now) {
                 return Err(Instability {
                     guard: Guard::WallPassed,
                     step,
@@ -63,7 +63,7 @@ impl LeakWatch {
                         "from ({:.4}, {:.4}) m to ({:.4}, {:.4}) m, between the fixed ones at \
                          ({:.4}, {:.4}) m and ({:.4}, {:.4}) m; stiffen the contact, or make it \
                          lighter or slower",
-                        from[0], from[1], now[0], now[1], one[0], one[1], other[0], other[1]
+                        from[0], from[1], now[0], now[1], x1, z1, x2, z2
                     ),
                 });
             }

@@ -235,7 +235,7 @@ impl<H: History> ContactTask<'_, H> {
             block.gather_spheres::<S, N, T>(simd, lanes, histories, partners);
             match wall {
                 TankWall::Floor(wall) | TankWall::Side(wall) => {
-                    block.find_wall_contacts(wall, &settings.laws)
+                    block.find_wall_contacts(wall, &settings.laws);
                 }
                 TankWall::Cylinder(wall) => block.find_wall_contacts(wall, &settings.laws),
             }

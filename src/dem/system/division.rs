@@ -227,8 +227,8 @@ pub(super) fn first_too_deep(
 }
 
 /// Threads that there are, one where the work is not divided.
-pub(super) fn threads<H>(division: &Option<Division<H>>) -> usize {
-    division.as_ref().map_or(1, |it| it.regions.len())
+pub(super) fn threads<H>(division: Option<&Division<H>>) -> usize {
+    division.map_or(1, |it| it.regions.len())
 }
 
 #[cfg(test)]

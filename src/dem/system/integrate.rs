@@ -84,7 +84,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             false => &[],
         };
         self.bodies
-            .resize_with(threads(&self.division), Bodies::new);
+            .resize_with(threads(self.division.as_ref()), Bodies::new);
         let found = moves.of_all(
             Spheres::new(&mut self.particles, reference),
             &mut self.bodies,

@@ -34,7 +34,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.neighbours.stale = false;
         if let Some(list) = &self.neighbours.list {
             let (near, particles) = (&mut self.neighbours.near, &self.particles);
-            let threads = threads(&self.division);
+            let threads = threads(self.division.as_ref());
             if Self::HAS_HISTORY {
                 let before = near.exchange_pairs(std::mem::take(&mut self.neighbours.spare_pairs));
                 near.refresh(self.level, list, particles, threads);
@@ -98,7 +98,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if age.steps > 0 {
             list.adapt(age.steps, age.time);
         }
-        list.build(particles, threads(&self.division));
+        list.build(particles, threads(self.division.as_ref()));
         Ok(())
     }
 

@@ -92,7 +92,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let spheres = Spheres::new(&mut self.particles, reference);
         let (pairs, walls) = candidates.with_histories(&mut self.pair_history, &mut self.walls);
         self.bodies
-            .resize_with(threads(&self.division), Bodies::new);
+            .resize_with(threads(self.division.as_ref()), Bodies::new);
         let bodies = &mut self.bodies[..];
         let mut streams = match &mut self.division {
             Some(division) => division.streams(spheres, pairs, walls, bodies),
@@ -111,7 +111,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         streams[0].profile = self.profile.take();
         let level = self.level;
         in_parallel(&mut streams, &|stream| {
-            stream.flow(level, &settings, &moves)
+            stream.flow(level, &settings, &moves);
         });
         self.profile = streams[0].profile.take();
         self.step.too_deep = first_too_deep(streams.iter().map(|it| it.too_deep));

@@ -187,7 +187,9 @@ pub fn limits(scene: &Scene) -> Vec<Limit> {
     limits.extend(silbert::limits(scene));
     if scene.time.integrator == Integrator::AdaptiveVerlet {
         limits.retain(|limit| limit.name == DISPLACEMENT);
-        limits.iter_mut().for_each(|limit| limit.decisive = true);
+        for limit in &mut limits {
+            limit.decisive = true;
+        }
     }
     limits.extend(air::drag_limit(scene));
     limits.extend(air::spin_damping_limit(scene));

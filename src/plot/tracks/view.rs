@@ -272,7 +272,7 @@ mod tests {
             radius: vec![1e-3],
             mass: vec![1.0],
             milestones: Vec::new(),
-            observations: Default::default(),
+            observations: crate::observe::Observations::default(),
             snapshots: Vec::new(),
             trajectory: places.iter().enumerate().map(snapshot).collect(),
             work: 0,

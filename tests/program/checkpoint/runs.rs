@@ -99,7 +99,7 @@ fn nothing_goes_on_from_a_checkpoint_that_is_not_right() {
     let version = phase::store::CHECKPOINT_SIGNATURE.len();
     let spoils: [Spoil<'_>; 8] = [
         ("damaged or cut short: its checksum differs", &|path| {
-            damage(path)
+            damage(path);
         }),
         ("damaged or cut short: its checksum differs", &|path| {
             fs::write(path, &good[..good.len() - 1]).unwrap();
@@ -108,7 +108,7 @@ fn nothing_goes_on_from_a_checkpoint_that_is_not_right() {
             fs::write(path, &good[..10]).unwrap();
         }),
         ("damaged or cut short: it ends too early", &|path| {
-            fs::write(path, "").unwrap()
+            fs::write(path, "").unwrap();
         }),
         (
             "damaged or cut short: its content has another form",
@@ -117,7 +117,7 @@ fn nothing_goes_on_from_a_checkpoint_that_is_not_right() {
             },
         ),
         ("this checkpoint has format 99", &|path| {
-            forge(path, |bytes| bytes[version] = 99)
+            forge(path, |bytes| bytes[version] = 99);
         }),
         ("was written by phase", &|path| {
             forge(path, |bytes| replace(bytes, &commit, &other_commit));

@@ -95,7 +95,9 @@ fn describe(record: &RunRecord, states: &[&Snapshot]) -> Run {
         Shape::Sphere => &[0, 2, 1],
     };
     let mut writer = Writer::new(record.radius.len(), axes, quantum);
-    states.iter().for_each(|state| writer.add(&state.position));
+    for state in states {
+        writer.add(&state.position);
+    }
     let count = |state: &&Snapshot| released(record, state.time).unwrap_or(record.radius.len());
     let circles = |spheres: &[FixedSphere]| {
         let circle = |it: &FixedSphere| [it.position[0], it.position[2], it.radius];
