@@ -6,7 +6,7 @@ use phase::record::Program;
 use std::collections::BTreeMap;
 
 /// Warns of results that are taken over, each a `thing`, but that another build made, or one that
-/// nobody noted: the present one might give other bits.
+/// was not noted: the present one might give other bits.
 pub(super) fn tell_of_others<'a>(
     thing: &str,
     makers: impl Iterator<Item = Option<&'a Program>>,

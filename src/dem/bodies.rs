@@ -9,7 +9,7 @@ use super::vector::Vector;
 use fearless_simd::Simd;
 use std::ops::Range;
 
-/// Spheres in rows: all of them, or a thread's share, or those that are at hand.
+/// Spheres in rows: all of them, those of a thread, or the next few.
 pub(super) struct Spheres<'a> {
     /// Index of the first one.
     pub(super) first: usize,

@@ -226,7 +226,7 @@ impl Shape {
     }
 }
 
-/// The horizontal scale of panels of a length, of which so many stand side by side.
+/// The horizontal scale of panels of a length, for that many side by side.
 fn x_scale<P>(grid: &Grid<P>, length: i32, columns: usize) -> Scale {
     let scale = scale(&grid.x, length, Direction::Horizontal);
     if columns == 1 {

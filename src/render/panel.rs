@@ -92,7 +92,7 @@ fn share(share: f64, width: usize) -> usize {
     (share * width as f64).round().max(1.0) as usize
 }
 
-/// Height of a panel of that width (pixels), with so many lines of a caption.
+/// Height of a panel of that width (pixels), with that many lines of a caption.
 pub(super) fn height(stage: &Stage, is_flat: bool, lines: usize, width: usize) -> usize {
     let cameras = [Camera::side(stage), Camera::top(stage)];
     let gap = share(GAP, width);

@@ -189,7 +189,7 @@ impl Run {
         self.simulation.profile()
     }
 
-    /// Advances to the next frame, which is to be [looked at](Self::look).
+    /// Advances to the next frame, which [`look`](Self::look) shows.
     pub(crate) fn advance_steps(&mut self) {
         self.frame += 1;
         if let Err(instability) = self.simulation.advance_frame() {

@@ -22,11 +22,11 @@ pub struct PartOfStep {
 pub struct Profile {
     /// What one reading of the clock takes (s).
     reading: f64,
-    /// Times of the parts in the steps that were looked at (s).
+    /// Times of the parts in the steps that were measured (s).
     looked_at: Vec<f64>,
-    /// The part that takes all of the time when no step was looked at.
+    /// The part that takes all of the time when no step was measured.
     rest: usize,
-    /// The latest reading, while a step is looked at (s).
+    /// The latest reading, while a step is measured (s).
     latest: Option<f64>,
     readings: u64,
     /// When the engine was entered (s).
@@ -40,7 +40,7 @@ pub struct Profile {
 const TRIALS: u32 = 2000;
 
 impl Profile {
-    /// An empty profile of that many parts. If no step is looked at, all time counts as that of the
+    /// An empty profile of that many parts. If no step is measured, all time counts as that of the
     /// part `rest`.
     pub fn new(parts: usize, rest: usize) -> Self {
         let started = cpu_time::of_this_thread();
@@ -104,7 +104,7 @@ impl Profile {
         self.inside += cpu_time::of_this_thread() - self.entered;
     }
 
-    /// Begins a step that moves so many spheres, and looks at it or not.
+    /// Begins a step that moves this number of spheres, and decides whether to measure it.
     #[inline(never)]
     pub fn begin(&mut self, step: u64, spheres: usize) {
         self.work += spheres as u64;

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 pub(super) struct Hashed<'a, W> {
     file: &'a mut W,
     hasher: blake3::Hasher,
-    /// The failure of the file, which whoever writes may not hand on.
+    /// The failure of the file, which the writer may not pass on.
     failure: Option<io::Error>,
 }
 
@@ -24,7 +24,7 @@ impl<'a, W: Write> Hashed<'a, W> {
     /// hash.
     ///
     /// # Errors
-    /// The failure of the file, or else of whoever wrote.
+    /// The failure of the file, or else of the writer.
     pub(super) fn seal(self, written: io::Result<()>, mark: &[u8]) -> io::Result<()> {
         let Self {
             file,

@@ -110,7 +110,8 @@ mod tests {
         assert!(second.is_some() && path.exists());
     }
 
-    /// Whoever opened the file before its owner removed it would hold a right that nobody sees.
+    /// A process that opened the file before its owner removed it would hold a lock that no other
+    /// process sees.
     #[cfg(unix)]
     #[test]
     fn a_removed_file_has_no_name() {

@@ -29,7 +29,7 @@ pub struct Gas {
     duration: f64,
 }
 
-/// The energy is looked at this often in a run.
+/// The energy is checked this often in a run.
 const LOOKS: u32 = 1000;
 
 impl Family for Gas {

@@ -1,4 +1,4 @@
-//! All pairs of a few spheres, looked at many at once: quicker than cells below some thousand
+//! All pairs of a few spheres, many tested at once: quicker than cells below some thousand
 //! spheres, and the partners of a sphere come out in order.
 
 use super::{Reach, WORD};

@@ -4,11 +4,11 @@
 use super::{Reach, VerletList};
 use crate::dem::particles::Particles;
 
-/// At most one in this number of spheres may have strayed. Each stray is compared with all spheres,
-/// so following more takes as long as building the list again.
+/// At most one in this number of spheres may have left its margin. Each of these is compared with
+/// all spheres, so following more takes as long as building the list again.
 const FEW_OF: usize = 24;
 
-/// At most this number of spheres may have strayed.
+/// At most this number of spheres may have left their margins.
 const MOST: usize = 64;
 
 /// A stray is followed to where it will be after this share of the way that is allowed. A falling
@@ -41,8 +41,8 @@ impl VerletList {
         });
     }
 
-    /// Follows the spheres that strayed, if they are few; positions must be finite. Whether the
-    /// list holds again, as [`Self::holds`] says.
+    /// Follows the spheres that left their margins, if they are few; positions must be finite.
+    /// Whether the list holds again, as [`Self::holds`] says.
     pub fn follow(&mut self, particles: &Particles, time: f64, margin: f64) -> bool {
         if self.builds == 0 || self.outdated || !self.can_follow() {
             return false;
@@ -229,7 +229,7 @@ mod tests {
         }
     }
 
-    /// Where half of the spheres strayed, the list is built anew.
+    /// Where half of the spheres left their margins, the list is built anew.
     #[test]
     fn many_are_not_followed() {
         let mut particles = Particles::default();

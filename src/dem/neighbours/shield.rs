@@ -1,4 +1,4 @@
-//! Who shields whom from below: what is known for some steps, and the pairs that must be looked at
+//! Which spheres shield which from below: what is known for some steps, and the pairs to be tested
 //! in each.
 
 use super::{NearPair, Particles, WORD};

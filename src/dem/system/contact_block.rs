@@ -345,7 +345,7 @@ impl<H: History> ContactBlock<H> {
         }
     }
 
-    /// The first of so many contacts that is too deep: its lane and overlap.
+    /// The first of these contacts that is beyond the overlap limit: its lane and overlap.
     #[inline(always)]
     pub(super) fn first_too_deep(&self, contacts: usize) -> Option<(usize, f64)> {
         let any = |any, &overlap: &f64| any | (overlap != NOT_DEEP);

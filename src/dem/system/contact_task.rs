@@ -95,7 +95,7 @@ pub(super) struct ContactTask<'a, H> {
     /// Pairs whose first sphere is one of these.
     pub(super) pairs: ContactSlice<'a, NearPair, H>,
     pub(super) walls: AtWalls<'a, H>,
-    /// The first contact found too deep candidates pairs and at each wall.
+    /// The first contact beyond the overlap limit among pairs and at each wall.
     pub(super) too_deep: [TooDeep; 1 + TankWall::MOST],
 }
 

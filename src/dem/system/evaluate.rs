@@ -167,8 +167,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.forces_of(candidates, anew);
             return;
         }
-        // Loops over contacts have the history of each beside it; that of some stands candidates those
-        // of all.
+        // The kernels expect the history of each contact at its own place; those of some contacts
+        // stand among those of all.
         let entries = || candidates.entries.iter().copied();
         let all = exchange(&mut self.pair_history, entries());
         let mut walls = [const { Vec::new() }; TankWall::MOST];
@@ -256,8 +256,8 @@ mod tests {
     use super::{exchange, put_back};
 
     /// Symptom: springs of an island of adaptive Verlet were those of other contacts. Cause: the
-    /// histories of some contacts were read by their places candidates these, not by their entries candidates
-    /// all.
+    /// histories of some contacts were read by their places among these contacts, not by their
+    /// entries among all.
     #[test]
     fn some_contacts_find_their_histories_among_all() {
         let (mut histories, entries) = (vec![10, 11, 12, 13, 14], [1, 4]);

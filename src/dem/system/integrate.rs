@@ -15,7 +15,7 @@ use crate::scene::Integrator;
 use crate::simulation::Instability;
 use std::ops::Range;
 
-/// Velocities and spins before forces foretell them.
+/// Velocities and spins before a prediction.
 #[derive(Default)]
 pub(super) struct Before {
     velocity: Vec<Vector>,
@@ -208,7 +208,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// One step of velocity Verlet with forces from the middle of the step: half a drift, a kick,
     /// half a drift (position Verlet: Tuckerman, Berne and Martyna, J. Chem. Phys. 97, 1990
-    /// (1992)). The latest forces foretell the velocities there, to first order, which makes the
+    /// (1992)). The latest forces predict the velocities there, to first order, which makes the
     /// step one of second order.
     ///
     /// Places and velocities of a contact then belong together, which Vyas et al., Comput. Phys.

@@ -152,7 +152,8 @@ pub(super) struct Ledger {
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Energy of the spheres (J) and of tangential springs candidates it, if books are kept.
+    /// Energy of the spheres and the tangential springs, and of the springs alone (J), if books are
+    /// kept.
     pub(super) fn energy_in_books(&mut self) -> Option<[f64; 2]> {
         self.ledger.as_ref()?;
         let contacts = self.contacts();

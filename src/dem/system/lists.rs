@@ -78,7 +78,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Makes sure that every sphere is somewhere, and that the list holds again: it follows those
-    /// that strayed, or is built anew.
+    /// that left their margins, or is built anew.
     fn renew(&mut self) -> Result<(), Instability> {
         self.check_positions()?;
         let Some(list) = &mut self.neighbours.list else {

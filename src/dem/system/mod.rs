@@ -58,8 +58,8 @@ pub(in crate::dem) trait Engine: Send {
     /// What the contacts hold at the present positions.
     fn contacts(&mut self) -> Contacts;
     fn use_baseline_instructions(&mut self);
-    /// Divides the work of a sorted scene candidates so many threads, of the pool that the engine then
-    /// runs in. Whether it does.
+    /// Divides the work of a sorted scene among this number of threads, of the pool that the engine
+    /// then runs in. Returns whether it does.
     fn use_threads(&mut self, threads: usize) -> bool;
     /// Begins to keep the books of energy; never changes the motion.
     fn keep_ledger(&mut self);
@@ -215,7 +215,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
-    /// Ends a part of a step that is looked at.
+    /// Ends a part of a step that is measured.
     #[inline(always)]
     fn mark(&mut self, part: Part) {
         profile::mark(&mut self.profile, part);

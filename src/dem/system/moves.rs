@@ -25,7 +25,7 @@ pub(super) struct Moves<'a> {
     /// are two, as numbers are rounded after either.
     pub(super) kicks: &'a [f64],
     pub(super) drift: Option<Drift>,
-    /// Forgets forces and torques, which are at hand: others come next.
+    /// Sets forces and torques to zero while they are in a near cache.
     pub(super) clear: bool,
     pub(super) limits: &'a Limits,
     /// The time step (s).
@@ -37,7 +37,7 @@ pub(super) struct Moves<'a> {
 pub(super) struct Drift {
     /// How long it is (s).
     pub(super) dt: f64,
-    /// How far spheres may be from their references, where these are looked at.
+    /// How far spheres may be from their references, where that is checked.
     pub(super) allowance: Option<Allowance>,
 }
 

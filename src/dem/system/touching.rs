@@ -26,7 +26,7 @@ const ROOM: usize = LOOK + ROWS;
 /// Contacts that touch, in the order of their list; or all, where few do not.
 pub(super) struct Touching {
     pairs: [NearPair; ROOM],
-    /// The last few that are looked at.
+    /// The last few that are tested.
     rest: [NearPair; ROWS],
     /// Where the histories are.
     entries: [u32; ROOM],
@@ -111,9 +111,9 @@ impl Touching {
         }
     }
 
-    /// Finds who touches candidates these, up to [`LOOK`] of them, the first of which has its history at
-    /// `from`; histories of the others begin anew. `alike` says what all spheres are like, if they
-    /// are alike. Says how many touch.
+    /// Finds the pairs that touch among these, up to [`LOOK`], the first of which has its history
+    /// at `from`; histories of the others begin anew. `alike` says what all spheres are like, if
+    /// they are alike. Says how many touch.
     #[inline(always)]
     pub(super) fn find<S: Simd, H: Default>(
         &mut self,
@@ -159,7 +159,7 @@ impl Touching {
             }
             found += kept;
         }
-        // Not where it is found, by a branch that nobody could foretell.
+        // Not where it is found: that branch could not be predicted.
         if size_of::<H>() > 0 {
             for &entry in &self.apart[..apart] {
                 histories[entry as usize] = H::default();

@@ -3,13 +3,13 @@
 //! Symplectic Euler and velocity Verlet evaluate forces once per step, at velocities half a step
 //! behind the positions. A linear oscillator x'' = -w^2 x - g x' then stays bounded while
 //! (w dt)^2 + 2 g dt < 4: below 2/w without damping and below 2/g without a spring. Synchronised
-//! Verlet foretells the velocities from the latest forces; its bound is (w dt)^2 + 4 g dt < 4.
+//! Verlet predicts the velocities from the latest forces; its bound is (w dt)^2 + 4 g dt < 4.
 //! Adaptive Verlet cuts its steps itself where spheres touch. What is left is that no sphere moves
 //! by more than the displacement guard allows, and the drag, with g dt < 2 as for the first two.
 //!
 //! Every limit here is that criterion for one effect, at the fastest impact the scene lets expect
-//! or the deepest overlap it starts with. The smallest spheres decide, since all of these times grow
-//! with the radius.
+//! or the deepest overlap it starts with. The smallest spheres decide, since all of these times
+//! grow with the radius.
 //!
 //! Bounded is not accurate: an elastic impact at the limit takes two steps and ends with 0.6 to 2.4
 //! times its speed, at half the limit within 4 %, at a tenth within 0.03 %. Nor do the decisive

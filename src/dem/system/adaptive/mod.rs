@@ -94,7 +94,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         outcome
     }
 
-    /// Forces and torques of all but contacts, in the middle of the step as they foretell it, and
+    /// Forces and torques of all but contacts, in the middle of the step as predicted, and
     /// how far the spheres may get in the step. Leaves the spheres where they were.
     fn slow_forces(&mut self, work: &mut Workspace<T::History>) -> Result<(), Instability> {
         let dt = self.setup.dt;
@@ -366,7 +366,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Moves a sphere to the middle of a sub-step, and gives it the velocity and spin that the
-    /// latest forces foretell there; its own are held.
+    /// latest forces predict there; its own are held.
     fn foretell(&mut self, i: usize, half: f64, work: &mut Workspace<T::History>) {
         let particles = &mut self.particles;
         particles.position[i] += particles.velocity[i] * half;

@@ -137,7 +137,7 @@ impl<H: History> ContactBlock<H> {
         );
     }
 
-    /// Adds forces and torques of a wall to those of so many spheres whose sums these are.
+    /// Adds forces and torques of a wall to the sums of these spheres.
     #[inline(always)]
     pub(in crate::dem::system) fn scatter_to_spheres<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
