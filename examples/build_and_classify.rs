@@ -6,8 +6,8 @@
 
 use phase::classify::{Sieves, classify};
 use phase::scene::{
-    Contact, Drag, DragForm, DragLaw, Gravity, Integrator, Radii, Scene, Shape, Spheres, Start,
-    Swirl, Tank, Time,
+    Contact, DemScene, Drag, DragForm, DragLaw, Effects, Gravity, Integrator, Radii, Scene, Shape,
+    Spheres, Start, Swirl, Tank, Time,
 };
 use phase::{run, store};
 use std::error::Error;
@@ -35,30 +35,36 @@ fn tank(omega: f64) -> Scene {
         integrator: Integrator::SymplecticEuler,
     };
     Scene {
-        contact: Some(Contact::Hertz {
-            young_modulus: 5.657e5,
-            poisson_ratio: 0.3,
-            dissipation_time: Some(1e-3),
-            restitution: None,
-            restitution_speed: 1.0,
-            dissipation_factor: 1.0,
-        }),
         tank: Some(Tank {
             radius: Some(0.04),
             floor: Some(0.0),
             ..Tank::default()
         }),
-        gravity: Some(Gravity {
-            acceleration: 9.8,
-            tilt: 0.0,
-        }),
-        drag: Some(Drag {
-            linear: 100.0,
-            quadratic: 0.0,
-            law: DragLaw::CrossSection,
-            form: DragForm::Vector,
-        }),
-        swirl: Some(Swirl { omega }),
+        dem: DemScene {
+            contact: Some(Contact::Hertz {
+                young_modulus: 5.657e5,
+                poisson_ratio: 0.3,
+                dissipation_time: Some(1e-3),
+                restitution: None,
+                restitution_speed: 1.0,
+                dissipation_factor: 1.0,
+            }),
+            effects: Effects {
+                gravity: Some(Gravity {
+                    acceleration: 9.8,
+                    tilt: 0.0,
+                }),
+                drag: Some(Drag {
+                    linear: 100.0,
+                    quadratic: 0.0,
+                    law: DragLaw::CrossSection,
+                    form: DragForm::Vector,
+                }),
+                swirl: Some(Swirl { omega }),
+                ..Effects::default()
+            },
+            ..DemScene::default()
+        },
         ..Scene::new(spheres, start, time)
     }
 }

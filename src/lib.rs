@@ -28,21 +28,28 @@
 //! ```
 //! use phase::classify::{Label, Sieves, classify};
 //! use phase::scene::{
-//!     Contact, Gravity, Integrator, Radii, Scene, Shape, Spheres, Start, Tank, Time,
+//!     Contact, DemScene, Effects, Gravity, Integrator, Radii, Scene, Shape, Spheres, Start, Tank,
+//!     Time,
 //! };
 //! use std::ops::ControlFlow;
 //!
 //! let scene = Scene {
-//!     contact: Some(Contact::Hertz {
-//!         young_modulus: 5e5,
-//!         poisson_ratio: 0.3,
-//!         dissipation_time: Some(1e-3),
-//!         restitution: None,
-//!         restitution_speed: 1.0,
-//!         dissipation_factor: 1.0,
-//!     }),
 //!     tank: Some(Tank { radius: Some(0.03), floor: Some(0.0), ..Tank::default() }),
-//!     gravity: Some(Gravity { acceleration: 9.8, tilt: 0.0 }),
+//!     dem: DemScene {
+//!         contact: Some(Contact::Hertz {
+//!             young_modulus: 5e5,
+//!             poisson_ratio: 0.3,
+//!             dissipation_time: Some(1e-3),
+//!             restitution: None,
+//!             restitution_speed: 1.0,
+//!             dissipation_factor: 1.0,
+//!         }),
+//!         effects: Effects {
+//!             gravity: Some(Gravity { acceleration: 9.8, tilt: 0.0 }),
+//!             ..Effects::default()
+//!         },
+//!         ..DemScene::default()
+//!     },
 //!     ..Scene::new(
 //!         Spheres { count: 8, radius: Radii::One(0.004), density: 3750.0, shape: Shape::Sphere },
 //!         Start::Random { z_min: 0.01, z_max: 0.05, speed: 0.005, spin: 0.0 },

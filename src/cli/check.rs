@@ -148,26 +148,26 @@ fn effects(scene: &Scene) -> Vec<&'static str> {
         Some(Friction::Silbert { .. }) => "friction (Silbert)",
         None => "",
     };
-    let contact = match scene.contact {
+    let contact = match scene.dem.contact {
         Some(Contact::Linear { .. }) => "contact (linear)",
         Some(Contact::Silbert { .. }) => "contact (Silbert)",
         Some(Contact::Hertz { .. }) | None => "contact (Hertz)",
     };
     let feed = matches!(scene.start, Start::Feed { .. });
     [
-        (scene.gravity.is_some(), "gravity"),
-        (scene.contact.is_some(), contact),
-        (scene.friction.is_some(), law(&scene.friction)),
-        (scene.swirl.is_some(), "swirl"),
-        (scene.updraught.is_some(), "updraught"),
-        (scene.spin_damping.is_some(), "spin damping"),
+        (scene.dem.effects.gravity.is_some(), "gravity"),
+        (scene.dem.contact.is_some(), contact),
+        (scene.dem.friction.is_some(), law(&scene.dem.friction)),
+        (scene.dem.effects.swirl.is_some(), "swirl"),
+        (scene.dem.effects.updraught.is_some(), "updraught"),
+        (scene.dem.effects.spin_damping.is_some(), "spin damping"),
         (tank.is_some_and(|tank| tank.radius.is_some()), "cylinder"),
         (tank.is_some_and(Tank::has_sides), "sides"),
         (tank.is_some_and(|tank| tank.floor.is_some()), "floor"),
-        (scene.geometry.is_some(), "fixed spheres"),
+        (scene.dem.geometry.is_some(), "fixed spheres"),
         (feed, "feed"),
-        (scene.door.is_some(), "door"),
-        (scene.outlet.is_some(), "outlet"),
+        (scene.dem.door.is_some(), "door"),
+        (scene.dem.outlet.is_some(), "outlet"),
     ]
     .into_iter()
     .filter_map(|(used, name)| used.then_some(name))

@@ -276,7 +276,7 @@ fn more(record: &RunRecord, format: Format) -> Vec<(&'static str, Write)> {
         Format::Csv => Some(store::write_observations),
         _ => None,
     };
-    let fixed = fixed.filter(|_| record.scene.geometry.is_some());
+    let fixed = fixed.filter(|_| record.scene.dem.geometry.is_some());
     let named = [("observations", observations), ("fixed", fixed)];
     let present = named.into_iter();
     present

@@ -121,7 +121,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 /// The side of the cells (m).
 fn side(scene: &Scene, asked: Option<f64>) -> Result<f64, Failure> {
     let least = scene.least_cell_length();
-    let length = asked.or(scene.neighbours.length()).unwrap_or(least);
+    let length = asked.or(scene.dem.neighbours.length()).unwrap_or(least);
     if length.is_finite() && length >= least {
         return Ok(length);
     }

@@ -333,11 +333,13 @@ fn unmet(record: &RunRecord) -> Vec<String> {
             last(&observations.released)
         ));
     }
-    if scene.rest.is_some() && !happened(MilestoneKind::AtRest) && !happened(MilestoneKind::Emptied)
+    if scene.dem.rest.is_some()
+        && !happened(MilestoneKind::AtRest)
+        && !happened(MilestoneKind::Emptied)
     {
         unmet.push("NEVER AT REST".to_owned());
     }
-    if scene.door.is_some() && !happened(MilestoneKind::DoorOpened) {
+    if scene.dem.door.is_some() && !happened(MilestoneKind::DoorOpened) {
         unmet.push("THE DOOR NEVER OPENED".to_owned());
     }
     let spilled = last(&observations.spilled);

@@ -3,7 +3,7 @@
 use crate::cpu_time;
 use crate::dem::{BuildError, Simulation};
 use crate::record::Instability;
-use crate::scene::{Neighbours, Radii, Scene, Start, StartSphere};
+use crate::scene::{DemScene, Neighbours, Radii, Scene, Start, StartSphere};
 
 /// Time that the spheres move on after the last one came in, before anything is measured (s).
 const CALM: f64 = 1.0;
@@ -92,10 +92,13 @@ impl Moment {
         Ok(Self {
             scene: Scene {
                 start,
-                // Nobody comes or goes from here on.
-                door: None,
-                rest: None,
-                outlet: None,
+                dem: DemScene {
+                    // Nobody comes or goes from here on.
+                    door: None,
+                    rest: None,
+                    outlet: None,
+                    ..scene.dem
+                },
                 ..scene
             },
             fixed,
@@ -116,7 +119,10 @@ impl Moment {
         let mut runs = Vec::new();
         for &neighbours in searches {
             let mut simulation = Simulation::new(&Scene {
-                neighbours,
+                dem: DemScene {
+                    neighbours,
+                    ..self.scene.dem.clone()
+                },
                 ..self.scene.clone()
             })?;
             simulation.advance(WARM_UP)?;

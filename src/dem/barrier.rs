@@ -35,8 +35,8 @@ impl WeakestWall {
     /// there it must bring along as kinetic energy. The damping, which makes it a little harder,
     /// and discs that push from behind, which make it easier, are left out.
     pub fn of_scene(scene: &Scene) -> Option<Self> {
-        scene.contact.as_ref()?;
-        let fixed = scene.geometry.as_ref().map(Geometry::spheres)?;
+        scene.dem.contact.as_ref()?;
+        let fixed = scene.dem.geometry.as_ref().map(Geometry::spheres)?;
         if scene.spheres.shape != Shape::Disc {
             return None;
         }
@@ -79,7 +79,7 @@ fn gap([one, other]: [FixedSphere; 2]) -> [f64; 3] {
 /// far as the overlap guard allows. None where it is beyond that disc's centre: the guard is never
 /// broken on the way there.
 fn deepest(scene: &Scene, radius: f64, [one, other]: [FixedSphere; 2]) -> Option<[f64; 3]> {
-    let overlap = scene.guards.overlap * radius.min(one.radius);
+    let overlap = scene.dem.guards.overlap * radius.min(one.radius);
     let above = radius + one.radius - overlap;
     let apart = distance(one.position, other.position);
     let normal = match apart > 0.0 {
@@ -106,7 +106,7 @@ fn speed_to(scene: &Scene, radius: f64, place: [f64; 3], fixed: &[FixedSphere]) 
 }
 
 fn elastic_energy(scene: &Scene, overlap: f64, effective_radius: f64) -> f64 {
-    let Some(contact) = &scene.contact else {
+    let Some(contact) = &scene.dem.contact else {
         return 0.0;
     };
     match *contact {

@@ -31,7 +31,7 @@ pub(super) struct TooFast {
 impl Limits {
     /// The scene's limits, or their defaults.
     pub(super) fn new(scene: &Scene, particles: &Particles) -> Self {
-        let guards = &scene.guards;
+        let guards = &scene.dem.guards;
         let reach = scene.tank.as_ref().map(Tank::reach).unwrap_or_default();
         let widest = reach.into_iter().flatten().reduce(f64::max);
         let all_around = reach.iter().all(Option::is_some);

@@ -27,8 +27,8 @@ pub(super) fn engine(
     }
     let dt = scene.time.dt;
     let spheres = (setup, particles);
-    match scene.contact {
-        None => match scene.friction {
+    match scene.dem.contact {
+        None => match scene.dem.friction {
             None => Ok(boxed(NoContact, Frictionless, spheres)),
             Some(_) => Err(BuildError::FrictionWithoutContact),
         },
@@ -45,7 +45,7 @@ pub(super) fn engine(
                 dissipation_time,
                 dissipation_factor,
             );
-            Ok(match scene.friction {
+            Ok(match scene.dem.friction {
                 None => boxed(normal, Frictionless, spheres),
                 Some(Friction::CundallStrack { .. } | Friction::Silbert { .. }) => {
                     return Err(BuildError::LawsDoNotGoTogether);
@@ -69,7 +69,7 @@ pub(super) fn engine(
             drag,
         }) => {
             let normal = Linear::new(stiffness, damping, drag);
-            match scene.friction {
+            match scene.dem.friction {
                 None => Ok(boxed(normal, Frictionless, spheres)),
                 Some(Friction::Coulomb {
                     coefficient,
@@ -94,7 +94,7 @@ pub(super) fn engine(
         }
         Some(Contact::Silbert { stiffness, damping }) => {
             let normal = Silbert::new(stiffness, damping);
-            match scene.friction {
+            match scene.dem.friction {
                 None => Ok(boxed(normal, Frictionless, spheres)),
                 Some(Friction::Silbert {
                     coefficient,
@@ -141,7 +141,7 @@ mod tests {
                     "time": { "dt": 1e-5, "duration": 1e-3, "frame_interval": 1e-3 },
                 }))
                 .unwrap();
-                let allowed = scene.friction.as_ref().zip(scene.contact.as_ref());
+                let allowed = scene.dem.friction.as_ref().zip(scene.dem.contact.as_ref());
                 let allowed =
                     allowed.is_some_and(|(friction, contact)| friction.goes_with(contact));
                 together += usize::from(allowed);

@@ -87,25 +87,25 @@ impl Part {
 
     /// Whether a scene has it at all; what it does not have costs nothing.
     pub fn is_in(self, scene: &Scene) -> bool {
-        let touch = scene.contact.is_some();
+        let touch = scene.dem.contact.is_some();
         let wall = |is_there: bool| touch && is_there;
         let tank = scene.tank.as_ref();
         match self {
-            Self::List | Self::Near => touch || scene.updraught.is_some(),
+            Self::List | Self::Near => touch || scene.dem.effects.updraught.is_some(),
             Self::Pairs => touch,
             Self::Floor => wall(tank.is_some_and(|tank| tank.floor.is_some())),
             Self::Cylinder => wall(tank.is_some_and(|tank| tank.radius.is_some())),
             Self::Sides => wall(tank.is_some_and(Tank::has_sides)),
-            Self::Shield | Self::Updraught => scene.updraught.is_some(),
-            Self::Gravity => scene.gravity.is_some(),
-            Self::Swirl => scene.swirl.is_some(),
-            Self::SpinDamping => scene.spin_damping.is_some(),
+            Self::Shield | Self::Updraught => scene.dem.effects.updraught.is_some(),
+            Self::Gravity => scene.dem.effects.gravity.is_some(),
+            Self::Swirl => scene.dem.effects.swirl.is_some(),
+            Self::SpinDamping => scene.dem.effects.spin_damping.is_some(),
             Self::Ledger => scene.output.ledger,
             Self::Process => {
                 matches!(scene.start, Start::Feed { .. })
-                    || scene.door.is_some()
-                    || scene.rest.is_some()
-                    || scene.outlet.is_some()
+                    || scene.dem.door.is_some()
+                    || scene.dem.rest.is_some()
+                    || scene.dem.outlet.is_some()
             }
             Self::Kick | Self::Drift | Self::Rest => true,
         }

@@ -62,7 +62,7 @@ impl Simulation {
     /// # Errors
     /// If the spheres cannot be placed, or laws do not fit together.
     pub fn new(scene: &Scene) -> Result<Self, BuildError> {
-        let skin = match (scene.neighbours, &scene.updraught) {
+        let skin = match (scene.dem.neighbours, &scene.dem.effects.updraught) {
             (Neighbours::VerletList, None) => CONTACT_SKIN,
             (Neighbours::VerletList, Some(_)) => COLUMN_SKIN,
             // Found anew in every step.
@@ -116,11 +116,11 @@ impl Simulation {
         let setup = Setup {
             walls: tank.map(TankWall::of_tank).unwrap_or_default(),
             effects: effects::of_scene(scene, &particles),
-            shielded: scene.updraught.is_some(),
+            shielded: scene.dem.effects.updraught.is_some(),
             limits: Limits::new(scene, &particles),
             dt: scene.time.dt,
             integrator: scene.time.integrator,
-            neighbours: scene.neighbours,
+            neighbours: scene.dem.neighbours,
             skin: skin * largest,
             sorted,
         };
@@ -261,6 +261,8 @@ impl Simulation {
 /// The spheres of a scene that come in later.
 fn waiting(spheres: &Particles, scene: &Scene) -> Vec<Sphere> {
     let gravity = scene
+        .dem
+        .effects
         .gravity
         .as_ref()
         .map_or([0.0; 2], |it| it.components());

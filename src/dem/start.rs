@@ -112,7 +112,7 @@ pub fn place(scene: &Scene) -> Result<Particles, StartError> {
 
 /// The fixed spheres of a scene: the walls, then the door.
 pub fn fixed(scene: &Scene) -> Particles {
-    let spheres = scene.geometry.as_ref().map(Geometry::spheres);
+    let spheres = scene.dem.geometry.as_ref().map(Geometry::spheres);
     let spheres = spheres.map(|spheres| [spheres.walls, spheres.door].concat());
     let spheres = spheres.unwrap_or_default();
     let mut particles = Particles {
@@ -131,7 +131,7 @@ pub fn fixed(scene: &Scene) -> Particles {
 /// Gives mass to spheres that have a radius and, in a scene with friction, rotation.
 fn complete(particles: &mut Particles, scene: &Scene, spins: Vec<Vector>) {
     give_mass(particles, scene);
-    if scene.friction.is_some() {
+    if scene.dem.friction.is_some() {
         give_rotation(particles, scene.spheres.shape.inertia_factor(), spins);
     }
 }

@@ -74,11 +74,22 @@ impl Observer {
         });
         let per_frame = |speed: &f64| speed * scene.time.frame_interval;
         Self {
-            gravity: scene.gravity.as_ref().map_or([0.0; 2], Gravity::components),
-            has_axis: !scene.has_flow() && (tank_radius.is_some() || scene.swirl.is_some()),
-            has_air: scene.swirl.is_some(),
-            has_contacts: scene.contact.is_some(),
-            air_rotation: scene.swirl.as_ref().map_or(0.0, |it| it.omega.abs()),
+            gravity: scene
+                .dem
+                .effects
+                .gravity
+                .as_ref()
+                .map_or([0.0; 2], Gravity::components),
+            has_axis: !scene.has_flow()
+                && (tank_radius.is_some() || scene.dem.effects.swirl.is_some()),
+            has_air: scene.dem.effects.swirl.is_some(),
+            has_contacts: scene.dem.contact.is_some(),
+            air_rotation: scene
+                .dem
+                .effects
+                .swirl
+                .as_ref()
+                .map_or(0.0, |it| it.omega.abs()),
             bins,
             bin_width,
             rises: output.rise_speeds.iter().map(per_frame).collect(),

@@ -150,7 +150,7 @@ fn bed(source: &Source<'_>, line: &Series) -> Option<Bed> {
         .collect();
     let fraction = Estimate::of_mean(&fractions)?.value;
     Some(Bed {
-        gravity: scene.gravity.as_ref()?.acceleration,
+        gravity: scene.dem.effects.gravity.as_ref()?.acceleration,
         number_density: fraction / (PI * scene.spheres.radius.mean_square()),
         diameter: 2.0 * scene.spheres.radius.mean(),
     })

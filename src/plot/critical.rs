@@ -69,7 +69,7 @@ fn of_scene(key: &str, scene: &Scene) -> Option<f64> {
         "spheres.count" => Some(scene.spheres.count as f64),
         "spheres.radius" => radius_of_mean_volume(&scene.spheres.radius),
         "tank.radius" => scene.tank.as_ref()?.radius,
-        "gravity.acceleration" => Some(scene.gravity.as_ref()?.acceleration),
+        "gravity.acceleration" => Some(scene.dem.effects.gravity.as_ref()?.acceleration),
         _ => None,
     }
 }

@@ -78,7 +78,7 @@ fn critical(scene: &Scene, radius: f64) -> Option<f64> {
         scene.spheres.count as f64,
         radius,
         scene.tank.as_ref()?.radius?,
-        scene.gravity.as_ref()?.acceleration,
+        scene.dem.effects.gravity.as_ref()?.acceleration,
     );
     Some(omega)
 }
@@ -109,7 +109,12 @@ fn fixed(source: &Source<'_>) -> Vec<String> {
     let values = [
         Some(scene.spheres.count as f64),
         scene.tank.as_ref().and_then(|tank| tank.radius),
-        scene.gravity.as_ref().map(|gravity| gravity.acceleration),
+        scene
+            .dem
+            .effects
+            .gravity
+            .as_ref()
+            .map(|gravity| gravity.acceleration),
     ];
     let pairs = MOVING.into_iter().zip(values);
     let fixed = pairs.filter(|(key, _)| Some(*key) != moved);

@@ -46,7 +46,7 @@ impl Figure for NetForce {
         let values = || curves.iter().flat_map(|(.., points)| points).map(|p| p.1);
         let most = values().fold(0.0, |most: f64, force| most.max(force.abs()));
         let (unit, factor) = chart::prefixed("N", most);
-        let omega = scene.swirl.as_ref().ok_or(NEEDS)?.omega;
+        let omega = scene.dem.effects.swirl.as_ref().ok_or(NEEDS)?.omega;
         let name = |share: f64| {
             let own = if share == 1.0 {
                 ", as in the scene"
@@ -92,7 +92,7 @@ const NEEDS: PlotError = PlotError::Scene {
 
 /// What the curves assume and the scene does not.
 fn notes(scene: &Scene) -> Vec<String> {
-    let updraught = scene.updraught.as_ref();
+    let updraught = scene.dem.effects.updraught.as_ref();
     if updraught.is_none_or(|updraught| updraught.reference_omega.is_some()) {
         return Vec::new();
     }
@@ -105,14 +105,14 @@ fn notes(scene: &Scene) -> Vec<String> {
 
 /// Lift at `share` of the scene's rotation less weight (N), of a sphere at rest on the floor.
 fn net_force(scene: &Scene, radius: f64, share: f64) -> Option<f64> {
-    let updraught = scene.updraught.as_ref()?;
+    let updraught = scene.dem.effects.updraught.as_ref()?;
     let floor = scene.tank.as_ref().and_then(|tank| tank.floor);
     let height = floor.unwrap_or(updraught.origin) + radius;
     let updraught = Updraught {
-        strength: updraught.strength_in(scene.swirl.as_ref()),
+        strength: updraught.strength_in(scene.dem.effects.swirl.as_ref()),
         ..updraught.clone()
     };
-    let lift = unshielded_lift(&updraught, scene.drag.as_ref()?, radius, height);
+    let lift = unshielded_lift(&updraught, scene.dem.effects.drag.as_ref()?, radius, height);
     let mass = scene.spheres.density * volume(radius);
-    Some(share * share * lift - mass * scene.gravity.as_ref()?.acceleration)
+    Some(share * share * lift - mass * scene.dem.effects.gravity.as_ref()?.acceleration)
 }

@@ -40,7 +40,7 @@ impl Scenery {
         let opening = milestones
             .iter()
             .find(|it| it.kind == MilestoneKind::DoorOpened);
-        let fixed = scene.geometry.as_ref().map(Geometry::spheres);
+        let fixed = scene.dem.geometry.as_ref().map(Geometry::spheres);
         let tank = scene.tank.as_ref();
         Self {
             fixed: fixed.unwrap_or_default(),
@@ -55,7 +55,7 @@ impl Scenery {
     /// The same if flat pictures tell everything of that scene, or more than others do: discs, or
     /// fixed spheres.
     pub fn if_flat(scene: &Scene, milestones: &[Milestone]) -> Option<Self> {
-        let is_flat = scene.spheres.shape == Shape::Disc || scene.geometry.is_some();
+        let is_flat = scene.spheres.shape == Shape::Disc || scene.dem.geometry.is_some();
         is_flat.then(|| Self::new(scene, milestones))
     }
 

@@ -1,24 +1,101 @@
 //! The identity of a run: a hash of everything that determines its motion.
 
-use super::{Neighbours, Output, Scene};
+use super::{Contact, Door, Friction, Geometry, Outlet, Rest};
+use super::{DemScene, Effects, Guards, Neighbours, Output, Scene, Spheres, Start, Tank, Time};
+use serde::Serialize;
+
+/// What determines the motion, in the order of keys that every identity is made of. Random numbers
+/// derive from it: another order would be another motion.
+#[derive(Serialize)]
+struct Motion<'a> {
+    seed: u64,
+    spheres: &'a Spheres,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contact: &'a Option<Contact>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    friction: &'a Option<Friction>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tank: &'a Option<Tank>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    geometry: &'a Option<Geometry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    door: &'a Option<Door>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rest: &'a Option<Rest>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    outlet: &'a Option<Outlet>,
+    start: &'a Start,
+    #[serde(flatten)]
+    effects: &'a Effects,
+    time: &'a Time,
+    guards: &'a Guards,
+    /// As by default.
+    output: Output,
+}
 
 impl Scene {
     /// Sixteen hexadecimal digits that stand for everything which determines the motion: all keys
     /// but `title`, `neighbours` and `output`. Runs of equal identity have equal bits, and every
     /// random number of a run derives from it.
     pub fn identity(&self) -> String {
-        let scene = Scene {
-            title: None,
-            neighbours: Neighbours::default(),
-            output: Output::default(),
-            ..self.clone()
-        };
-        // Field order is that of the struct and numbers are written shortest-round-trip, so
-        // the text is canonical. It goes to the hash as it is written: a start of a million spheres
-        // would make a long one.
+        // Numbers are written shortest-round-trip, so the text is canonical. It goes to the hash
+        // as it is written: a start of a million spheres would make a long one.
         let mut hasher = blake3::Hasher::new();
-        serde_json::to_writer(&mut hasher, &scene).expect("a scene holds no map with odd keys");
+        serde_json::to_writer(&mut hasher, &self.motion())
+            .expect("a scene holds no map with odd keys");
         hasher.finalize().to_hex()[..16].to_owned()
+    }
+
+    fn motion(&self) -> Motion<'_> {
+        let Self {
+            title: _,
+            seed,
+            spheres,
+            tank,
+            start,
+            dem,
+            time,
+            output: _,
+        } = self;
+        let DemScene {
+            contact,
+            friction,
+            geometry,
+            door,
+            rest,
+            outlet,
+            effects,
+            neighbours: _,
+            guards,
+        } = dem;
+        Motion {
+            seed: *seed,
+            spheres,
+            contact,
+            friction,
+            tank,
+            geometry,
+            door,
+            rest,
+            outlet,
+            start,
+            effects,
+            time,
+            guards,
+            output: Output::default(),
+        }
+    }
+
+    /// The scene without what changes nothing in its record but itself.
+    pub(crate) fn without_names(self) -> Self {
+        Self {
+            title: None,
+            dem: DemScene {
+                neighbours: Neighbours::default(),
+                ..self.dem
+            },
+            ..self
+        }
     }
 
     /// The random stream of this run that serves one `purpose`. Streams of different

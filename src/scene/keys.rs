@@ -269,7 +269,7 @@ mod tests {
         assert_eq!(unit(&scene, "spheres.density"), "kg/m³");
         scene.spheres.shape = crate::scene::Shape::Disc;
         assert_eq!(unit(&scene, "spheres.density"), "kg/m²");
-        scene.contact = Some(crate::scene::Contact::Silbert {
+        scene.dem.contact = Some(crate::scene::Contact::Silbert {
             stiffness: 1e6,
             damping: 1.0,
         });

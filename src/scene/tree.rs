@@ -1,7 +1,8 @@
 //! Scenes as trees of values. Texts are read by way of these, files and records alike, so that what
 //! reads scenes is compiled once and not for each way a text comes.
 
-use super::Scene;
+use super::{SCENE, Scene};
+use crate::document::kind::Kind;
 use serde::de::{Deserialize, Deserializer, Error};
 use serde_json::Value;
 
@@ -12,12 +13,43 @@ impl Scene {
 
     /// The scene that a text in JSON describes, as records and checkpoints keep it.
     pub(crate) fn from_json(text: &str) -> Result<Self, serde_json::Error> {
-        serde_json::from_str(text).and_then(serde_json::from_value)
+        serde_json::from_str(text).and_then(Self::from_tree)
     }
 
     /// For serde: a scene within something larger.
     pub(crate) fn by_tree<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let tree = Value::deserialize(deserializer)?;
-        serde_json::from_value(tree).map_err(D::Error::custom)
+        Self::from_tree(tree).map_err(D::Error::custom)
+    }
+
+    /// Refuses keys that no scene has, as another version of the program may: serde passes over
+    /// them where structs share a table.
+    fn from_tree(tree: Value) -> Result<Self, serde_json::Error> {
+        if let (Kind::Table(scene), Some(keys)) = (&SCENE.kind, tree.as_object()) {
+            let is_known = |name: &String| scene.keys.iter().any(|key| key.name == *name);
+            if let Some(name) = keys.keys().find(|name| !is_known(name)) {
+                return Err(Error::custom(format!("unknown key `{name}`")));
+            }
+        }
+        serde_json::from_value(tree)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn a_kept_scene_with_a_key_of_another_version_is_refused() {
+        let mut tree = json!({
+            "spheres": { "count": 1, "radius": 0.004, "density": 1e3 },
+            "start": { "kind": "list", "spheres": [{ "position": [0.0, 0.0, 0.0] }] },
+            "time": { "dt": 1e-5, "duration": 1e-3, "frame_interval": 1e-3 },
+        });
+        assert!(Scene::from_json(&tree.to_string()).is_ok());
+        tree["magnetism"] = json!({ "strength": 1.0 });
+        let error = Scene::from_json(&tree.to_string()).unwrap_err();
+        assert!(error.to_string().contains("magnetism"), "{error}");
     }
 }

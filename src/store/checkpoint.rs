@@ -20,7 +20,7 @@ use super::hashed::Hashed;
 use crate::document::differing_keys;
 use crate::record::Program;
 use crate::run::Run;
-use crate::scene::{LIST_KEY, Neighbours, Scene};
+use crate::scene::{LIST_KEY, Scene};
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::io::{self, BufWriter, Write};
@@ -206,8 +206,8 @@ fn find_state(
         return Err(CheckpointError::OtherProgram { path, found });
     }
     let saved = Scene::from_json(&header.scene).map_err(|_| damaged("its scene cannot be read"))?;
-    let expected = without_names(&scene.without_list());
-    let mut keys = differing_keys(&without_names(&saved), &expected);
+    let expected = scene.without_list().without_names();
+    let mut keys = differing_keys(&saved.without_names(), &expected);
     if header.list != hash_of_list(scene) {
         keys.push(LIST_KEY.to_owned());
     }
@@ -225,13 +225,4 @@ fn hash_of_list(scene: &Scene) -> String {
         serde_json::to_writer(&mut hasher, spheres).expect("a sphere holds no map");
     }
     hasher.finalize().to_hex().to_string()
-}
-
-/// The scene without what changes nothing in its record but itself.
-fn without_names(scene: &Scene) -> Scene {
-    Scene {
-        title: None,
-        neighbours: Neighbours::default(),
-        ..scene.clone()
-    }
 }

@@ -47,7 +47,12 @@ impl DumpName {
         Self {
             radius,
             density: scene.spheres.density,
-            omega: scene.swirl.as_ref().map_or(0.0, |swirl| swirl.omega),
+            omega: scene
+                .dem
+                .effects
+                .swirl
+                .as_ref()
+                .map_or(0.0, |swirl| swirl.omega),
             seed: scene.seed,
         }
     }
@@ -100,7 +105,7 @@ pub fn write_dump(record: &RunRecord, states: &[&Snapshot], path: &Path) -> Resu
 /// z), without what contacts store.
 fn values(record: &RunRecord, states: &[&Snapshot]) -> Array3<f64> {
     let count = record.radius.len();
-    let gravity = record.scene.gravity.as_ref();
+    let gravity = record.scene.dem.effects.gravity.as_ref();
     let inertia_factor = record.scene.spheres.shape.inertia_factor();
     let whole = record.scene.time.frames() as usize + 1;
     let (rows, broken) = match &record.outcome {

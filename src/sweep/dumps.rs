@@ -115,7 +115,7 @@ fn scene_of(path: &Path, base: &Scene) -> Result<(Scene, DumpName), String> {
     }
     scene.spheres.density = name.density;
     scene.seed = name.seed;
-    match &mut scene.swirl {
+    match &mut scene.dem.effects.swirl {
         Some(swirl) => swirl.omega = name.omega,
         None if name.omega == 0.0 => {}
         None => {

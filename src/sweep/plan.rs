@@ -2,7 +2,7 @@
 
 use super::{Folder, Job, differing_keys, work};
 use crate::record::{Outcome, Program};
-use crate::scene::{LIST_KEY, Neighbours, Output, Scene};
+use crate::scene::{LIST_KEY, Output, Scene};
 use crate::store::{self, StoreError};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -149,10 +149,8 @@ fn standing(job: &Job, path: &Path) -> Standing {
 /// Keys in which two scenes differ that change the motion.
 fn differing_keys_of_motion(a: &Scene, b: &Scene) -> Vec<String> {
     let motion = |scene: &Scene| Scene {
-        title: None,
-        neighbours: Neighbours::default(),
         output: Output::default(),
-        ..scene.without_list()
+        ..scene.without_list().without_names()
     };
     let mut keys = differing_keys(&motion(a), &motion(b));
     // Two lists compared as such: trees of values would take kilobytes for each sphere.

@@ -137,7 +137,7 @@ mod tests {
         };
         let job = |&value: &f64| {
             let mut scene = scene.clone();
-            scene.gravity.as_mut().unwrap().acceleration = value;
+            scene.dem.effects.gravity.as_mut().unwrap().acceleration = value;
             Job {
                 id: scene.identity(),
                 values: vec![value],

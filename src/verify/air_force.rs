@@ -1,10 +1,10 @@
 //! Forces of the air on spheres at given places.
 
-use super::bench::Bench;
+use super::bench::{Bench, unguarded};
 use super::{Family, Measured, VerifyError, numbered};
 use crate::dem::Simulation;
 use crate::dem::vector::Vector;
-use crate::scene::{Drag, Scene, StartSphere, Swirl, Updraught};
+use crate::scene::{DemScene, Drag, Effects, Scene, StartSphere, Swirl, Updraught};
 use serde::Deserialize;
 
 /// Spheres that nothing but the air acts on; the forces on them at the start are measured. Air
@@ -36,9 +36,15 @@ impl Family for AirForce {
 
     fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
         let scene = Scene {
-            drag: Some(self.drag.clone()),
-            swirl: self.swirl.clone(),
-            updraught: self.updraught.clone(),
+            dem: DemScene {
+                effects: Effects {
+                    drag: Some(self.drag.clone()),
+                    swirl: self.swirl.clone(),
+                    updraught: self.updraught.clone(),
+                    ..Effects::default()
+                },
+                ..unguarded()
+            },
             ..bench.scene(DENSITY, self.radius, self.spheres.clone(), DT)
         };
         let mut simulation = Simulation::new(&scene)?;

@@ -5,8 +5,8 @@ use crate::dem::timestep::Impact;
 use crate::dem::vector::Vector;
 use crate::dem::{Particles, Simulation};
 use crate::scene::{
-    Contact, Gravity, Guards, Integrator, Radii, Scene, Shape, Spheres, Start, StartSphere, Tank,
-    Time,
+    Contact, DemScene, Effects, Gravity, Guards, Integrator, Radii, Scene, Shape, Spheres, Start,
+    StartSphere, Tank, Time,
 };
 use serde::Deserialize;
 
@@ -227,10 +227,7 @@ impl Bench {
             integrator: self.integrator,
         };
         Scene {
-            guards: Guards {
-                displacement: f64::MAX,
-                ..Guards::default()
-            },
+            dem: unguarded(),
             ..Scene::new(spheres, Start::list(list), time)
         }
     }
@@ -293,16 +290,27 @@ impl Bench {
         let bare = Scene {
             time,
             start: Start::list(particles.position.iter().map(centre).collect()),
-            friction: None,
-            gravity: None,
-            drag: None,
-            swirl: None,
-            updraught: None,
+            dem: DemScene {
+                friction: None,
+                effects: Effects::default(),
+                ..scene.dem.clone()
+            },
             ..scene.clone()
         };
         let mut simulation = Simulation::new(&bare)?;
         self.advance(&mut simulation, 1)?;
         let forces = &simulation.particles().force;
         Ok(forces.iter().fold(Vector::ZERO, |sum, &force| sum + force))
+    }
+}
+
+/// Nothing that acts on spheres, and no guard on how far they move in a step.
+pub(super) fn unguarded() -> DemScene {
+    DemScene {
+        guards: Guards {
+            displacement: f64::MAX,
+            ..Guards::default()
+        },
+        ..DemScene::default()
     }
 }

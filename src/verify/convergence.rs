@@ -3,7 +3,7 @@
 use super::bench::Bench;
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
-use crate::scene::{Guards, Scene, Time};
+use crate::scene::{DemScene, Guards, Scene, Time};
 use serde::Deserialize;
 
 /// A scene, run with its time step, a half and a quarter of it. Where the motion is smooth, the
@@ -40,9 +40,12 @@ impl Convergence {
                 integrator: bench.integrator(),
                 ..self.scene.time.clone()
             },
-            guards: Guards {
-                displacement: f64::MAX,
-                ..Guards::default()
+            dem: DemScene {
+                guards: Guards {
+                    displacement: f64::MAX,
+                    ..Guards::default()
+                },
+                ..self.scene.dem.clone()
             },
             ..(*self.scene).clone()
         };

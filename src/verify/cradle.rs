@@ -1,9 +1,9 @@
 //! Newton's cradle: spheres in a row, hit by the first of them.
 
-use super::bench::{Bench, Material, moving};
+use super::bench::{Bench, Material, moving, unguarded};
 use super::{Family, Measured, VerifyError, numbered};
 use crate::dem::{Particles, Simulation};
-use crate::scene::Scene;
+use crate::scene::{DemScene, Scene};
 use serde::Deserialize;
 
 /// Spheres in a row, of which the first ones come with one speed and the others are at rest.
@@ -53,7 +53,10 @@ impl Family for Cradle {
         };
         let spheres = (0..self.count).map(row).collect();
         let scene = Scene {
-            contact: Some(self.material.contact()),
+            dem: DemScene {
+                contact: Some(self.material.contact()),
+                ..unguarded()
+            },
             ..bench.scene(self.material.density, self.radius, spheres, dt)
         };
         let mut simulation = Simulation::new(&scene)?;

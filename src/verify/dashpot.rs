@@ -4,7 +4,7 @@ use super::bench::{Bench, moving, reduced};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
 use crate::dem::timestep::LinearImpact;
-use crate::scene::{Contact, ContactDrag, FixedSphere, Geometry, Scene, Shape, Spheres};
+use crate::scene::{Contact, ContactDrag, DemScene, FixedSphere, Geometry, Scene, Shape, Spheres};
 use serde::Deserialize;
 
 /// Two discs, or a disc and a fixed one, hit each other head-on.
@@ -101,12 +101,15 @@ impl Dashpot {
                 shape: Shape::Disc,
                 ..scene.spheres
             },
-            contact: Some(Contact::Linear {
-                stiffness: self.stiffness,
-                damping: self.damping,
-                drag: self.drag,
-            }),
-            geometry,
+            dem: DemScene {
+                contact: Some(Contact::Linear {
+                    stiffness: self.stiffness,
+                    damping: self.damping,
+                    drag: self.drag,
+                }),
+                geometry,
+                ..scene.dem
+            },
             ..scene
         }
     }

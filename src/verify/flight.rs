@@ -1,9 +1,9 @@
 //! A single sphere in air and gravity.
 
-use super::bench::{Bench, moving};
+use super::bench::{Bench, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
-use crate::scene::{Drag, Gravity, Scene, Swirl, Updraught};
+use crate::scene::{DemScene, Drag, Effects, Gravity, Scene, Swirl, Updraught};
 use serde::Deserialize;
 
 /// A single sphere in air and gravity, without walls. Air tables are those of a scene.
@@ -43,10 +43,16 @@ impl Family for Flight {
     fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
         let sphere = moving(self.position, self.velocity);
         let scene = Scene {
-            gravity: self.gravity.clone(),
-            drag: self.drag.clone(),
-            swirl: self.swirl.clone(),
-            updraught: self.updraught.clone(),
+            dem: DemScene {
+                effects: Effects {
+                    gravity: self.gravity.clone(),
+                    drag: self.drag.clone(),
+                    swirl: self.swirl.clone(),
+                    updraught: self.updraught.clone(),
+                    ..Effects::default()
+                },
+                ..unguarded()
+            },
             ..bench.scene(self.density, self.radius, vec![sphere], self.dt)
         };
         let mut simulation = Simulation::new(&scene)?;

@@ -1,9 +1,9 @@
 //! An elastic gas in the tank.
 
-use super::bench::{Bench, Material, downward};
+use super::bench::{Bench, Material, downward, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
-use crate::scene::{Scene, Spheres, Start, Tank};
+use crate::scene::{DemScene, Effects, Scene, Spheres, Start, Tank};
 use serde::Deserialize;
 
 /// Elastic spheres that bounce on one another and on the tank's walls, held by gravity.
@@ -52,13 +52,19 @@ impl Gas {
     /// Root mean square deviation of the energy from its first value, over that value.
     fn energy_drift(&self, dt: f64, bench: &mut Bench) -> Result<f64, VerifyError> {
         let scene = Scene {
-            contact: Some(self.material.contact()),
             tank: Some(Tank {
                 radius: Some(self.tank_radius),
                 floor: Some(0.0),
                 ..Tank::default()
             }),
-            gravity: Some(downward(self.gravity)),
+            dem: DemScene {
+                contact: Some(self.material.contact()),
+                effects: Effects {
+                    gravity: Some(downward(self.gravity)),
+                    ..Effects::default()
+                },
+                ..unguarded()
+            },
             ..bench.scene(self.material.density, self.radius, Vec::new(), dt)
         };
         let scene = Scene {

@@ -1,10 +1,10 @@
 //! A sphere hits a sphere or a wall, head-on or obliquely, with or without spin.
 
-use super::bench::{Bench, Material, floor, moving, reduced};
+use super::bench::{Bench, Material, floor, moving, reduced, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::vector::Vector;
 use crate::dem::{Particles, Simulation, timestep};
-use crate::scene::{Contact, Friction, Scene, StartSphere, Tank};
+use crate::scene::{Contact, DemScene, Friction, Scene, StartSphere, Tank};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -262,9 +262,12 @@ impl Impact {
             }
         }
         Scene {
-            contact: Some(self.contact(material)),
-            friction: self.friction.clone(),
             tank,
+            dem: DemScene {
+                contact: Some(self.contact(material)),
+                friction: self.friction.clone(),
+                ..unguarded()
+            },
             ..bench.scene(material.density, self.radius, spheres, dt)
         }
     }

@@ -1,9 +1,9 @@
 //! A sphere rolls or slides down an incline.
 
-use super::bench::{AnyMaterial, Bench, at, floor};
+use super::bench::{AnyMaterial, Bench, at, floor, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
-use crate::scene::{Friction, Gravity, Scene};
+use crate::scene::{DemScene, Effects, Friction, Gravity, Scene};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -35,13 +35,19 @@ impl Family for Incline {
         let weight = self.material.mass(self.radius) * self.gravity * libm::cos(tilt);
         let rest = self.material.overlap(self.radius, weight);
         let scene = Scene {
-            contact: Some(self.material.contact()),
-            friction: Some(self.friction.clone()),
-            gravity: Some(Gravity {
-                acceleration: self.gravity,
-                tilt,
-            }),
             tank: Some(floor()),
+            dem: DemScene {
+                contact: Some(self.material.contact()),
+                friction: Some(self.friction.clone()),
+                effects: Effects {
+                    gravity: Some(Gravity {
+                        acceleration: self.gravity,
+                        tilt,
+                    }),
+                    ..Effects::default()
+                },
+                ..unguarded()
+            },
             ..bench.scene(
                 self.material.density(),
                 self.radius,

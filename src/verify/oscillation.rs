@@ -1,9 +1,9 @@
 //! A sphere on the floor swings about its rest.
 
-use super::bench::{AnyMaterial, Bench, downward, floor, moving};
+use super::bench::{AnyMaterial, Bench, downward, floor, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
-use crate::scene::{Friction, Scene};
+use crate::scene::{DemScene, Effects, Friction, Scene};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -55,10 +55,16 @@ impl Family for Oscillation {
         };
         let sphere = moving([0.0, 0.0, self.radius - rest], velocity);
         let scene = Scene {
-            contact: Some(self.material.contact()),
-            friction: self.friction.clone(),
-            gravity: Some(downward(self.gravity)),
             tank: Some(floor()),
+            dem: DemScene {
+                contact: Some(self.material.contact()),
+                friction: self.friction.clone(),
+                effects: Effects {
+                    gravity: Some(downward(self.gravity)),
+                    ..Effects::default()
+                },
+                ..unguarded()
+            },
             ..bench.scene(self.material.density(), self.radius, vec![sphere], self.dt)
         };
         let mut simulation = Simulation::new(&scene)?;

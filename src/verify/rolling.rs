@@ -1,9 +1,9 @@
 //! A sphere slides on the floor until it rolls.
 
-use super::bench::{AnyMaterial, Bench, downward, floor, moving};
+use super::bench::{AnyMaterial, Bench, downward, floor, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::{Particles, Simulation};
-use crate::scene::{Friction, Scene, StartSphere};
+use crate::scene::{DemScene, Effects, Friction, Scene, StartSphere};
 use serde::Deserialize;
 
 /// A sphere slides along x on the floor, pressed by its weight, until it rolls.
@@ -103,10 +103,16 @@ impl Rolling {
             ..moving([0.0, 0.0, height], [self.speed, 0.0, 0.0])
         };
         Scene {
-            contact: Some(self.material.contact()),
-            friction: Some(self.friction.clone()),
-            gravity: Some(downward(self.gravity)),
             tank: Some(floor()),
+            dem: DemScene {
+                contact: Some(self.material.contact()),
+                friction: Some(self.friction.clone()),
+                effects: Effects {
+                    gravity: Some(downward(self.gravity)),
+                    ..Effects::default()
+                },
+                ..unguarded()
+            },
             ..bench.scene(self.material.density(), self.radius, vec![sphere], self.dt)
         }
     }

@@ -1,10 +1,10 @@
 //! A sphere hits another one, or what does not move, head-on under the Hertz contact of Silbert et
 //! al.
 
-use super::bench::{Bench, SilbertMaterial, moving};
+use super::bench::{Bench, SilbertMaterial, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
-use crate::scene::{FixedSphere, Geometry, Scene, Tank};
+use crate::scene::{DemScene, FixedSphere, Geometry, Scene, Tank};
 use serde::Deserialize;
 
 /// A sphere hits another one, or what does not move, head-on.
@@ -123,9 +123,12 @@ impl SilbertImpact {
             }
         }
         Scene {
-            contact: Some(self.material.contact()),
-            geometry,
             tank,
+            dem: DemScene {
+                contact: Some(self.material.contact()),
+                geometry,
+                ..unguarded()
+            },
             ..bench.scene(self.material.density, self.radius, spheres, dt)
         }
     }

@@ -1,9 +1,9 @@
 //! Spheres at rest upon each other.
 
-use super::bench::{Bench, Material, at, downward, floor};
+use super::bench::{Bench, Material, at, downward, floor, unguarded};
 use super::{Family, Measured, VerifyError, named, numbered};
 use crate::dem::Simulation;
-use crate::scene::Scene;
+use crate::scene::{DemScene, Effects, Scene};
 use serde::Deserialize;
 
 /// A column of equal spheres on the floor, let go where they just touch.
@@ -33,9 +33,15 @@ impl Family for Stack {
         let height = |i: usize| (2 * i + 1) as f64 * self.radius;
         let spheres = (0..self.count).map(|i| at([0.0, 0.0, height(i)])).collect();
         let scene = Scene {
-            contact: Some(self.material.contact()),
-            gravity: Some(downward(self.gravity)),
             tank: Some(floor()),
+            dem: DemScene {
+                contact: Some(self.material.contact()),
+                effects: Effects {
+                    gravity: Some(downward(self.gravity)),
+                    ..Effects::default()
+                },
+                ..unguarded()
+            },
             ..bench.scene(self.material.density, self.radius, spheres, self.dt)
         };
         let mut simulation = Simulation::new(&scene)?;

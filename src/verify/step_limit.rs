@@ -1,9 +1,9 @@
 //! Limits of the time step, in closed form.
 
-use super::bench::{Bench, Material, moving};
+use super::bench::{Bench, Material, moving, unguarded};
 use super::{Family, Measured, VerifyError};
 use crate::dem::timestep;
-use crate::scene::Scene;
+use crate::scene::{DemScene, Scene};
 use serde::Deserialize;
 
 /// What limits the time step of two spheres that collide; nothing is simulated. The quantities bear
@@ -30,7 +30,10 @@ impl Family for StepLimit {
         };
         let spheres = vec![side(-1.0), side(1.0)];
         let scene = Scene {
-            contact: Some(self.material.contact()),
+            dem: DemScene {
+                contact: Some(self.material.contact()),
+                ..unguarded()
+            },
             ..bench.scene(self.material.density, self.radius, spheres, 1.0)
         };
         let limits = timestep::limits(&scene).into_iter();

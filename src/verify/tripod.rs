@@ -1,11 +1,11 @@
 //! A sphere at rest on three others in a cylinder.
 
-use super::bench::{Bench, Material, at, downward};
+use super::bench::{Bench, Material, at, downward, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
 use crate::dem::contact::{Hertz, NormalLaw};
 use crate::dem::vector::Vector;
-use crate::scene::{Scene, Tank};
+use crate::scene::{DemScene, Effects, Scene, Tank};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -46,13 +46,19 @@ impl Family for Tripod {
         let mut spheres: Vec<_> = (0..3).map(foot).collect();
         spheres.push(at([0.0, 0.0, self.radius + rise]));
         let scene = Scene {
-            contact: Some(self.material.contact()),
-            gravity: Some(downward(self.gravity)),
             tank: Some(Tank {
                 radius: Some(distance + self.radius),
                 floor: Some(0.0),
                 ..Tank::default()
             }),
+            dem: DemScene {
+                contact: Some(self.material.contact()),
+                effects: Effects {
+                    gravity: Some(downward(self.gravity)),
+                    ..Effects::default()
+                },
+                ..unguarded()
+            },
             ..bench.scene(self.material.density, self.radius, spheres, self.dt)
         };
         let mut simulation = Simulation::new(&scene)?;

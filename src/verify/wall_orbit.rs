@@ -1,10 +1,10 @@
 //! A sphere that turning air drives along the cylinder.
 
-use super::bench::{Bench, Material, at};
+use super::bench::{Bench, Material, at, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
 use crate::dem::vector::Vector;
-use crate::scene::{Drag, DragForm, DragLaw, Scene, Swirl, Tank};
+use crate::scene::{DemScene, Drag, DragForm, DragLaw, Effects, Scene, Swirl, Tank};
 use serde::Deserialize;
 
 /// A sphere at the frictionless cylinder, brought by turning air to the air's rotation.
@@ -33,18 +33,24 @@ impl Family for WallOrbit {
 
     fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
         let scene = Scene {
-            contact: Some(self.material.contact()),
             tank: Some(Tank {
                 radius: Some(self.tank_radius),
                 ..Tank::default()
             }),
-            drag: Some(Drag {
-                linear: self.drag_rate * self.material.mass(self.radius),
-                quadratic: 0.0,
-                law: DragLaw::Constant,
-                form: DragForm::Vector,
-            }),
-            swirl: Some(Swirl { omega: self.omega }),
+            dem: DemScene {
+                contact: Some(self.material.contact()),
+                effects: Effects {
+                    drag: Some(Drag {
+                        linear: self.drag_rate * self.material.mass(self.radius),
+                        quadratic: 0.0,
+                        law: DragLaw::Constant,
+                        form: DragForm::Vector,
+                    }),
+                    swirl: Some(Swirl { omega: self.omega }),
+                    ..Effects::default()
+                },
+                ..unguarded()
+            },
             ..bench.scene(
                 self.material.density,
                 self.radius,

@@ -5,7 +5,7 @@ use crate::support::Workplace;
 use phase::observe::Snapshot;
 use phase::plot;
 use phase::record::{Outcome, RunRecord};
-use phase::scene::{self, Contact, Friction, Scene};
+use phase::scene::{self, Contact, DemScene, Friction, Scene};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -39,7 +39,10 @@ fn load(name: &str) -> Scene {
 
 fn with(scene: &Scene, friction: impl Into<Option<Friction>>) -> Scene {
     Scene {
-        friction: friction.into(),
+        dem: DemScene {
+            friction: friction.into(),
+            ..scene.dem.clone()
+        },
         ..scene.clone()
     }
 }
@@ -97,7 +100,7 @@ fn energy(record: &RunRecord, snapshot: &Snapshot) -> f64 {
 #[test]
 fn figure_6_parallel_spins_deflect() {
     let scene = load("parallel-spins");
-    assert_eq!(scene.friction, Some(SPIN));
+    assert_eq!(scene.dem.friction, Some(SPIN));
     let (coefficient, restitution, speed) = (0.3, 0.9, 2.0_f64.sqrt());
     let [coulomb, mindlin] = lawful(coefficient);
     for law in [SPIN, coulomb, mindlin] {
@@ -135,7 +138,7 @@ fn figure_6_parallel_spins_deflect() {
 #[test]
 fn opposite_spins_bounce_straight() {
     let scene = load("counter-spins");
-    assert_eq!(scene.friction, Some(SPIN));
+    assert_eq!(scene.dem.friction, Some(SPIN));
     let [coulomb, mindlin] = lawful(0.3);
     for law in [SPIN, coulomb, mindlin] {
         let record = run(&with(&scene, law));
@@ -217,7 +220,7 @@ fn ends_along_the_wall(record: &RunRecord, speed: f64) {
 #[test]
 fn figure_8_left_a_sphere_without_spin_keeps_its_speed_along_the_wall() {
     let scene = load("wall-without-spin");
-    assert_eq!(scene.friction, None);
+    assert_eq!(scene.dem.friction, None);
     let record = run(&scene);
     let first = angular_momentum(&record, &record.trajectory[0]);
     for snapshot in &record.trajectory {
@@ -229,7 +232,7 @@ fn figure_8_left_a_sphere_without_spin_keeps_its_speed_along_the_wall() {
 #[test]
 fn figure_8_right_a_sphere_with_spin_ends_rolling_along_the_wall() {
     let scene = load("wall-with-spin");
-    let Some(Friction::Mindlin { coefficient }) = scene.friction else {
+    let Some(Friction::Mindlin { coefficient }) = scene.dem.friction else {
         panic!("a law that knows sliding")
     };
     for law in lawful(coefficient) {
@@ -328,7 +331,7 @@ fn figure_10_a_dissipating_cradle_is_not_perfect() {
     let mut scene = load("cradle");
     let Some(Contact::Hertz {
         dissipation_time, ..
-    }) = &mut scene.contact
+    }) = &mut scene.dem.contact
     else {
         panic!("contacts")
     };

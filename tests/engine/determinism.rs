@@ -21,7 +21,7 @@ fn run(scene: &Scene, steps: u64) -> State {
 
 /// The tank without its updraught, whose shield needs a list of its own kind.
 fn without_shield(mut scene: Scene) -> Scene {
-    scene.updraught = None;
+    scene.dem.effects.updraught = None;
     scene
 }
 
@@ -49,7 +49,7 @@ fn bits_do_not_depend_on_the_neighbour_list() {
             assert!(
                 state(&simulation).bits() == expected,
                 "{:?} with a skin of {skin} radii",
-                scene.friction
+                scene.dem.friction
             );
         }
     }
@@ -71,7 +71,7 @@ fn bits_do_not_depend_on_being_watched() {
         assert!(
             state(&watched).bits() == run(&scene, STEPS).bits(),
             "{:?}",
-            scene.friction
+            scene.dem.friction
         );
     }
 }
@@ -105,7 +105,7 @@ fn bits_do_not_depend_on_the_instruction_set() {
         assert!(
             state(&plain).bits() == run(&scene, STEPS).bits(),
             "{:?}",
-            scene.friction
+            scene.dem.friction
         );
     }
 }
@@ -208,7 +208,7 @@ fn who_grows_too_fast_is_named_with_the_same_step_however_a_run_is_cut() {
             [0.0, 0.0, -390.0 - 0.27 * f64::from(excess)],
         );
         let mut scene = cluster(vec![still.clone(), fast], None, 1e-5);
-        scene.gravity = Some(toml::from_str("acceleration = 2e4").unwrap());
+        scene.dem.effects.gravity = Some(toml::from_str("acceleration = 2e4").unwrap());
         for integrator in INTEGRATORS {
             scene.time.integrator = integrator;
             let mut simulation = Simulation::new(&scene).unwrap();
@@ -234,9 +234,9 @@ fn a_sphere_that_leaves_breaks_the_bounds() {
     let leaving = sphere([0.0, 0.0, 0.1], [0.0, 10.0, 0.0]);
     for contact in [true, false] {
         let mut scene = cluster(vec![still.clone(), leaving.clone()], None, 1e-5);
-        scene.guards.horizontal = Some(0.05);
+        scene.dem.guards.horizontal = Some(0.05);
         if !contact {
-            scene.contact = None;
+            scene.dem.contact = None;
         }
         // Found when the list is built, or when the run stops to look.
         assert_broken(&scene, Guard::OutOfBounds, 1, 500..=10_000);
@@ -248,9 +248,9 @@ fn what_is_not_a_number_is_named_at_once() {
     let still = sphere([0.0; 3], [0.0; 3]);
     let low = sphere([0.0, 0.1, -1.0], [0.0; 3]);
     let mut scene = cluster(vec![still, low], None, 1e-5);
-    scene.drag = toml::from_str("law = \"constant\"\nlinear = 1e-3").unwrap();
+    scene.dem.effects.drag = toml::from_str("law = \"constant\"\nlinear = 1e-3").unwrap();
     // Without strength, but the exponential so far below its origin is infinite.
-    scene.updraught =
+    scene.dem.effects.updraught =
         toml::from_str("speed = 1.0\nstrength = 0.0\ndecay = 1e6\norigin = 0.0\nalpha = 0.5")
             .unwrap();
     assert_eq!(scene.problems().len(), 0);
@@ -265,7 +265,7 @@ fn a_spin_that_grows_without_end_is_reported() {
     let mut spinning = sphere([0.0, 0.1, 0.0], [0.0; 3]);
     spinning.spin = [0.0, 0.0, 1.0];
     let mut scene = cluster(vec![still, spinning], frictions()[3].clone(), 1e-5);
-    scene.spin_damping = Some(phase::scene::SpinDamping { coefficient: 0.01 });
+    scene.dem.effects.spin_damping = Some(phase::scene::SpinDamping { coefficient: 0.01 });
     scene.time.dt = 3.0 * timestep::largest_stable(&scene).unwrap().seconds;
     assert_broken(&scene, Guard::NotANumber, 1, 500..=10_000);
 }
@@ -280,7 +280,7 @@ fn spin_damping_without_friction_does_nothing() {
     ];
     let mut scene = cluster(spheres, None, 1e-5);
     let expected = run(&scene, STEPS).bits();
-    scene.spin_damping = Some(phase::scene::SpinDamping { coefficient: 1e-6 });
+    scene.dem.effects.spin_damping = Some(phase::scene::SpinDamping { coefficient: 1e-6 });
     assert!(run(&scene, STEPS).bits() == expected);
 }
 
@@ -359,18 +359,20 @@ fn odd_scene() -> impl Strategy<Value = Scene> {
                 floor: floor.then_some(number),
                 ..phase::scene::Tank::default()
             });
-            scene.gravity = gravity.then(|| toml::from_str("acceleration = 0.0").unwrap());
-            if let Some(gravity) = &mut scene.gravity {
+            scene.dem.effects.gravity =
+                gravity.then(|| toml::from_str("acceleration = 0.0").unwrap());
+            if let Some(gravity) = &mut scene.dem.effects.gravity {
                 gravity.acceleration = if loose { 0.0 } else { size[2] };
             }
             if air || lift {
-                scene.drag = toml::from_str("law = \"diameter\"\nlinear = 1e-3").unwrap();
-                if let Some(drag) = &mut scene.drag {
+                scene.dem.effects.drag =
+                    toml::from_str("law = \"diameter\"\nlinear = 1e-3").unwrap();
+                if let Some(drag) = &mut scene.dem.effects.drag {
                     drag.quadratic = size[3];
                 }
             }
-            scene.swirl = air.then_some(phase::scene::Swirl { omega: number });
-            scene.updraught = lift.then_some(phase::scene::Updraught {
+            scene.dem.effects.swirl = air.then_some(phase::scene::Swirl { omega: number });
+            scene.dem.effects.updraught = lift.then_some(phase::scene::Updraught {
                 reference_omega: None,
                 speed: number,
                 strength: size[4],
@@ -378,13 +380,13 @@ fn odd_scene() -> impl Strategy<Value = Scene> {
                 origin: number,
                 alpha: 0.5,
             });
-            scene.spin_damping = damping.then_some(phase::scene::SpinDamping {
+            scene.dem.effects.spin_damping = damping.then_some(phase::scene::SpinDamping {
                 coefficient: size[6],
             });
             scene.time.integrator = INTEGRATORS[usize::from(verlet)];
             if loose {
-                scene.guards.displacement = f64::MAX;
-                scene.guards.overlap = f64::MAX;
+                scene.dem.guards.displacement = f64::MAX;
+                scene.dem.guards.overlap = f64::MAX;
             }
             scene
         },

@@ -20,7 +20,7 @@ fn steel(spheres: Vec<StartSphere>, dissipation: f64, dt: f64) -> Scene {
     scene.time.dt = dt;
     if let Some(phase::scene::Contact::Hertz {
         dissipation_time, ..
-    }) = &mut scene.contact
+    }) = &mut scene.dem.contact
     {
         *dissipation_time = Some(dissipation);
     }
@@ -158,7 +158,7 @@ fn a_pile_rests_at_large_steps() {
         .map(|i| StartSphere::at([0.0, 0.0, 0.004 + f64::from(i) * 0.008]))
         .collect();
     let mut scene = steel(column, 1e-5, 1e-3);
-    scene.gravity = Some(phase::scene::Gravity {
+    scene.dem.effects.gravity = Some(phase::scene::Gravity {
         acceleration: 9.8,
         tilt: 0.0,
     });
@@ -215,7 +215,7 @@ fn adaptive_bits_depend_on_the_scene_alone() {
 #[test]
 fn without_a_contact_law_spheres_pass_through_walls() {
     let mut scene = steel(vec![sphere(0.0, 0.5), sphere(0.1, -0.5)], 0.0, 1e-3);
-    scene.contact = None;
+    scene.dem.contact = None;
     scene.tank = Some(phase::scene::Tank {
         radius: Some(0.05),
         floor: Some(0.1),
@@ -248,7 +248,7 @@ fn a_pressed_pair_that_parts_sees_a_third() {
             sphere(0.0159 + gap, 0.0),
         ];
         let mut scene = steel(row, 0.0, 1e-3);
-        if let Some(phase::scene::Contact::Hertz { young_modulus, .. }) = &mut scene.contact {
+        if let Some(phase::scene::Contact::Hertz { young_modulus, .. }) = &mut scene.dem.contact {
             *young_modulus = 1e7;
         }
         let fine = compare(&scene, 1e-6, 0.02);

@@ -99,7 +99,7 @@ proptest! {
             floor: (!cylinder).then_some(0.0),
             ..Tank::default()
         });
-        if let Some(Contact::Hertz { poisson_ratio: ratio, .. }) = &mut scene.contact {
+        if let Some(Contact::Hertz { poisson_ratio: ratio, .. }) = &mut scene.dem.contact {
             *ratio = poisson_ratio;
         }
         let mut simulation = Simulation::new(&scene).unwrap();
@@ -114,7 +114,11 @@ proptest! {
 fn a_damped_pile_under_gravity_loses_energy_from_frame_to_frame() {
     for friction in frictions().into_iter().skip(2) {
         let mut scene = tank(friction, Integrator::VelocityVerlet);
-        (scene.drag, scene.swirl, scene.updraught) = (None, None, None);
+        (
+            scene.dem.effects.drag,
+            scene.dem.effects.swirl,
+            scene.dem.effects.updraught,
+        ) = (None, None, None);
         let mut simulation = Simulation::new(&scene).unwrap();
         let first = energy(&mut simulation, 9.8);
         let mut last = first;
@@ -165,10 +169,10 @@ fn mirrored_scenes_mirror() {
     let axial = |v: Vector| Vector::new(-v.x, v.y, -v.z);
     for (scene, start, radius) in tanks() {
         let mut mirrored = going_on(&scene, &start.map(polar, axial), &radius);
-        mirrored.swirl.as_mut().unwrap().omega *= -1.0;
+        mirrored.dem.effects.swirl.as_mut().unwrap().omega *= -1.0;
         let expected = run(&scene, STEPS).map(polar, axial);
         let distance = run(&mirrored, STEPS).distance(&expected, 0.004);
-        assert!(distance < CLOSE, "{:?}: {distance}", scene.friction);
+        assert!(distance < CLOSE, "{:?}: {distance}", scene.dem.friction);
     }
 }
 
@@ -179,7 +183,7 @@ fn a_quarter_turn_about_the_axis_changes_nothing() {
         let turned = going_on(&scene, &start.map(turn, turn), &radius);
         let expected = run(&scene, STEPS).map(turn, turn);
         let distance = run(&turned, STEPS).distance(&expected, 0.004);
-        assert!(distance < CLOSE, "{:?}: {distance}", scene.friction);
+        assert!(distance < CLOSE, "{:?}: {distance}", scene.dem.friction);
     }
 }
 
@@ -194,12 +198,12 @@ fn a_turn_by_any_angle_about_the_axis_changes_nothing() {
     let turn = turned(1.0);
     for (mut scene, start, radius) in tanks() {
         // Quadratic drag by components knows the axes, and so does the shield.
-        scene.drag.as_mut().unwrap().form = DragForm::Vector;
-        scene.updraught = None;
+        scene.dem.effects.drag.as_mut().unwrap().form = DragForm::Vector;
+        scene.dem.effects.updraught = None;
         let end = run(&going_on(&scene, &start.map(turn, turn), &radius), STEPS);
         let expected = run(&going_on(&scene, &start, &radius), STEPS).map(turn, turn);
         let distance = end.distance(&expected, 0.004);
-        assert!(distance < CLOSE, "{:?}: {distance}", scene.friction);
+        assert!(distance < CLOSE, "{:?}: {distance}", scene.dem.friction);
     }
 }
 
@@ -240,7 +244,7 @@ proptest! {
         check(&other, &end.reordered(&order), "renumbered")?;
         let mut other = scene.clone();
         other.spheres.density *= 100.0;
-        if let Some(Contact::Hertz { young_modulus, .. }) = &mut other.contact {
+        if let Some(Contact::Hertz { young_modulus, .. }) = &mut other.dem.contact {
             *young_modulus *= 100.0;
         }
         check(&other, &end, "scaled")?;
@@ -256,7 +260,7 @@ fn numbers_of_the_spheres_do_not_matter() {
         let renumbered = going_on(&scene, &start.reordered(&order), &radius);
         let expected = run(&scene, STEPS).reordered(&order);
         let distance = run(&renumbered, STEPS).distance(&expected, 0.004);
-        assert!(distance < CLOSE, "{:?}: {distance}", scene.friction);
+        assert!(distance < CLOSE, "{:?}: {distance}", scene.dem.friction);
     }
 }
 
@@ -265,14 +269,14 @@ fn scaling_all_forces_and_masses_changes_nothing() {
     for (scene, start, radius) in tanks() {
         let mut scaled = going_on(&scene, &start, &radius);
         scaled.spheres.density *= 100.0;
-        if let Some(Contact::Hertz { young_modulus, .. }) = &mut scaled.contact {
+        if let Some(Contact::Hertz { young_modulus, .. }) = &mut scaled.dem.contact {
             *young_modulus *= 100.0;
         }
-        let drag = scaled.drag.as_mut().unwrap();
+        let drag = scaled.dem.effects.drag.as_mut().unwrap();
         drag.linear *= 100.0;
         drag.quadratic *= 100.0;
         let distance = run(&scaled, STEPS).distance(&run(&scene, STEPS), 0.004);
-        assert!(distance < CLOSE, "{:?}: {distance}", scene.friction);
+        assert!(distance < CLOSE, "{:?}: {distance}", scene.dem.friction);
     }
 }
 

@@ -18,8 +18,8 @@ const STEPS: u64 = 520;
 /// The small tank made larger, without its updraught, with spheres that mix.
 fn large(friction: Option<Friction>, integrator: Integrator) -> Scene {
     let mut scene = tank(friction, integrator);
-    scene.updraught = None;
-    scene.swirl.as_mut().unwrap().omega = 30.0;
+    scene.dem.effects.updraught = None;
+    scene.dem.effects.swirl.as_mut().unwrap().omega = 30.0;
     let tank = scene.tank.as_mut().unwrap();
     let factor = libm::cbrt(COUNT as f64 / scene.spheres.count as f64);
     tank.radius = tank.radius.map(|radius| radius * factor);
@@ -167,8 +167,11 @@ fn bits_do_not_depend_on_the_threads() {
 #[test]
 fn bits_do_not_depend_on_lists_or_on_being_watched() {
     let mut scene = large(mindlin(), Integrator::SymplecticEuler);
-    for updraught in [None, tank(None, Integrator::VelocityVerlet).updraught] {
-        scene.updraught = updraught;
+    for updraught in [
+        None,
+        tank(None, Integrator::VelocityVerlet).dem.effects.updraught,
+    ] {
+        scene.dem.effects.updraught = updraught;
         let mut expected = Simulation::new(&scene).unwrap();
         expected.advance(STEPS).unwrap();
         let mut other = Simulation::with_skin(&scene, 0.05).unwrap();

@@ -269,7 +269,7 @@ fn the_books_of_a_tank_close() {
 fn the_books_of_a_silo_close() {
     for integrator in INTEGRATORS {
         let mut silo = scene(&crate::support::silo_file(), integrator);
-        silo.friction = Some(Friction::CundallStrack {
+        silo.dem.friction = Some(Friction::CundallStrack {
             coefficient: 0.5,
             stiffness: 50.0,
             damping: 0.01,

@@ -35,7 +35,7 @@ fn published() -> LabelTable {
 fn run_of(scene: &str, radius: f64, omega: f64, seed: u64) -> RunRecord {
     let mut scene = scene::Scene::load(&shipped(&format!("sweeps/scenes/{scene}.toml"))).unwrap();
     scene.spheres.radius = Radii::One(radius);
-    scene.swirl.as_mut().unwrap().omega = omega;
+    scene.dem.effects.swirl.as_mut().unwrap().omega = omega;
     scene.seed = seed;
     run(&scene, &mut |_| ControlFlow::Continue(())).unwrap()
 }

@@ -66,8 +66,8 @@ fn what_a_scene_does_not_have_costs_nothing() {
         assert_eq!(whole.seconds(part.name()) == 0.0, absent, "{part:?}");
     }
     let mut scene = realistic(0.4);
-    scene.updraught = None;
-    scene.spin_damping = None;
+    scene.dem.effects.updraught = None;
+    scene.dem.effects.spin_damping = None;
     scene.tank.as_mut().unwrap().floor = None;
     scene.output.ledger = true;
     let cost = RunCost::measure(&scene, LONG).unwrap();
@@ -93,9 +93,9 @@ fn what_a_scene_does_not_have_costs_nothing() {
 #[test]
 fn spheres_without_forces_have_no_lists() {
     let mut scene = realistic(0.05);
-    scene.contact = None;
-    scene.friction = None;
-    scene.updraught = None;
+    scene.dem.contact = None;
+    scene.dem.friction = None;
+    scene.dem.effects.updraught = None;
     let cost = RunCost::measure(&scene, LONG).unwrap();
     for part in [Part::List, Part::Near, Part::Pairs, Part::Floor] {
         assert!(!part.is_in(&scene), "{part:?}");
@@ -187,7 +187,7 @@ fn a_few_jobs_stand_for_a_sweep() {
 #[test]
 fn a_run_that_becomes_unstable_is_named_and_its_record_counts_once() {
     let mut scene = realistic(5.0);
-    scene.guards.displacement = 1e-6;
+    scene.dem.guards.displacement = 1e-6;
     let cost = RunCost::measure(&scene, LONG).unwrap();
     assert!(matches!(cost.record.outcome, Outcome::Unstable(_)));
     for name in [START, RECORD] {

@@ -79,7 +79,7 @@ impl Model for WeightsModel {
             dt: scene.time.dt,
             steps_per_frame: scene.time.steps_per_frame(),
             step: 0,
-            stiffness: scene.gravity.as_ref().unwrap().acceleration,
+            stiffness: scene.dem.effects.gravity.as_ref().unwrap().acceleration,
             profile: None,
         }))
     }
@@ -261,7 +261,7 @@ fn its_checkpoints_keep_all_bits() {
 fn its_guard_ends_a_run() {
     let mut scene = scene();
     // Symplectic Euler is unstable from w dt = 2 on.
-    scene.gravity.as_mut().unwrap().acceleration = 4.1e6;
+    scene.dem.effects.gravity.as_mut().unwrap().acceleration = 4.1e6;
     let record = whole(&scene);
     let Outcome::Unstable(broken) = &record.outcome else {
         panic!("{:?}", record.outcome);

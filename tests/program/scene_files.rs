@@ -169,8 +169,8 @@ fn the_two_fillings_are_dealt_exactly() {
 fn steel_is_lifted_as_its_comment_says() {
     let scene = load_scene("sweeps/scenes/steel.toml");
     let (drag, air) = (
-        scene.drag.as_ref().unwrap(),
-        scene.updraught.as_ref().unwrap(),
+        scene.dem.effects.drag.as_ref().unwrap(),
+        scene.dem.effects.updraught.as_ref().unwrap(),
     );
     assert_eq!(
         (air.strength, Some(air.origin)),
@@ -210,7 +210,7 @@ fn the_first_axis_varies_slowest_and_seeds_fastest() {
     let scene = &jobs[2].scene;
     assert_eq!(scene.spheres.radius, Radii::One(0.005));
     assert_eq!(scene.spheres.density, 1000.0);
-    assert_eq!(scene.updraught.as_ref().unwrap().alpha, 0.1);
+    assert_eq!(scene.dem.effects.updraught.as_ref().unwrap().alpha, 0.1);
     assert_eq!((scene.seed, jobs[3].scene.seed), (3, 4));
     let ids: std::collections::HashSet<&str> = jobs.iter().map(|job| job.id.as_str()).collect();
     assert_eq!(ids.len(), jobs.len());

@@ -37,7 +37,7 @@ pub(crate) fn tank(friction: Option<Friction>, integrator: Integrator) -> Scene 
         "#,
     )
     .unwrap();
-    scene.friction = friction;
+    scene.dem.friction = friction;
     scene.time.integrator = integrator;
     scene
 }
@@ -55,7 +55,7 @@ pub(crate) fn cluster(spheres: Vec<StartSphere>, friction: Option<Friction>, dt:
     .unwrap();
     scene.spheres.count = spheres.len();
     scene.start = Start::list(spheres);
-    scene.friction = friction;
+    scene.dem.friction = friction;
     scene.time.dt = dt;
     scene
 }
@@ -127,7 +127,7 @@ pub(crate) fn energy(simulation: &mut Simulation, gravity: f64) -> f64 {
 pub(crate) fn damped(mut scene: Scene, time: f64) -> Scene {
     let Some(Contact::Hertz {
         dissipation_time, ..
-    }) = &mut scene.contact
+    }) = &mut scene.dem.contact
     else {
         panic!("a scene with contacts")
     };

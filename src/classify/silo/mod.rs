@@ -41,7 +41,7 @@ pub static SILO: Family = Family {
         SiloOrder::MEASURES,
     ],
     default_figures: &["phase", "discharge-rate"],
-    takes: |scene| scene.door.is_some() || scene.outlet.is_some(),
+    takes: |scene| scene.dem.door.is_some() || scene.dem.outlet.is_some(),
     check,
     // These sieves take what there is of a window.
     windows: |_| Vec::new(),
@@ -53,7 +53,7 @@ fn check(sieves: &Sieves, scene: &Scene) -> Result<(), ClassifyError> {
     sieves.emptied.check()?;
     sieves.arching.check(interval)?;
     sieves.flowing.check(interval)?;
-    let outlet = scene.outlet.as_ref();
+    let outlet = scene.dem.outlet.as_ref();
     outlet.map(|_| ()).ok_or(ClassifyError::NoOutlet)
 }
 

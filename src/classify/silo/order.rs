@@ -86,7 +86,7 @@ impl Rest {
         });
         let away = |time: f64| (time - self.since).abs();
         let nearest = closed.min_by(|a, b| away(a.time).total_cmp(&away(b.time)))?;
-        let fixed = record.scene.geometry.as_ref().map(|it| it.spheres());
+        let fixed = record.scene.dem.geometry.as_ref().map(|it| it.spheres());
         packing_fraction(
             nearest.position.view(),
             &record.radius,
@@ -260,7 +260,7 @@ mod tests {
     #[test]
     fn a_silo_without_a_door_is_open_once_it_is_filled() {
         let mut record = draining(100, 0.5).before(MilestoneKind::AtRest);
-        record.scene.door = None;
+        record.scene.dem.door = None;
         let verdict = judge(&record);
         assert_eq!(verdict.label, Label::FLOWING);
         assert_eq!(verdict.value("heap_height"), None);
@@ -269,7 +269,7 @@ mod tests {
     #[test]
     fn a_silo_without_an_outlet_cannot_be_judged() {
         let mut record = draining(100, 0.5);
-        record.scene.outlet = None;
+        record.scene.dem.outlet = None;
         let error = classify(&record, &Sieves::default()).unwrap_err();
         assert!(error.to_string().contains("`outlet.height`"), "{error}");
     }

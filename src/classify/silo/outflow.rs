@@ -31,7 +31,7 @@ impl<'a> Outflow<'a> {
             return Err(ClassifyError::Inconsistent(message.to_owned()));
         }
         let scene = &record.scene;
-        let beginning = match (&scene.door, &scene.start) {
+        let beginning = match (&scene.dem.door, &scene.start) {
             (Some(_), _) => Some(MilestoneKind::DoorOpened),
             (None, Start::Feed { .. }) => Some(MilestoneKind::Filled),
             (None, _) => None,
@@ -102,7 +102,7 @@ impl<'a> Outflow<'a> {
     /// these reach.
     pub(super) fn over_opening(&self) -> Option<f64> {
         self.opened?;
-        let fixed = self.record.scene.geometry.as_ref()?.spheres();
+        let fixed = self.record.scene.dem.geometry.as_ref()?.spheres();
         let ends = |sign: f64| {
             let door = fixed.door.iter();
             door.map(|disc| disc.position[0] + sign * disc.radius)

@@ -34,7 +34,13 @@ impl OrderParameters {
         let observations = run.observations;
         let mean_from_start = |values: &[f32]| mean(values.iter().skip(start).copied());
         let floor = run.scene.tank.as_ref().and_then(|tank| tank.floor);
-        let omega = run.scene.swirl.as_ref().map(|swirl| swirl.omega);
+        let omega = run
+            .scene
+            .dem
+            .effects
+            .swirl
+            .as_ref()
+            .map(|swirl| swirl.omega);
         let paraboloid = Paraboloid::fit(&mean_profile(run, start));
         // Rises are counted from the second frame of a run.
         let rising = run.rising.iter().skip(start.max(1)).copied();
@@ -209,7 +215,7 @@ mod tests {
         assert!(close(order.value("packing_height"), 1.0));
         assert!(close(order.value("spout_count"), 0.25));
 
-        record.scene.swirl.as_mut().unwrap().omega = 0.0;
+        record.scene.dem.effects.swirl.as_mut().unwrap().omega = 0.0;
         record.scene.tank.as_mut().unwrap().floor = None;
         let order = measure(&record);
         assert_eq!(order.value("rotation"), None);

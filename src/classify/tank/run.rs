@@ -63,7 +63,7 @@ impl<'a> Run<'a> {
 
 /// The acceleration g (m/s2) and the tank radius R (m) of the energy scale m g R.
 pub(super) fn energy_scale(scene: &Scene) -> Result<(f64, f64), ClassifyError> {
-    let gravity = scene.gravity.as_ref().map(|it| it.acceleration);
+    let gravity = scene.dem.effects.gravity.as_ref().map(|it| it.acceleration);
     let radius = scene.tank.as_ref().and_then(|tank| tank.radius);
     let missing = |missing, key| ClassifyError::NoEnergyScale { missing, key };
     Ok((

@@ -213,7 +213,7 @@ mod tests {
     #[test]
     fn without_gravity_there_is_no_energy_scale() {
         let mut record = quiet(1000);
-        record.scene.gravity = None;
+        record.scene.dem.effects.gravity = None;
         let error = classify(&record, &Sieves::default()).unwrap_err();
         assert!(matches!(error, ClassifyError::NoEnergyScale { .. }));
         assert!(

@@ -41,7 +41,7 @@ pub(super) fn place(record: &RunRecord) -> String {
         }
         Radii::File { .. } | Radii::Each(_) => {}
     }
-    if let Some(swirl) = &scene.swirl {
+    if let Some(swirl) = &scene.dem.effects.swirl {
         place.push(format!("Ω = {} rad/s", rounded(swirl.omega)));
     }
     place.push(format!("seed {}", scene.seed));

@@ -103,23 +103,23 @@ impl<E: OneBody> Effect for E {
 /// The effects that a scene names, in the order in which they are applied.
 pub(super) fn of_scene(scene: &Scene, particles: &Particles) -> Vec<Box<dyn Effect>> {
     let mut effects: Vec<Box<dyn Effect>> = Vec::new();
-    if let Some(gravity) = &scene.gravity {
+    if let Some(gravity) = &scene.dem.effects.gravity {
         effects.push(Box::new(gravity::Gravity::new(gravity)));
     }
-    if let Some(drag) = &scene.drag {
-        if let Some(swirl) = &scene.swirl {
+    if let Some(drag) = &scene.dem.effects.drag {
+        if let Some(swirl) = &scene.dem.effects.swirl {
             effects.push(swirl::of_scene(swirl, drag, particles));
         }
-        if let Some(updraught) = &scene.updraught {
+        if let Some(updraught) = &scene.dem.effects.updraught {
             effects.push(updraught::of_scene(
                 updraught,
-                scene.swirl.as_ref(),
+                scene.dem.effects.swirl.as_ref(),
                 drag,
                 particles,
             ));
         }
     }
-    if let Some(damping) = &scene.spin_damping {
+    if let Some(damping) = &scene.dem.effects.spin_damping {
         effects.push(Box::new(spin_damping::SpinDamping::new(damping)));
     }
     effects

@@ -54,26 +54,31 @@ impl Process {
     pub(super) fn of_scene(scene: &Scene, feed: Option<Feed>, present: usize) -> Option<Self> {
         let dt = scene.time.dt;
         let active = feed.is_some()
-            || scene.door.is_some()
-            || scene.rest.is_some()
-            || scene.outlet.is_some();
+            || scene.dem.door.is_some()
+            || scene.dem.rest.is_some()
+            || scene.dem.outlet.is_some();
         active.then(|| {
-            let fixed = scene.geometry.as_ref().map(|geometry| geometry.spheres());
+            let fixed = scene
+                .dem
+                .geometry
+                .as_ref()
+                .map(|geometry| geometry.spheres());
             let fixed = fixed.unwrap_or_default();
             let walls = fixed.walls.len();
             Self {
                 dt,
                 steps: ((INTERVAL / dt).round() as u64).max(1),
                 feed: feed.unwrap_or_default(),
-                door: scene.door.as_ref().map(|door| Door {
+                door: scene.dem.door.as_ref().map(|door| Door {
                     spheres: walls..walls + fixed.door.len(),
                     step: door.opens.map(|time| (time / dt).round() as u64),
                 }),
                 rest: scene
+                    .dem
                     .rest
                     .as_ref()
                     .map(|rest| RestWatch::new(rest, scene.spheres.count, dt)),
-                outlet: scene.outlet.as_ref().map(|outlet| outlet.height),
+                outlet: scene.dem.outlet.as_ref().map(|outlet| outlet.height),
                 leak: LeakWatch::of_scene(scene, &fixed),
                 milestones: Vec::new(),
                 present,

@@ -6,7 +6,7 @@ use crate::scene::{Scene, Start};
 /// A sphere that slips through the air at speed u returns to its terminal speed at the rate
 /// (c1 + 2 c2 u) / m. Swirl and updraught both act on the vertical velocity.
 pub(super) fn drag_limit(scene: &Scene) -> Option<Limit> {
-    let drag = scene.drag.as_ref()?;
+    let drag = scene.dem.effects.drag.as_ref()?;
     let lowest = match (&scene.start, scene.lowest_support()) {
         (_, Some(floor)) => floor,
         (Start::Random { z_min, .. }, None) => *z_min,
@@ -16,10 +16,15 @@ pub(super) fn drag_limit(scene: &Scene) -> Option<Limit> {
         (Start::Feed { position, .. }, None) => position[2],
         (Start::File { .. }, None) => 0.0,
     };
-    let updraught = scene.updraught.as_ref().map_or(0.0, |air| {
-        air.strength_in(scene.swirl.as_ref()) * libm::exp(-air.decay * (lowest - air.origin))
+    let updraught = scene.dem.effects.updraught.as_ref().map_or(0.0, |air| {
+        air.strength_in(scene.dem.effects.swirl.as_ref())
+            * libm::exp(-air.decay * (lowest - air.origin))
     });
-    let swirl = if scene.swirl.is_some() { 1.0 } else { 0.0 };
+    let swirl = if scene.dem.effects.swirl.is_some() {
+        1.0
+    } else {
+        0.0
+    };
     let (linear, quadratic) = drag.coefficients(scene.smallest_radius());
     let coefficient = (linear + 2.0 * quadratic * fastest_impact(scene)) * (swirl + updraught);
     let mass = scene.smallest_mass();
@@ -33,7 +38,7 @@ pub(super) fn drag_limit(scene: &Scene) -> Option<Limit> {
 }
 
 pub(super) fn spin_damping_limit(scene: &Scene) -> Option<Limit> {
-    let damping = scene.spin_damping.as_ref()?;
+    let damping = scene.dem.effects.spin_damping.as_ref()?;
     let radius = scene.smallest_radius();
     let inertia = scene.spheres.shape.inertia_factor() * scene.smallest_mass() * radius * radius;
     Some(Limit {

@@ -93,7 +93,7 @@ pub fn dissipation_time(scene: &Scene) -> f64 {
         restitution,
         restitution_speed,
         dissipation_factor,
-    }) = scene.contact
+    }) = scene.dem.contact
     else {
         return 0.0;
     };
@@ -121,7 +121,7 @@ pub(super) fn stiffest_impact(scene: &Scene) -> Option<Impact> {
         young_modulus,
         poisson_ratio,
         ..
-    } = scene.contact.as_ref()?
+    } = scene.dem.contact.as_ref()?
     else {
         return None;
     };
@@ -151,7 +151,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
             dissipation_factor,
             ..
         }),
-    ) = (stiffest_impact(scene), &scene.contact)
+    ) = (stiffest_impact(scene), &scene.dem.contact)
     else {
         return Vec::new();
     };
@@ -197,7 +197,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
 }
 
 fn friction_limit(scene: &Scene, impact: &Impact, poisson_ratio: f64) -> Option<Limit> {
-    match scene.friction.as_ref()? {
+    match scene.dem.friction.as_ref()? {
         // Its stability does not depend on the step: see the range of its coefficient.
         Friction::Spin { .. } => None,
         // Go with other contacts.

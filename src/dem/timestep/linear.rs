@@ -51,7 +51,7 @@ impl LinearImpact {
 pub(super) fn stiffest_impact(scene: &Scene) -> Option<LinearImpact> {
     let Some(Contact::Linear {
         stiffness, damping, ..
-    }) = scene.contact
+    }) = scene.dem.contact
     else {
         return None;
     };
@@ -91,7 +91,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
     }
     if let Some(Friction::CundallStrack {
         stiffness, damping, ..
-    }) = scene.friction
+    }) = scene.dem.friction
     {
         // A force at the surface moves it as if the mass were that much less.
         let moved = (1.0 + 1.0 / scene.spheres.shape.inertia_factor()) / impact.effective_mass;
@@ -106,7 +106,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
     if let Some(Friction::Coulomb {
         coefficient,
         regularisation,
-    }) = scene.friction
+    }) = scene.dem.friction
     {
         let force = impact.stiffness * speed / frequency;
         limits.push(Limit {

@@ -59,7 +59,7 @@ pub fn fastest_impact(scene: &Scene) -> f64 {
         Start::File { .. } => (0.0, 0.0, 0.0),
     };
     let tank = scene.tank.as_ref();
-    let free_fall = match (&scene.gravity, scene.lowest_support()) {
+    let free_fall = match (&scene.dem.effects.gravity, scene.lowest_support()) {
         (Some(gravity), Some(floor)) => {
             let height = (highest - floor).max(scene.smallest_radius());
             (2.0 * gravity.acceleration * height).sqrt()
@@ -71,9 +71,16 @@ pub fn fastest_impact(scene: &Scene) -> f64 {
         Start::Feed { .. } => libm::hypot(free_fall, start_speed),
         _ => free_fall,
     };
-    let updraught = scene.updraught.as_ref().map_or(0.0, |air| air.speed.abs());
+    let updraught = scene
+        .dem
+        .effects
+        .updraught
+        .as_ref()
+        .map_or(0.0, |air| air.speed.abs());
     let wall = tank.and_then(farthest_wall).unwrap_or(widest);
     let swirl = scene
+        .dem
+        .effects
         .swirl
         .as_ref()
         .map_or(0.0, |air| air.omega.abs() * wall);
@@ -132,7 +139,7 @@ fn displacement(scene: &Scene, speed: f64) -> Limit {
     let knocked_on = 2.0 * heavy / (heavy + light);
     Limit {
         name: DISPLACEMENT,
-        seconds: scene.guards.displacement * scene.smallest_radius() / (speed * knocked_on),
+        seconds: scene.dem.guards.displacement * scene.smallest_radius() / (speed * knocked_on),
         decisive: false,
         explanation: "the fastest sphere stays below the displacement guard: the smallest at the speed \
                       of the fastest impact, times 2 M / (M + m), at which the largest knocks it on",

@@ -23,7 +23,7 @@ impl Meeting {
 /// largest for the largest sphere at a wall. In between the limit has no minimum: the sum of rate
 /// and frequency is convex in the radius.
 fn meetings(scene: &Scene) -> Vec<Meeting> {
-    let Some(Contact::Silbert { stiffness, .. }) = scene.contact else {
+    let Some(Contact::Silbert { stiffness, .. }) = scene.dem.contact else {
         return Vec::new();
     };
     let (speed, overlap) = (super::fastest_impact(scene), deepest_at_start(scene));
@@ -52,7 +52,7 @@ fn meetings(scene: &Scene) -> Vec<Meeting> {
     let pairs = sizes.map(|(radius, mass)| meeting(0.5 * radius, 0.5 * mass));
     let walls = sizes.map(|(radius, mass)| meeting(radius, mass));
     // A small sphere meets a much larger one like a wall.
-    let has_walls = scene.tank.is_some() || scene.geometry.is_some() || small < large;
+    let has_walls = scene.tank.is_some() || scene.dem.geometry.is_some() || small < large;
     let walls = walls.into_iter().filter(|_| has_walls);
     let all = pairs.into_iter().chain(walls);
     all.filter(|meeting| meeting.impact.speed > 0.0).collect()
@@ -69,7 +69,7 @@ pub(super) fn stiffest_impact(scene: &Scene) -> Option<Impact> {
 pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
     let meetings = meetings(scene);
     let (Some(Contact::Silbert { damping, .. }), Some(stiffest)) =
-        (&scene.contact, meetings.first())
+        (&scene.dem.contact, meetings.first())
     else {
         return Vec::new();
     };
@@ -109,7 +109,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
     }
     if let Some(Friction::Silbert {
         stiffness, damping, ..
-    }) = scene.friction
+    }) = scene.dem.friction
     {
         // A force at the surface moves it as if the mass were that much less.
         let moved = 1.0 + 1.0 / scene.spheres.shape.inertia_factor();

@@ -87,7 +87,7 @@ fn the_mass_that_is_in_is_that_of_the_spheres_of_the_frame() {
         contacts: 6,
     };
     let mut scene = scene();
-    scene.outlet = Some(crate::scene::Outlet { height: -1.0 });
+    scene.dem.outlet = Some(crate::scene::Outlet { height: -1.0 });
     let mut observer = Observer::new(&scene, &[0.004; 5]);
     let view = FrameView {
         number: Some(&[0, 2, 3]),
@@ -202,8 +202,8 @@ fn rising_spheres_are_judged_where_they_were() {
 fn without_a_tank_only_what_needs_its_radius_is_empty() {
     let mut scene = scene();
     scene.tank = None;
-    scene.gravity = None;
-    scene.swirl = None;
+    scene.dem.effects.gravity = None;
+    scene.dem.effects.swirl = None;
     let observations = observe(&scene, &[Spheres::at(&[[0.03, 0.04, 0.5]])]);
     assert_eq!(observations.profile.dim(), (1, 0));
     assert_eq!(observations.rising.dim(), (1, 0, 3));

@@ -56,7 +56,7 @@ impl Scene {
     /// Whether some of its values are still in files.
     pub(crate) fn names_files(&self) -> bool {
         matches!(self.spheres.radius, Radii::File { .. })
-            || matches!(self.geometry, Some(Geometry::File { .. }))
+            || matches!(self.dem.geometry, Some(Geometry::File { .. }))
             || matches!(self.start, Start::File { .. })
     }
 
@@ -72,10 +72,10 @@ impl Scene {
                 Err(error) => refuse("spheres.radius.file", error),
             }
         }
-        if let Some(Geometry::File { path, unit }) = &self.geometry {
+        if let Some(Geometry::File { path, unit }) = &self.dem.geometry {
             match read_geometry(&folder.join(path), *unit) {
                 Ok(spheres) => {
-                    self.geometry = Some(Geometry::List {
+                    self.dem.geometry = Some(Geometry::List {
                         walls: spheres.walls,
                         door: spheres.door,
                     });

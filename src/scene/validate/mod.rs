@@ -51,33 +51,35 @@ impl Scene {
     }
 
     fn check_laws(&self, problems: &mut Vec<Problem>) {
-        if self.drag.is_none() {
+        if self.dem.effects.drag.is_none() {
             let users = [
-                ("swirl", self.swirl.is_some()),
-                ("updraught", self.updraught.is_some()),
+                ("swirl", self.dem.effects.swirl.is_some()),
+                ("updraught", self.dem.effects.updraught.is_some()),
             ];
             for (name, _) in users.iter().filter(|(_, present)| *present) {
                 let message = format!("[{name}] needs a drag law, but there is no [drag]");
                 let help = "add [drag] with `law` and `linear` or `quadratic`";
                 problems.push(Problem::new(*name, message).help(help));
             }
-        } else if self.swirl.is_none() && self.updraught.is_none() {
+        } else if self.dem.effects.swirl.is_none() && self.dem.effects.updraught.is_none() {
             let message = "[drag] acts through [swirl] or [updraught], but there is neither";
             let help = "add [swirl], with `omega = 0.0` for still air, or remove [drag]";
             problems.push(Problem::new("drag", message).help(help));
         }
         let rotates = |air: &Updraught| air.reference_omega.is_some();
-        if self.updraught.as_ref().is_some_and(rotates) && self.swirl.is_none() {
+        if self.dem.effects.updraught.as_ref().is_some_and(rotates)
+            && self.dem.effects.swirl.is_none()
+        {
             let message = "`updraught.reference_omega` refers to [swirl], but there is none";
             let help = "add [swirl], or remove `reference_omega`";
             problems.push(Problem::new("updraught.reference_omega", message).help(help));
         }
-        if self.friction.is_some() && self.contact.is_none() {
+        if self.dem.friction.is_some() && self.dem.contact.is_none() {
             let message = "[friction] acts at contacts, but there is no [contact]";
             let help = "add [contact] with `law = \"hertz\"`, or remove [friction]";
             problems.push(Problem::new("friction", message).help(help));
         }
-        if let (Some(contact), Some(friction)) = (&self.contact, &self.friction)
+        if let (Some(contact), Some(friction)) = (&self.dem.contact, &self.dem.friction)
             && !friction.goes_with(contact)
         {
             let contacts = friction.contacts().join(" or ");
@@ -88,7 +90,7 @@ impl Scene {
             let help = format!("use {here} here, or {there} in [contact]");
             problems.push(Problem::new("friction.law", message).help(help));
         }
-        if self.spin_damping.is_some() && self.friction.is_none() {
+        if self.dem.effects.spin_damping.is_some() && self.dem.friction.is_none() {
             let message = "[spin_damping] acts on spins, but without [friction] there are none";
             let help = "add [friction], or remove [spin_damping]";
             problems.push(Problem::new("spin_damping", message).help(help));
@@ -97,7 +99,7 @@ impl Scene {
             dissipation_time,
             restitution,
             ..
-        }) = &self.contact
+        }) = &self.dem.contact
         {
             match (dissipation_time, restitution) {
                 (None, None) => problems.push(
@@ -184,7 +186,7 @@ impl Scene {
     /// Height (m) of the lowest thing that can hold a sphere: the floor or a fixed sphere.
     pub(crate) fn lowest_support(&self) -> Option<f64> {
         let floor = self.tank.as_ref().and_then(|tank| tank.floor);
-        let fixed = self.geometry.as_ref().map(Geometry::spheres);
+        let fixed = self.dem.geometry.as_ref().map(Geometry::spheres);
         let heights = fixed
             .iter()
             .flat_map(|fixed| fixed.walls.iter().chain(&fixed.door));

@@ -10,7 +10,7 @@ impl Scene {
     /// sphere shields.
     pub fn least_cell_length(&self) -> f64 {
         let largest = self.radius_range().1;
-        let fixed = self.geometry.as_ref().map(Geometry::spheres);
+        let fixed = self.dem.geometry.as_ref().map(Geometry::spheres);
         let fixed = fixed
             .iter()
             .flat_map(|fixed| fixed.walls.iter().chain(&fixed.door));
@@ -19,7 +19,7 @@ impl Scene {
     }
 
     pub(super) fn check_neighbours(&self, problems: &mut Vec<Problem>) {
-        let (Some(length), least) = (self.neighbours.length(), self.least_cell_length()) else {
+        let (Some(length), least) = (self.dem.neighbours.length(), self.least_cell_length()) else {
             return;
         };
         if length < least {

@@ -22,9 +22,9 @@ impl Scene {
     /// numbers (NaN) in snapshots.
     pub fn has_flow(&self) -> bool {
         matches!(self.start, Start::Feed { .. })
-            || self.door.is_some()
-            || self.rest.is_some()
-            || self.outlet.is_some()
+            || self.dem.door.is_some()
+            || self.dem.rest.is_some()
+            || self.dem.outlet.is_some()
     }
 
     /// Discs stay in their plane only if nothing pushes them out of it.
@@ -49,8 +49,8 @@ impl Scene {
             let help = format!("remove it, {shape}");
             refuse("tank.depth".to_owned(), "two sides stand along it", &help);
         }
-        if self.swirl.is_some() || self.updraught.is_some() {
-            let path = if self.swirl.is_some() {
+        if self.dem.effects.swirl.is_some() || self.dem.effects.updraught.is_some() {
+            let path = if self.dem.effects.swirl.is_some() {
                 "swirl"
             } else {
                 "updraught"
@@ -85,7 +85,7 @@ impl Scene {
             }
             Start::Random { .. } | Start::File { .. } => {}
         }
-        if let Some(Geometry::List { walls, door }) = &self.geometry
+        if let Some(Geometry::List { walls, door }) = &self.dem.geometry
             && let Some(index) = walls.iter().chain(door).position(|it| off(&it.position))
         {
             let path = match index.checked_sub(walls.len()) {
@@ -97,15 +97,15 @@ impl Scene {
     }
 
     fn check_geometry(&self, problems: &mut Vec<Problem>) {
-        let Some(geometry) = &self.geometry else {
+        let Some(geometry) = &self.dem.geometry else {
             return;
         };
-        if self.contact.is_none() {
+        if self.dem.contact.is_none() {
             let message = "[geometry] holds spheres by contact, but there is no [contact]";
             let help = "add [contact] with `law = \"linear\"` or `\"hertz\"`";
             problems.push(Problem::new("geometry", message).help(help));
         }
-        if let Some(Friction::Spin { .. }) = self.friction {
+        if let Some(Friction::Spin { .. }) = self.dem.friction {
             let message = "the spin friction is made for the tank and knows no fixed spheres";
             problems.push(Problem::new("friction.law", message).help("use `law = \"coulomb\"`"));
         }
@@ -115,8 +115,8 @@ impl Scene {
     }
 
     fn check_door(&self, problems: &mut Vec<Problem>) {
-        let Some(door) = &self.door else { return };
-        let doors = match &self.geometry {
+        let Some(door) = &self.dem.door else { return };
+        let doors = match &self.dem.geometry {
             Some(Geometry::File { .. }) => return,
             Some(geometry) => geometry.spheres().door.len(),
             None => 0,
@@ -131,7 +131,7 @@ impl Scene {
         {
             problems.push(too_late("door.opens", opens, "the door would open", self));
         }
-        if door.opens.is_none() && self.rest.is_none() {
+        if door.opens.is_none() && self.dem.rest.is_none() {
             let message = "[door] opens when all is at rest, but nothing says when that is";
             let help = "add [rest] with `kinetic_energy`, or a time `opens` to [door]";
             problems.push(Problem::new("door", message).help(help));
@@ -139,7 +139,7 @@ impl Scene {
     }
 
     fn check_rest(&self, problems: &mut Vec<Problem>) {
-        let Some(rest) = &self.rest else { return };
+        let Some(rest) = &self.dem.rest else { return };
         if rest.hold >= self.time.duration {
             problems.push(too_late("rest.hold", rest.hold, "rest would be over", self));
         }
@@ -154,7 +154,9 @@ impl Scene {
     }
 
     fn check_outlet(&self, problems: &mut Vec<Problem>) {
-        let Some(outlet) = &self.outlet else { return };
+        let Some(outlet) = &self.dem.outlet else {
+            return;
+        };
         let mut refuse = |what: &str| {
             let message = format!(
                 "the outlet, at {} m, is not below {what}",
@@ -199,6 +201,7 @@ impl Scene {
         }
         let largest = self.radius_range().1;
         let fixed = self
+            .dem
             .geometry
             .as_ref()
             .map(Geometry::spheres)
@@ -227,8 +230,8 @@ impl Scene {
             return;
         }
         for (name, present) in [
-            ("swirl", self.swirl.is_some()),
-            ("updraught", self.updraught.is_some()),
+            ("swirl", self.dem.effects.swirl.is_some()),
+            ("updraught", self.dem.effects.updraught.is_some()),
         ] {
             if present {
                 let message = format!("[{name}] does not go with spheres that come or go");

@@ -85,7 +85,7 @@ impl Scene {
                 problems.push(Problem::new(path, message).help("move its centre into the tank"));
             }
         }
-        if self.contact.is_some() {
+        if self.dem.contact.is_some() {
             self.check_coincident(problems);
         }
     }

@@ -37,7 +37,7 @@ fn present(record: &RunRecord, state: &Snapshot) -> Vec<usize> {
 
 /// The fixed spheres of a scene: walls and door.
 fn fixed(record: &RunRecord) -> FixedSpheres {
-    let geometry = record.scene.geometry.as_ref();
+    let geometry = record.scene.dem.geometry.as_ref();
     geometry.map(Geometry::spheres).unwrap_or_default()
 }
 

@@ -61,7 +61,7 @@ impl Label {
 ///
 /// Zero if energy was only lost. Needs a record with the books of energy.
 pub fn energy_gain(record: &RunRecord) -> f64 {
-    let gravity = record.scene.gravity.as_ref();
+    let gravity = record.scene.dem.effects.gravity.as_ref();
     let acceleration = gravity.map_or(0.0, |gravity| gravity.acceleration);
     let spheres = record.mass.iter().zip(&record.radius);
     let lift: f64 = spheres

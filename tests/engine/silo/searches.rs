@@ -3,7 +3,7 @@
 use super::hopper;
 use crate::support::Workplace;
 use phase::dem::Simulation;
-use phase::scene::{Neighbours, Scene};
+use phase::scene::{DemScene, Neighbours, Scene};
 
 /// Bits of all positions, velocities and spins after every part of a run.
 fn bits(scene: &Scene, parts: usize) -> Vec<u64> {
@@ -49,7 +49,10 @@ fn bits_do_not_depend_on_the_search() {
         for neighbours in searches(&scene) {
             let found = bits(
                 &Scene {
-                    neighbours,
+                    dem: DemScene {
+                        neighbours,
+                        ..scene.dem.clone()
+                    },
                     ..scene.clone()
                 },
                 12,
@@ -63,7 +66,10 @@ fn bits_do_not_depend_on_the_search() {
 fn the_search_is_no_part_of_a_run() {
     let scene = hopper(&[]);
     let other = Scene {
-        neighbours: Neighbours::AllPairs,
+        dem: DemScene {
+            neighbours: Neighbours::AllPairs,
+            ..scene.dem.clone()
+        },
         ..scene.clone()
     };
     assert_eq!(other.identity(), scene.identity());
@@ -93,7 +99,10 @@ fn a_hash_table_finds_grains_that_are_far_apart() {
     let run = |neighbours| {
         bits(
             &Scene {
-                neighbours,
+                dem: DemScene {
+                    neighbours,
+                    ..far.dem.clone()
+                },
                 ..far.clone()
             },
             1,
@@ -103,7 +112,10 @@ fn a_hash_table_finds_grains_that_are_far_apart() {
     assert!(run(Neighbours::HashedCells { length: 0.06 }) == expected);
     assert!(run(Neighbours::Cells { length: 0.06 }) == expected);
     let mut simulation = Simulation::new(&Scene {
-        neighbours: Neighbours::HashedCells { length: 0.06 },
+        dem: DemScene {
+            neighbours: Neighbours::HashedCells { length: 0.06 },
+            ..far.dem
+        },
         ..far
     })
     .unwrap();

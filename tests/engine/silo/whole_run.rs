@@ -5,7 +5,7 @@ use crate::support::Workplace;
 use phase::dem::Simulation;
 use phase::record::{Guard, MilestoneKind, Outcome, RunRecord};
 use phase::run;
-use phase::scene::{Door, Scene};
+use phase::scene::{DemScene, Door, Scene};
 use std::ops::ControlFlow;
 
 fn record(scene: &Scene) -> RunRecord {
@@ -355,7 +355,10 @@ fn the_door_opens_at_its_time() {
     let record = record(&scene);
     assert_eq!(time_of(&record, MilestoneKind::DoorOpened), 2.5);
     let closed = Scene {
-        door: Some(Door { opens: Some(1e3) }),
+        dem: DemScene {
+            door: Some(Door { opens: Some(1e3) }),
+            ..scene.dem
+        },
         ..scene
     };
     let observations = &self::record(&closed).observations;

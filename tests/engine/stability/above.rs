@@ -101,7 +101,7 @@ fn resting(damping: f64, friction: Option<Friction>) -> Scene {
         ..moving([0.0, 0.0, height], [0.0, 0.0, -1e-3])
     };
     scene.start = phase::scene::Start::list(vec![sphere]);
-    scene.contact = Some(Contact::Linear {
+    scene.dem.contact = Some(Contact::Linear {
         stiffness,
         damping,
         drag: ContactDrag::Normal,
@@ -110,7 +110,7 @@ fn resting(damping: f64, friction: Option<Friction>) -> Scene {
         floor: Some(0.0),
         ..Tank::default()
     });
-    scene.gravity = downward();
+    scene.dem.effects.gravity = downward();
     scene
 }
 
@@ -166,9 +166,9 @@ fn a_sphere_at_rest_above_the_sticking_limit_trembles() {
 #[test]
 fn a_sphere_in_air_above_the_drag_limit_is_reported() {
     let mut scene = cluster(vec![moving([0.0; 3], [0.01, 0.0, 0.0])], None, 1e-6);
-    scene.contact = None;
-    scene.swirl = Some(Swirl { omega: 0.0 });
-    scene.drag = Some(toml::from_str("law = 'constant'\nlinear = 0.5").unwrap());
+    scene.dem.contact = None;
+    scene.dem.effects.swirl = Some(Swirl { omega: 0.0 });
+    scene.dem.effects.drag = Some(toml::from_str("law = 'constant'\nlinear = 0.5").unwrap());
     assert_limited_by(&scene, "drag");
     for integrator in PLAIN {
         let [speed, _] = motion(&scene, integrator, LIMIT, 10_000).unwrap();
@@ -188,7 +188,7 @@ fn a_spin_above_its_damping_limit_is_reported() {
     };
     let friction = Friction::Mindlin { coefficient: 0.5 };
     let mut scene = cluster(vec![spinning], Some(friction), 1e-6);
-    scene.spin_damping = Some(SpinDamping { coefficient: 1e-3 });
+    scene.dem.effects.spin_damping = Some(SpinDamping { coefficient: 1e-3 });
     assert_limited_by(&scene, "spin damping");
     for integrator in PLAIN {
         let [_, spin] = motion(&scene, integrator, LIMIT, 10_000).unwrap();

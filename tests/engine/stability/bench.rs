@@ -99,7 +99,12 @@ pub(crate) fn watch(
     steps: u64,
     looks: u64,
 ) -> Result<Seen, Instability> {
-    let gravity = scene.gravity.as_ref().map_or(0.0, |it| it.acceleration);
+    let gravity = scene
+        .dem
+        .effects
+        .gravity
+        .as_ref()
+        .map_or(0.0, |it| it.acceleration);
     let start = energy(simulation, gravity);
     let mut seen = Seen {
         most: 0.0,

@@ -22,7 +22,7 @@ fn head_on(gap: f64) -> Scene {
 /// The same scene of steel at its full stiffness.
 pub(crate) fn of_steel(mut scene: Scene) -> Scene {
     scene.spheres.density = 7850.0;
-    if let Some(Contact::Hertz { young_modulus, .. }) = &mut scene.contact {
+    if let Some(Contact::Hertz { young_modulus, .. }) = &mut scene.dem.contact {
         *young_modulus = 2.1e11;
     }
     scene
@@ -33,7 +33,7 @@ fn with_restitution(mut scene: Scene, value: f64) -> Scene {
         restitution,
         dissipation_time,
         ..
-    }) = &mut scene.contact
+    }) = &mut scene.dem.contact
     {
         (*restitution, *dissipation_time) = (Some(value), None);
     }
@@ -185,7 +185,7 @@ fn coincident_centres_are_reported_whatever_the_guard_allows() {
         // The square of the last is zero.
         for distance in [0.0, 1e-200] {
             let mut scene = at(&pressed(distance), integrator, 0.1);
-            scene.guards.overlap = f64::MAX;
+            scene.dem.guards.overlap = f64::MAX;
             let broken = run(&scene, 10, 10).unwrap_err();
             assert_eq!((broken.guard, broken.step), (Guard::Overlap, 1), "{broken}");
         }
@@ -197,7 +197,7 @@ fn almost_coincident_centres_part_where_the_guard_allows_it() {
     for integrator in Integrator::ALL {
         let mut scene = at(&pressed(1e-12), integrator, 0.1);
         assert_eq!(run(&scene, 10, 10).unwrap_err().guard, Guard::Overlap);
-        scene.guards.overlap = 2.5;
+        scene.dem.guards.overlap = 2.5;
         let mut simulation = Simulation::new(&scene).unwrap();
         let seen = super::bench::watch(&mut simulation, &scene, 1000, 100).unwrap();
         assert!((seen.end - 1.0).abs() < 0.01, "{seen:?}");

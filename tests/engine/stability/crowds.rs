@@ -18,7 +18,7 @@ pub(crate) fn column(radii: &[f64], friction: Option<Friction>) -> Scene {
         young_modulus,
         poisson_ratio,
         ..
-    }) = scene.contact
+    }) = scene.dem.contact
     else {
         panic!("spheres of Hertz's law")
     };
@@ -48,7 +48,7 @@ pub(crate) fn column(radii: &[f64], friction: Option<Friction>) -> Scene {
         floor: Some(0.0),
         ..Tank::default()
     });
-    scene.gravity = downward();
+    scene.dem.effects.gravity = downward();
     scene
 }
 
@@ -182,7 +182,7 @@ fn a_column_at_the_limit_of_a_pair_is_reported() {
         let scene = at(&column(&[RADIUS; 100], None), integrator, LIMIT);
         keeps_or_is_reported(run(&scene, 20_000, 20), 1.0 + 1e-9);
         let mut linear = column(&[RADIUS; 20], None);
-        linear.contact = Some(Contact::Linear {
+        linear.dem.contact = Some(Contact::Linear {
             stiffness: 1e4,
             damping: 0.05,
             drag: ContactDrag::Normal,
@@ -209,7 +209,7 @@ pub(crate) fn dropped(count: usize, friction: Option<Friction>) -> Scene {
         floor: Some(0.0),
         ..Tank::default()
     });
-    scene.gravity = downward();
+    scene.dem.effects.gravity = downward();
     scene
 }
 
@@ -240,7 +240,7 @@ fn a_heap_of_steel_at_full_stiffness_loses_energy() {
             restitution,
             dissipation_time,
             ..
-        }) = &mut scene.contact
+        }) = &mut scene.dem.contact
         {
             (*restitution, *dissipation_time) = (Some(0.6), None);
         }

@@ -9,7 +9,7 @@ use phase::scene::{Contact, Friction, Integrator, Scene, StartSphere, Swirl, Tan
 
 /// Takes the guards away.
 fn unguarded(mut scene: Scene) -> Scene {
-    (scene.guards.overlap, scene.guards.displacement) = (f64::MAX, f64::MAX);
+    (scene.dem.guards.overlap, scene.dem.guards.displacement) = (f64::MAX, f64::MAX);
     scene
 }
 
@@ -96,8 +96,8 @@ fn fast_spheres_do_not_leave_the_tank_unreported() {
 /// Spheres in air that turns at 2000 rad/s.
 fn whirled(young_modulus: f64) -> Scene {
     let mut scene = dropped(20, Some(Friction::Mindlin { coefficient: 0.5 }));
-    scene.swirl = Some(Swirl { omega: 2000.0 });
-    scene.drag = Some(toml::from_str("law = 'constant'\nlinear = 0.5").unwrap());
+    scene.dem.effects.swirl = Some(Swirl { omega: 2000.0 });
+    scene.dem.effects.drag = Some(toml::from_str("law = 'constant'\nlinear = 0.5").unwrap());
     scene.tank = Some(Tank {
         radius: Some(0.06),
         floor: Some(0.0),
@@ -106,7 +106,7 @@ fn whirled(young_modulus: f64) -> Scene {
     if let Some(Contact::Hertz {
         young_modulus: modulus,
         ..
-    }) = &mut scene.contact
+    }) = &mut scene.dem.contact
     {
         *modulus = young_modulus;
     }
@@ -175,7 +175,7 @@ fn without_gravity_and_friction_nothing_but_impacts_changes_a_motion() {
 fn one_sphere_falls_as_it_must() {
     for integrator in Integrator::ALL {
         let mut scene = cluster(vec![moving([0.0; 3], [1.0, 0.0, 2.0])], None, 1e-6);
-        scene.gravity = downward();
+        scene.dem.effects.gravity = downward();
         let scene = at(&scene, integrator, 0.1);
         let mut simulation = Simulation::new(&scene).unwrap();
         simulation.advance(1000).unwrap();

@@ -65,7 +65,7 @@ fn bouncing() -> Scene {
         floor: Some(0.0),
         ..Tank::default()
     });
-    scene.gravity = downward();
+    scene.dem.effects.gravity = downward();
     scene
 }
 

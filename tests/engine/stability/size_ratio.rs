@@ -8,7 +8,8 @@
 use super::bench::{LIMIT, at, downward, moving};
 use phase::dem::Simulation;
 use phase::scene::{
-    Contact, FixedSphere, Friction, Geometry, Integrator, Radii, Scene, Shape, Spheres, Start, Time,
+    Contact, DemScene, Effects, FixedSphere, Friction, Geometry, Integrator, Radii, Scene, Shape,
+    Spheres, Start, Time,
 };
 
 /// Radius of the large spheres (m).
@@ -46,20 +47,26 @@ fn neck(ratio: f64) -> Scene {
         radius: LARGE,
     };
     Scene {
-        geometry: Some(Geometry::List {
-            walls: vec![fixed(-LARGE), fixed(LARGE)],
-            door: Vec::new(),
-        }),
-        gravity: downward(),
-        contact: Some(Contact::Hertz {
-            young_modulus: 5e8,
-            poisson_ratio: 0.3,
-            dissipation_time: None,
-            restitution: Some(0.5),
-            restitution_speed: 0.1,
-            dissipation_factor: 1.0,
-        }),
-        friction: Some(Friction::Mindlin { coefficient: 0.5 }),
+        dem: DemScene {
+            geometry: Some(Geometry::List {
+                walls: vec![fixed(-LARGE), fixed(LARGE)],
+                door: Vec::new(),
+            }),
+            contact: Some(Contact::Hertz {
+                young_modulus: 5e8,
+                poisson_ratio: 0.3,
+                dissipation_time: None,
+                restitution: Some(0.5),
+                restitution_speed: 0.1,
+                dissipation_factor: 1.0,
+            }),
+            friction: Some(Friction::Mindlin { coefficient: 0.5 }),
+            effects: Effects {
+                gravity: downward(),
+                ..Effects::default()
+            },
+            ..DemScene::default()
+        },
         ..Scene::new(spheres, start, time)
     }
 }

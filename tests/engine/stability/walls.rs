@@ -18,7 +18,7 @@ fn tank(spheres: Vec<StartSphere>, friction: Option<Friction>) -> Scene {
         floor: Some(0.0),
         ..Tank::default()
     });
-    scene.gravity = downward();
+    scene.dem.effects.gravity = downward();
     scene
 }
 
@@ -64,7 +64,7 @@ fn grazing_hits_gain_no_energy() {
                     moving([0.0, 0.0, 0.005], [along, 0.0, -into])
                 };
                 let mut scene = tank(vec![sphere], Some(friction.clone()));
-                scene.gravity = None;
+                scene.dem.effects.gravity = None;
                 scene.tank = Some(Tank {
                     radius: cylinder.then_some(WALL),
                     floor: (!cylinder).then_some(0.0),
@@ -105,12 +105,12 @@ fn floor_and_very_large_sphere_answer_alike() {
                 position: [0.0, 0.0, -large],
                 radius: large,
             };
-            scene.geometry = Some(Geometry::List {
+            scene.dem.geometry = Some(Geometry::List {
                 walls: vec![below],
                 door: Vec::new(),
             });
             let from_sphere = after(&scene);
-            scene.geometry = None;
+            scene.dem.geometry = None;
             scene.tank = Some(Tank {
                 floor: Some(0.0),
                 ..Tank::default()
@@ -131,8 +131,8 @@ fn a_sphere_on_the_axis_stays_on_it() {
             vec![StartSphere::at([0.0, 0.0, 0.05])],
             Some(frictions()[1].clone()),
         );
-        scene.swirl = Some(Swirl { omega: 12.0 });
-        scene.drag = Some(toml::from_str("law = 'constant'\nlinear = 1e-3").unwrap());
+        scene.dem.effects.swirl = Some(Swirl { omega: 12.0 });
+        scene.dem.effects.drag = Some(toml::from_str("law = 'constant'\nlinear = 1e-3").unwrap());
         let scene = crowded(&damped(scene, 1e-4), integrator, LIMIT);
         let mut simulation = Simulation::new(&scene).unwrap();
         let seen = watch(&mut simulation, &scene, 20_000, 200).unwrap();
@@ -197,7 +197,7 @@ fn fixed_spheres_reach_into_walls_as_they_like() {
     for integrator in Integrator::ALL {
         let free = StartSphere::at([0.0, 0.0, 0.05]);
         let mut scene = tank(vec![free], Some(Friction::Mindlin { coefficient: 0.5 }));
-        scene.geometry = Some(Geometry::List {
+        scene.dem.geometry = Some(Geometry::List {
             walls: vec![
                 FixedSphere {
                     position: [0.02, 0.0, -0.5 * RADIUS],

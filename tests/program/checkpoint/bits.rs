@@ -60,7 +60,7 @@ fn assert_same_bits(mut scene: Scene, step: u64) -> RunRecord {
         assert!(
             bits(one) == bits(other),
             "frame {frame}, {:?}, {:?}",
-            scene.friction,
+            scene.dem.friction,
             scene.time.integrator
         );
     }
@@ -76,7 +76,7 @@ fn assert_same_bits(mut scene: Scene, step: u64) -> RunRecord {
 /// The small silo with a friction law.
 fn silo(friction: Option<Friction>, integrator: Integrator) -> Scene {
     let mut scene: Scene = toml::from_str(&silo_file()).unwrap();
-    scene.friction = friction;
+    scene.dem.friction = friction;
     scene.time.integrator = integrator;
     scene
 }
@@ -124,8 +124,8 @@ fn a_silo_goes_on_with_the_same_bits_while_it_is_filled_and_drained() {
 fn a_grain_that_passes_a_wall_is_seen_across_a_checkpoint() {
     let mut scene = silo(None, Integrator::VelocityVerlet);
     scene.time.frame_interval = 3e-3;
-    scene.guards.overlap = 10.0;
-    let Some(phase::scene::Contact::Linear { stiffness, .. }) = &mut scene.contact else {
+    scene.dem.guards.overlap = 10.0;
+    let Some(phase::scene::Contact::Linear { stiffness, .. }) = &mut scene.dem.contact else {
         panic!("the silo's contact is linear");
     };
     *stiffness = 0.5;
@@ -139,9 +139,9 @@ fn a_grain_that_passes_a_wall_is_seen_across_a_checkpoint() {
 #[test]
 fn spheres_that_pass_through_each_other_go_on() {
     let mut scene = tank(None, Integrator::VelocityVerlet);
-    (scene.contact, scene.updraught) = (None, None);
-    scene.guards.vertical = Some(100.0);
-    scene.guards.horizontal = Some(100.0);
+    (scene.dem.contact, scene.dem.effects.updraught) = (None, None);
+    scene.dem.guards.vertical = Some(100.0);
+    scene.dem.guards.horizontal = Some(100.0);
     assert_same_bits(scene, 50);
 }
 
@@ -154,8 +154,8 @@ fn any_way_to_find_neighbours_goes_on() {
         Neighbours::HashedCells { length },
     ] {
         let mut scene = tank(frictions()[3].clone(), Integrator::VelocityVerlet);
-        scene.updraught = None;
-        scene.neighbours = neighbours;
+        scene.dem.effects.updraught = None;
+        scene.dem.neighbours = neighbours;
         assert_same_bits(scene, 50);
     }
 }
@@ -168,7 +168,7 @@ fn a_pile_needs_its_histories() {
         Some(Friction::Mindlin { coefficient: 0.3 }),
         Integrator::SymplecticEuler,
     );
-    (scene.updraught, scene.swirl) = (None, None);
+    (scene.dem.effects.updraught, scene.dem.effects.swirl) = (None, None);
     let mut simulation = Simulation::new(&scene).unwrap();
     simulation.advance(3000).unwrap();
     let saved = simulation.state().into_owned();
@@ -236,12 +236,12 @@ fn a_list_of_other_spheres_is_refused() {
 #[test]
 fn zeros_of_another_sign_are_told() {
     let mut scene = tank(None, Integrator::SymplecticEuler);
-    scene.gravity.as_mut().unwrap().acceleration = 0.0;
+    scene.dem.effects.gravity.as_mut().unwrap().acceleration = 0.0;
     let place = Workplace::new();
     let path = place.path("run.checkpoint");
     let run = Run::new(&scene).unwrap();
     write_checkpoint(&path, &run).unwrap();
-    scene.gravity.as_mut().unwrap().acceleration = -0.0;
+    scene.dem.effects.gravity.as_mut().unwrap().acceleration = -0.0;
     let error = read_checkpoint(&path, &scene).unwrap_err().to_string();
     assert!(
         error.ends_with("they differ in gravity.acceleration"),

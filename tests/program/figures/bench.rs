@@ -93,7 +93,7 @@ impl Tank {
     pub(crate) fn of_four_axes() -> Self {
         let mut tank = Self::settled();
         // An axis is a key of the scene.
-        tank.sweep.scene.friction = Some(Friction::Coulomb {
+        tank.sweep.scene.dem.friction = Some(Friction::Coulomb {
             coefficient: 0.0,
             regularisation: 1e-3,
         });

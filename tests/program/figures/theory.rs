@@ -73,14 +73,14 @@ fn net_force_says_what_it_assumes_of_the_lift() {
     let says = |svg: &str| texts(svg).iter().any(|text| text.starts_with(assumption));
     let independent = tank.draw("net-force-independent", "net-force", &[]);
     assert!(says(&independent));
-    let updraught = tank.sweep.scene.updraught.as_mut().unwrap();
+    let updraught = tank.sweep.scene.dem.effects.updraught.as_mut().unwrap();
     updraught.reference_omega = Some(8.0);
     let proportional = tank.draw("net-force-proportional", "net-force", &[]);
     assert!(!says(&proportional));
     assert_eq!(lines(&proportional), lines(&independent));
     // At 8 rad/s of a reference of 16 the lift is a quarter, so that the scene's own curve is the
     // one of half the rotation before.
-    let updraught = tank.sweep.scene.updraught.as_mut().unwrap();
+    let updraught = tank.sweep.scene.dem.effects.updraught.as_mut().unwrap();
     updraught.reference_omega = Some(16.0);
     let weak = tank.draw("net-force-weak", "net-force", &[]);
     let falls = |line: &[(f64, f64)]| line[line.len() * 2 / 3].1 > line[0].1;
@@ -90,8 +90,8 @@ fn net_force_says_what_it_assumes_of_the_lift() {
 #[test]
 fn theory_says_what_the_scene_lacks() {
     let mut tank = Tank::settled();
-    tank.sweep.scene.updraught = None;
-    tank.sweep.scene.gravity = None;
+    tank.sweep.scene.dem.effects.updraught = None;
+    tank.sweep.scene.dem.effects.gravity = None;
     assert_eq!(
         tank.refuses("net-force", &[]),
         "the figure `net-force` needs a scene with gravity, drag, swirl and updraught"

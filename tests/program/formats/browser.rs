@@ -77,7 +77,7 @@ fn svg_shows_what_is_in_to_scale() {
         std::fs::read_dir(place.path("out/run")).unwrap().count(),
         19
     );
-    let fixed = record.scene.geometry.as_ref().unwrap().spheres();
+    let fixed = record.scene.dem.geometry.as_ref().unwrap().spheres();
     let plain = |it: &phase::scene::FixedSphere| [it.position[0], it.position[2], it.radius];
     let walls: Vec<_> = fixed.walls.iter().map(plain).collect();
     let door: Vec<_> = fixed.door.iter().map(plain).collect();

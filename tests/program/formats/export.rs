@@ -159,7 +159,7 @@ fn tables_hold_the_grains_that_are_in_and_what_is_fixed() {
     let numbers = array.iter().filter(|value| !value.is_nan()).count();
     assert_eq!(numbers, 3 * counts.iter().sum::<usize>());
 
-    let fixed = record.scene.geometry.unwrap().spheres();
+    let fixed = record.scene.dem.geometry.unwrap().spheres();
     let rows = |kind: &str, spheres: &[FixedSphere]| -> String {
         let row = |it: &FixedSphere| {
             let [x, y, z] = it.position;

@@ -19,7 +19,7 @@ fn original(place: &Workplace) -> std::path::PathBuf {
     let folder = place.path("results/tiny/records");
     let found = place.records("results/tiny").into_iter().find(|name| {
         let scene = read_record(&folder.join(name)).unwrap().scene;
-        scene.seed == 2 && scene.swirl.unwrap().omega == 4.0
+        scene.seed == 2 && scene.dem.effects.swirl.unwrap().omega == 4.0
     });
     folder.join(found.unwrap())
 }

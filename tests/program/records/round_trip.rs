@@ -174,7 +174,7 @@ fn what_does_not_fit_together_is_not_written() {
             "snapshots: `velocity` at t = 1 s has shape (4, 3), but (5, 3) is expected",
         ),
         (
-            |record| record.scene.guards.overlap = f64::INFINITY,
+            |record| record.scene.dem.guards.overlap = f64::INFINITY,
             "its scene holds a number that is not finite; check the scene file",
         ),
         (

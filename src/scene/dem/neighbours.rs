@@ -1,6 +1,6 @@
 //! How the pairs that may touch are found.
 
-use super::quantities::length;
+use crate::scene::quantities::length;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,10 +1,31 @@
 //! What acts on single spheres: gravity, the air, the damping of spins.
 
-use super::one;
-use super::quantities::{fraction, place};
+use super::Drag;
 use crate::document::quantity;
+use crate::scene::one;
+use crate::scene::quantities::{fraction, place};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+/// The effects on single spheres. One that is absent does not exist in the simulation.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Effects {
+    /// Gravity. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gravity: Option<Gravity>,
+    /// The drag law that `swirl` and `updraught` share. Needed by either.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drag: Option<Drag>,
+    /// Drag toward air in rigid rotation about the axis. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub swirl: Option<Swirl>,
+    /// Rising air that lower spheres shield. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub updraught: Option<Updraught>,
+    /// Viscous damping of spins. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spin_damping: Option<SpinDamping>,
+}
 
 /// Gravity.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

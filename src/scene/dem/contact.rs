@@ -1,8 +1,8 @@
 //! The laws of contacts: along the line of centres, and across it.
 
-use super::one;
-use super::quantities::fraction;
 use crate::document::quantity;
+use crate::scene::one;
+use crate::scene::quantities::fraction;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

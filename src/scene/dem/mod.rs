@@ -1,0 +1,56 @@
+//! The part of a scene that belongs to the discrete element model: laws of contact, effects, fixed
+//! spheres, what ends a run, guards.
+
+mod contact;
+mod drag;
+mod effects;
+mod guards;
+mod neighbours;
+mod silo;
+
+pub use contact::{Contact, ContactDrag, Friction};
+pub use drag::{Drag, DragForm, DragLaw};
+pub use effects::{Effects, Gravity, SpinDamping, Swirl, Updraught};
+pub use guards::Guards;
+pub use neighbours::Neighbours;
+pub(crate) use silo::MOST_HOPPER_SPHERES;
+pub use silo::{Door, FixedSphere, FixedSpheres, Geometry, Hopper, LengthUnit, Outlet, Rest};
+
+use super::is_default;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What a scene says to the discrete element model alone. By default spheres move freely, and
+/// nothing acts on them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DemScene {
+    /// Normal contact law, between spheres and with walls alike. Absent: spheres pass through
+    /// each other and through walls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact: Option<Contact>,
+    /// Tangential contact law. Absent: frictionless, and spheres have no spin.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction: Option<Friction>,
+    /// Fixed spheres as the walls and the door of a silo. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub geometry: Option<Geometry>,
+    /// The silo's door, which opens once. Absent: it stays closed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub door: Option<Door>,
+    /// When the spheres count as at rest. With it a run ends as soon as they are, all are in, and
+    /// no door is left to open. Absent: a run ends at its duration, or when all spheres have left.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rest: Option<Rest>,
+    /// Where spheres leave the simulation. Absent: nowhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outlet: Option<Outlet>,
+    /// The effects on single spheres.
+    #[serde(flatten)]
+    pub effects: Effects,
+    /// How the pairs that may touch are found. Never changes the motion.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub neighbours: Neighbours,
+    /// Limits beyond which a run is ended and reported as unstable.
+    #[serde(default)]
+    pub guards: Guards,
+}
