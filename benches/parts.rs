@@ -4,12 +4,12 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use phase::dem::contact::{Hertz, NormalLaw};
-use phase::dem::friction::{Coulomb, Frictionless, Mindlin, Spring, TangentialLaw, Touch};
 use phase::dem::neighbours::{Reach, VerletList};
-use phase::dem::vector::Vector;
 use phase::dem::{Simulation, start};
+use phase::forces::contact::{Hertz, NormalLaw};
+use phase::forces::friction::{Coulomb, Frictionless, Mindlin, Spring, TangentialLaw, Touch};
 use phase::observe::Observer;
+use phase::particles::vector::Vector;
 use phase::scene::{Neighbours, Scene, Start};
 use std::hint::black_box;
 use std::path::Path;

@@ -154,13 +154,9 @@ fn effects(scene: &Scene) -> Vec<&'static str> {
         Some(Contact::Hertz { .. }) | None => "contact (Hertz)",
     };
     let feed = matches!(scene.start, Start::Feed { .. });
-    [
-        (scene.dem.effects.gravity.is_some(), "gravity"),
+    let others = [
         (scene.dem.contact.is_some(), contact),
         (scene.dem.friction.is_some(), law(&scene.dem.friction)),
-        (scene.dem.effects.swirl.is_some(), "swirl"),
-        (scene.dem.effects.updraught.is_some(), "updraught"),
-        (scene.dem.effects.spin_damping.is_some(), "spin damping"),
         (tank.is_some_and(|tank| tank.radius.is_some()), "cylinder"),
         (tank.is_some_and(Tank::has_sides), "sides"),
         (tank.is_some_and(|tank| tank.floor.is_some()), "floor"),
@@ -168,10 +164,10 @@ fn effects(scene: &Scene) -> Vec<&'static str> {
         (feed, "feed"),
         (scene.dem.door.is_some(), "door"),
         (scene.dem.outlet.is_some(), "outlet"),
-    ]
-    .into_iter()
-    .filter_map(|(used, name)| used.then_some(name))
-    .collect()
+    ];
+    let others = others.into_iter().filter(|(used, _)| *used);
+    let effects = scene.dem.effects.names();
+    effects.chain(others.map(|(_, name)| name)).collect()
 }
 
 fn describe_time(scene: &Scene) -> String {

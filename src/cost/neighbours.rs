@@ -77,7 +77,7 @@ impl Moment {
         simulation.advance(steps(CALM))?;
         let particles = simulation.particles();
         let spheres = (particles.fixed..particles.len()).map(|i| {
-            let vector = |vectors: &[crate::dem::vector::Vector]| {
+            let vector = |vectors: &[crate::particles::vector::Vector]| {
                 vectors.get(i).map_or([0.0; 3], |it| [it.x, it.y, it.z])
             };
             StartSphere {

@@ -1,8 +1,8 @@
 //! How fast a disc must be to squeeze through a wall of fixed ones, or too deep into it.
 
-use super::contact::{Hertz, Linear, NormalLaw, Silbert};
 use super::process::wall_pairs;
 use super::timestep;
+use crate::forces::contact::{Hertz, Linear, NormalLaw, Silbert};
 use crate::scene::{Contact, FixedSphere, Geometry, Scene, Shape};
 
 /// The weakest place of a scene's walls, for the disc that they hold least.

@@ -1,11 +1,12 @@
 //! Spheres in blocks, one column per quantity: what acts on single spheres is computed for all of a
 //! block at once.
 
-use super::block::{BLOCK, Column, Columns, ROWS, row};
 use super::neighbours::Reference;
-use super::particles::Particles;
 use super::threads::{split, split_shared};
-use super::vector::Vector;
+use crate::particles::Particles;
+use crate::particles::block::{BLOCK, Columns, ROWS, row};
+use crate::particles::bodies::{Asked, Bodies};
+use crate::particles::vector::Vector;
 use fearless_simd::Simd;
 use std::ops::Range;
 
@@ -92,59 +93,7 @@ impl<'a> Spheres<'a> {
     }
 }
 
-/// What effects ask for besides masses and forces.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Asked {
-    /// Centres and velocities.
-    pub(super) motion: bool,
-    /// Spins, and torques to add to.
-    pub(super) turn: bool,
-}
-
-impl Asked {
-    /// What one or the other asks for.
-    pub(super) fn or(self, other: Self) -> Self {
-        Self {
-            motion: self.motion || other.motion,
-            turn: self.turn || other.turn,
-        }
-    }
-}
-
-/// A block of spheres. Lanes without a sphere repeat the last one.
-pub(super) struct Bodies {
-    /// Index of the first sphere.
-    pub(super) first: usize,
-    /// How many they are.
-    count: usize,
-    /// Forces so far (N).
-    pub(super) force: Columns,
-    /// Centres (m), if they are asked for.
-    pub(super) position: Columns,
-    /// Velocities (m/s), if they are asked for.
-    pub(super) velocity: Columns,
-    /// Spins (rad/s), if they are asked for.
-    pub(super) spin: Columns,
-    /// Torques so far (N m), if they are asked for.
-    pub(super) torque: Columns,
-    /// Masses (kg).
-    pub(super) mass: Column,
-}
-
 impl Bodies {
-    pub(super) fn new() -> Self {
-        Self {
-            first: 0,
-            count: 0,
-            force: Columns::ZERO,
-            position: Columns::ZERO,
-            velocity: Columns::ZERO,
-            spin: Columns::ZERO,
-            torque: Columns::ZERO,
-            mass: [0.0; BLOCK],
-        }
-    }
-
     /// Takes a block of spheres from a place on: masses, forces, and what else is asked for.
     #[inline(always)]
     pub(super) fn take<S: Simd>(

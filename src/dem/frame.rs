@@ -2,8 +2,8 @@
 
 use super::Simulation;
 use super::order;
-use super::particles::Particles;
-use super::vector::Vector;
+use crate::particles::Particles;
+use crate::particles::vector::Vector;
 use crate::simulation::{FRAME_BLOCK, Flow, Frame, FrameView, Ledger};
 
 /// Spheres of a block of a sorted scene.

@@ -1,7 +1,7 @@
 //! Numerical guards: a run that breaks one is ended and reported, never mended.
 
-use super::particles::Particles;
-use super::vector::Vector;
+use crate::particles::Particles;
+use crate::particles::vector::Vector;
 use crate::scene::{Scene, Tank};
 use crate::simulation::{Guard, Instability};
 

@@ -1,13 +1,13 @@
 //! Which contact and friction laws go together, and the engine compiled for them.
 
-use super::contact::{Hertz, Linear, NoContact, NormalLaw, Silbert};
-use super::friction::{
-    Coulomb, CundallStrack, Frictionless, Mindlin, SilbertFriction, SpinFriction, TangentialLaw,
-};
-use super::particles::Particles;
 use super::simulation::BuildError;
 use super::system::{Engine, Setup, System};
 use super::timestep;
+use crate::forces::contact::{Hertz, Linear, NoContact, NormalLaw, Silbert};
+use crate::forces::friction::{
+    Coulomb, CundallStrack, Frictionless, Mindlin, SilbertFriction, SpinFriction, TangentialLaw,
+};
+use crate::particles::Particles;
 use crate::scene::{Contact, Friction, Scene};
 
 /// The engine compiled for the scene's contact and friction. Each pair of laws costs time to

@@ -5,20 +5,14 @@
 //! computes nothing.
 
 mod barrier;
-mod block;
 mod bodies;
 mod check;
-pub mod contact;
-mod effects;
 mod frame;
-pub mod friction;
 mod guard;
 mod laws;
-pub mod math;
 mod model;
 pub mod neighbours;
 pub mod order;
-mod particles;
 mod process;
 mod profile;
 mod simulation;
@@ -27,14 +21,12 @@ mod state;
 mod system;
 mod threads;
 pub mod timestep;
-pub mod vector;
 pub mod walls;
 mod work;
 
 pub use barrier::{WallFailure, WeakestWall};
 pub(crate) use check::SAFETY_FACTOR;
 pub use model::Dem;
-pub use particles::Particles;
 pub use profile::Part;
 pub use simulation::{BuildError, Simulation};
 pub use state::SimulationState;

@@ -9,8 +9,8 @@
 //! alone: spheres are looked at after fixed numbers of steps, and their order is part of a
 //! checkpoint.
 
-use super::particles::Particles;
-use super::vector::Vector;
+use crate::particles::Particles;
+use crate::particles::vector::Vector;
 
 /// Spheres from which on they are sorted. Fewer fit into the caches of a processor, and keep the
 /// order of the scene.
@@ -63,13 +63,6 @@ pub(super) fn found_anew(particles: &Particles) -> Option<Vec<u32>> {
     Some(fixed.chain(keys.into_iter().map(|(_, i)| i)).collect())
 }
 
-/// Puts entries into a new order; leaves an array alone that has none at all.
-pub(super) fn reorder<T: Copy>(entries: &mut Vec<T>, order: &[u32]) {
-    if !entries.is_empty() {
-        *entries = order.iter().map(|&i| entries[i as usize]).collect();
-    }
-}
-
 /// The order that takes spheres with the one numbers to the others; fixed ones keep their places.
 pub(super) fn between(from: &[u32], to: &[u32], fixed: usize) -> Vec<u32> {
     let moving = |numbers: &[u32]| -> Vec<u32> {
@@ -108,6 +101,7 @@ pub(super) fn places(order: &[u32]) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::particles::reorder::reorder;
 
     /// Spheres at random places, numbered anyhow.
     fn spheres(count: usize) -> Particles {

@@ -1,5 +1,6 @@
 //! The parts of a step that cost time.
 
+use crate::forces::effects::Effects;
 use crate::scene::{Scene, Start, Tank};
 use crate::simulation::PartOfStep;
 pub(super) use crate::simulation::Profile;
@@ -21,14 +22,8 @@ pub enum Part {
     Sides,
     /// Counting the spheres that shield one another from the updraught.
     Shield,
-    /// Gravity.
-    Gravity,
-    /// The swirling air.
-    Swirl,
-    /// The rising air.
-    Updraught,
-    /// Damping of spins.
-    SpinDamping,
+    /// An effect on single spheres, by its place among [`Effects::all_names`].
+    Effect(usize),
     /// The books of energy.
     Ledger,
     /// Changing velocities and spins by forces and torques.
@@ -44,24 +39,45 @@ pub enum Part {
 
 impl Part {
     /// All parts, in the order of a step.
-    pub const ALL: [Self; 16] = [
-        Self::List,
-        Self::Near,
-        Self::Pairs,
-        Self::Floor,
-        Self::Cylinder,
-        Self::Sides,
-        Self::Shield,
-        Self::Gravity,
-        Self::Swirl,
-        Self::Updraught,
-        Self::SpinDamping,
-        Self::Ledger,
-        Self::Kick,
-        Self::Drift,
-        Self::Rest,
-        Self::Process,
-    ];
+    pub fn all() -> impl Iterator<Item = Self> {
+        let first = [
+            Self::List,
+            Self::Near,
+            Self::Pairs,
+            Self::Floor,
+            Self::Cylinder,
+            Self::Sides,
+            Self::Shield,
+        ];
+        let last = [
+            Self::Ledger,
+            Self::Kick,
+            Self::Drift,
+            Self::Rest,
+            Self::Process,
+        ];
+        let effects = (0..Effects::COUNT).map(Self::Effect);
+        first.into_iter().chain(effects).chain(last)
+    }
+
+    /// Its place among [all](Self::all).
+    const fn place(self) -> usize {
+        match self {
+            Self::List => 0,
+            Self::Near => 1,
+            Self::Pairs => 2,
+            Self::Floor => 3,
+            Self::Cylinder => 4,
+            Self::Sides => 5,
+            Self::Shield => 6,
+            Self::Effect(place) => 7 + place,
+            Self::Ledger => 7 + Effects::COUNT,
+            Self::Kick => 8 + Effects::COUNT,
+            Self::Drift => 9 + Effects::COUNT,
+            Self::Rest => 10 + Effects::COUNT,
+            Self::Process => 11 + Effects::COUNT,
+        }
+    }
 
     /// Its name in tables.
     pub fn name(self) -> &'static str {
@@ -73,10 +89,7 @@ impl Part {
             Self::Cylinder => "cylinder",
             Self::Sides => "sides",
             Self::Shield => "counting shield",
-            Self::Gravity => "gravity",
-            Self::Swirl => "swirl",
-            Self::Updraught => "updraught",
-            Self::SpinDamping => "spin damping",
+            Self::Effect(place) => Effects::all_names().nth(place).unwrap_or(""),
             Self::Ledger => "energy ledger",
             Self::Kick => "kick",
             Self::Drift => "drift",
@@ -96,10 +109,8 @@ impl Part {
             Self::Floor => wall(tank.is_some_and(|tank| tank.floor.is_some())),
             Self::Cylinder => wall(tank.is_some_and(|tank| tank.radius.is_some())),
             Self::Sides => wall(tank.is_some_and(Tank::has_sides)),
-            Self::Shield | Self::Updraught => scene.dem.effects.updraught.is_some(),
-            Self::Gravity => scene.dem.effects.gravity.is_some(),
-            Self::Swirl => scene.dem.effects.swirl.is_some(),
-            Self::SpinDamping => scene.dem.effects.spin_damping.is_some(),
+            Self::Shield => scene.dem.effects.updraught.is_some(),
+            Self::Effect(_) => scene.dem.effects.names().any(|name| name == self.name()),
             Self::Ledger => scene.output.ledger,
             Self::Process => {
                 matches!(scene.start, Start::Feed { .. })
@@ -112,7 +123,7 @@ impl Part {
     }
 }
 
-/// The parts of a scene's step, in the order of [`Part::ALL`].
+/// The parts of a scene's step, in the order of [`Part::all`].
 pub(super) fn parts_of(scene: &Scene) -> Vec<PartOfStep> {
     let part = |part: Part| PartOfStep {
         name: part.name(),
@@ -120,12 +131,12 @@ pub(super) fn parts_of(scene: &Scene) -> Vec<PartOfStep> {
         // Feed, door and outlet work between the steps.
         is_between_steps: part == Part::Process,
     };
-    Part::ALL.map(part).into()
+    Part::all().map(part).collect()
 }
 
 /// An empty profile of the parts of a step.
 pub(super) fn new_profile() -> Profile {
-    Profile::new(Part::ALL.len(), Part::Rest as usize)
+    Profile::new(Part::all().count(), Part::Rest.place())
 }
 
 /// Begins a step, if there is a profile.
@@ -140,6 +151,19 @@ pub(super) fn begin(profile: &mut Option<Box<Profile>>, step: u64, spheres: usiz
 #[inline(always)]
 pub(super) fn mark(profile: &mut Option<Box<Profile>>, part: Part) {
     if let Some(profile) = profile {
-        profile.mark(part as usize);
+        profile.mark(part.place());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_part_has_its_place() {
+        for (place, part) in Part::all().enumerate() {
+            assert_eq!(part.place(), place, "{part:?}");
+            assert!(!part.name().is_empty());
+        }
     }
 }

@@ -1,18 +1,17 @@
 //! From a scene to a running simulation.
 
-use super::effects;
 use super::frame::of_moving;
 use super::guard::Limits;
 use super::laws::engine;
 use super::neighbours::VerletList;
 use super::order;
-use super::particles::{Particles, Sphere};
 use super::process::{Feed, Process};
 use super::start::{self, StartError};
 use super::system::{Engine, Setup};
-use super::vector::Vector;
 use super::walls::TankWall;
 use crate::cpu_time;
+use crate::particles::vector::Vector;
+use crate::particles::{Particles, Sphere};
 use crate::scene::{Neighbours, Scene, Start};
 use crate::simulation::{Counts, Instability, Milestone};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
@@ -115,7 +114,7 @@ impl Simulation {
         let tank = scene.tank.as_ref();
         let setup = Setup {
             walls: tank.map(TankWall::of_tank).unwrap_or_default(),
-            effects: effects::of_scene(scene, &particles),
+            effects: scene.dem.effects.build(&particles.radius),
             shielded: scene.dem.effects.updraught.is_some(),
             limits: Limits::new(scene, &particles),
             dt: scene.time.dt,

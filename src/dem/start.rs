@@ -1,7 +1,7 @@
 //! Where and how the spheres start.
 
-use super::particles::Particles;
-use super::vector::Vector;
+use crate::particles::Particles;
+use crate::particles::vector::Vector;
 use crate::scene::{Geometry, Radii, Scene, Start};
 use rand::Rng;
 

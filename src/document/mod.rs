@@ -6,6 +6,7 @@ mod difference;
 pub(crate) mod kind;
 mod load_error;
 mod problem;
+pub(crate) mod quantities;
 mod quantity;
 mod schema;
 mod spelling;

@@ -1,7 +1,7 @@
 //! Orthographic cameras.
 
 use super::Stage;
-use crate::dem::vector::Vector;
+use crate::particles::vector::Vector;
 
 /// An orthographic camera: parallel rays, so that lengths can be measured in the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]

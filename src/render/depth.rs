@@ -2,7 +2,7 @@
 
 use super::Stage;
 use super::shade::Sphere;
-use crate::dem::vector::Vector;
+use crate::particles::vector::Vector;
 
 /// Something a ray can hit first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

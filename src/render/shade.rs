@@ -2,7 +2,7 @@
 
 use super::depth::{DepthMap, Hit, Rays};
 use super::{Camera, Image, Rgb, Stage};
-use crate::dem::vector::Vector;
+use crate::particles::vector::Vector;
 
 /// A sphere to draw.
 #[derive(Clone, Copy, Debug)]

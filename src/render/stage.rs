@@ -1,7 +1,7 @@
 //! What the spheres move in, and how much of it is seen.
 
-use crate::dem::vector::Vector;
 use crate::observe::Snapshot;
+use crate::particles::vector::Vector;
 use crate::scene::Scene;
 
 /// The walls, and the box that is seen.

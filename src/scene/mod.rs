@@ -11,7 +11,6 @@ mod files;
 mod identity;
 mod keys;
 mod output;
-mod quantities;
 mod radius;
 mod spheres;
 mod start;
@@ -123,8 +122,4 @@ fn default_seed() -> u64 {
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
-}
-
-fn one() -> f64 {
-    1.0
 }

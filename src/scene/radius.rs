@@ -1,6 +1,6 @@
 //! Radii of the spheres: one value, shares of several, or a file.
 
-use super::quantities::length;
+use crate::document::quantities::length;
 use crate::document::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

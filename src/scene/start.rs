@@ -1,7 +1,7 @@
 //! Where and how the spheres start.
 
 use super::Scene;
-use super::quantities::{length, place};
+use crate::document::quantities::{length, place};
 use crate::document::{Schema, quantity, unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,6 @@
 //! The walls of a tank.
 
-use super::quantities::{length, place};
+use crate::document::quantities::{length, place};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;

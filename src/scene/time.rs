@@ -1,6 +1,6 @@
 //! Time step, duration, frames, integrator.
 
-use super::quantities::seconds;
+use crate::document::quantities::seconds;
 use crate::document::quantity;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

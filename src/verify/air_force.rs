@@ -3,7 +3,7 @@
 use super::bench::{Bench, unguarded};
 use super::{Family, Measured, VerifyError, numbered};
 use crate::dem::Simulation;
-use crate::dem::vector::Vector;
+use crate::particles::vector::Vector;
 use crate::scene::{DemScene, Drag, Effects, Scene, StartSphere, Swirl, Updraught};
 use serde::Deserialize;
 

@@ -1,9 +1,10 @@
 //! What the families share: materials, bare scenes, counted steps.
 
 use super::VerifyError;
+use crate::dem::Simulation;
 use crate::dem::timestep::Impact;
-use crate::dem::vector::Vector;
-use crate::dem::{Particles, Simulation};
+use crate::particles::Particles;
+use crate::particles::vector::Vector;
 use crate::scene::{
     Contact, DemScene, Effects, Gravity, Guards, Integrator, Radii, Scene, Shape, Spheres, Start,
     StartSphere, Tank, Time,

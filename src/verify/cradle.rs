@@ -2,7 +2,8 @@
 
 use super::bench::{Bench, Material, moving, unguarded};
 use super::{Family, Measured, VerifyError, numbered};
-use crate::dem::{Particles, Simulation};
+use crate::dem::Simulation;
+use crate::particles::Particles;
 use crate::scene::{DemScene, Scene};
 use serde::Deserialize;
 

@@ -2,8 +2,9 @@
 
 use super::bench::{Bench, Material, floor, moving, reduced, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::vector::Vector;
-use crate::dem::{Particles, Simulation, timestep};
+use crate::dem::{Simulation, timestep};
+use crate::particles::Particles;
+use crate::particles::vector::Vector;
 use crate::scene::{Contact, DemScene, Friction, Scene, StartSphere, Tank};
 use serde::Deserialize;
 use std::f64::consts::PI;

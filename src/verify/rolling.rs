@@ -2,7 +2,8 @@
 
 use super::bench::{AnyMaterial, Bench, downward, floor, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::{Particles, Simulation};
+use crate::dem::Simulation;
+use crate::particles::Particles;
 use crate::scene::{DemScene, Effects, Friction, Scene, StartSphere};
 use serde::Deserialize;
 

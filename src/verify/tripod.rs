@@ -3,8 +3,8 @@
 use super::bench::{Bench, Material, at, downward, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
-use crate::dem::contact::{Hertz, NormalLaw};
-use crate::dem::vector::Vector;
+use crate::forces::contact::{Hertz, NormalLaw};
+use crate::particles::vector::Vector;
 use crate::scene::{DemScene, Effects, Scene, Tank};
 use serde::Deserialize;
 use std::f64::consts::PI;

@@ -3,7 +3,7 @@
 use super::bench::{Bench, Material, at, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
-use crate::dem::vector::Vector;
+use crate::particles::vector::Vector;
 use crate::scene::{DemScene, Drag, DragForm, DragLaw, Effects, Scene, Swirl, Tank};
 use serde::Deserialize;
 

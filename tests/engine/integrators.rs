@@ -201,7 +201,7 @@ fn adaptive_bits_depend_on_the_scene_alone() {
             simulation.elastic_energy();
         }
         let places = simulation.particles().position.clone();
-        let bits = |it: &phase::dem::vector::Vector| [it.x, it.y, it.z].map(f64::to_bits);
+        let bits = |it: &phase::particles::vector::Vector| [it.x, it.y, it.z].map(f64::to_bits);
         places.iter().map(bits).collect::<Vec<_>>()
     };
     let expected = state(0.5, 1);

@@ -5,7 +5,7 @@ use crate::scenes::{
     momentum, scales, state, tank,
 };
 use phase::dem::Simulation;
-use phase::dem::vector::Vector;
+use phase::particles::vector::Vector;
 use phase::scene::{Contact, DragForm, Friction, Integrator, Scene, StartSphere, Tank};
 use proptest::prelude::*;
 

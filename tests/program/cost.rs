@@ -60,7 +60,7 @@ fn the_total_is_what_a_run_takes() {
 #[test]
 fn what_a_scene_does_not_have_costs_nothing() {
     let whole = RunCost::measure(&realistic(0.4), LONG).unwrap();
-    for part in Part::ALL {
+    for part in Part::all() {
         let absent = matches!(part, Part::Ledger | Part::Process | Part::Sides);
         assert_eq!(part.is_in(&whole.record.scene), !absent, "{part:?}");
         assert_eq!(whole.seconds(part.name()) == 0.0, absent, "{part:?}");
@@ -71,20 +71,20 @@ fn what_a_scene_does_not_have_costs_nothing() {
     scene.tank.as_mut().unwrap().floor = None;
     scene.output.ledger = true;
     let cost = RunCost::measure(&scene, LONG).unwrap();
-    for part in Part::ALL {
-        let absent = matches!(
-            part,
-            Part::Updraught
-                | Part::Shield
-                | Part::SpinDamping
-                | Part::Floor
-                | Part::Sides
-                | Part::Process
-        );
+    let absent = [
+        "updraught",
+        "counting shield",
+        "spin damping",
+        "floor",
+        "sides",
+        "feed, door, outlet",
+    ];
+    for part in Part::all() {
+        let absent = absent.contains(&part.name());
         assert_eq!(part.is_in(&scene), !absent, "{part:?}");
         assert_eq!(cost.seconds(part.name()) == 0.0, absent, "{part:?}");
     }
-    let sum: f64 = Part::ALL.iter().map(|part| cost.seconds(part.name())).sum();
+    let sum: f64 = Part::all().map(|part| cost.seconds(part.name())).sum();
     let rest = [OBSERVERS, RECORD, START].map(|part| cost.seconds(part));
     let sum = sum + rest.iter().sum::<f64>();
     assert!((sum / cost.total() - 1.0).abs() < 1e-12);
@@ -170,11 +170,11 @@ fn a_few_jobs_stand_for_a_sweep() {
     // Two seeds each.
     let all: f64 = cost.tried.iter().map(|it| 2.0 * it.cost.total()).sum();
     assert!((cost.total() / all - 1.0).abs() < 1e-9);
-    let has = |part: Part| {
+    let has = |name: &str| {
         let mut parts = cost.parts().into_iter();
-        parts.any(|it| it.name == part.name() && it.is_present)
+        parts.any(|it| it.name == name && it.is_present)
     };
-    assert!(!has(Part::Updraught) && has(Part::Swirl));
+    assert!(!has("updraught") && has("swirl"));
 
     let text = place.phase(&["cost", "tiny.toml"]).code(0);
     text.says("omega = 4, seed 1")

@@ -1,8 +1,9 @@
 //! Scenes that the tests of the engine share.
 #![allow(dead_code, reason = "each test program uses a part of it")]
 
-use phase::dem::vector::Vector;
-use phase::dem::{Particles, Simulation};
+use phase::dem::Simulation;
+use phase::particles::Particles;
+use phase::particles::vector::Vector;
 use phase::scene::{Contact, Friction, Integrator, Scene, Start, StartSphere};
 use proptest::prelude::*;
 

@@ -3,9 +3,9 @@
 //! A rotation of all spheres about the axis is not counted: it leaves the distances of all pairs as
 //! they are.
 
-use crate::dem::block::ROWS;
-use crate::dem::particles::{Particles, retain};
-use crate::dem::vector::Vector;
+use crate::particles::block::ROWS;
+use crate::particles::vector::Vector;
+use crate::particles::{Particles, retain};
 
 /// Where a sphere stood, in half the memory: single precision is more than a margin needs, and what
 /// it rounds is taken from the margin.

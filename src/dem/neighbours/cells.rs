@@ -1,7 +1,7 @@
 //! Cells in a box about all spheres.
 
-use crate::dem::particles::Particles;
-use crate::dem::vector::Vector;
+use crate::particles::Particles;
+use crate::particles::vector::Vector;
 
 /// Spheres sorted by cell.
 #[derive(Clone, Debug, Default)]

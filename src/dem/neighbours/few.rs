@@ -2,7 +2,7 @@
 //! spheres, and the partners of a sphere come out in order.
 
 use super::{Reach, WORD};
-use crate::dem::particles::Particles;
+use crate::particles::Particles;
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
 /// As many spheres are few.

@@ -2,7 +2,7 @@
 //! rest: most grains of a silo lie still while a few fall.
 
 use super::{Reach, VerletList};
-use crate::dem::particles::Particles;
+use crate::particles::Particles;
 
 /// At most one in this number of spheres may have left its margin. Each of these is compared with
 /// all spheres, so following more takes as long as building the list again.
@@ -141,7 +141,7 @@ pub(super) fn indices_of_kept(keep: &[bool]) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dem::vector::Vector;
+    use crate::particles::vector::Vector;
     use crate::scene::Neighbours;
     use proptest::prelude::*;
 

@@ -1,7 +1,7 @@
 //! What is true of a block of pairs, and will be for a few steps.
 
 use super::{NearPair, Particles};
-use crate::dem::block::{BLOCK, Column, Columns, ROWS, row};
+use crate::particles::block::{BLOCK, Column, Columns, ROWS, row};
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8};
 
 /// What is true of eight pairs, as bits.

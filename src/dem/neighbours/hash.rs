@@ -1,7 +1,7 @@
 //! Cells in a chained hash table, for spheres that may be anywhere.
 
-use crate::dem::particles::Particles;
-use crate::dem::vector::Vector;
+use crate::particles::Particles;
+use crate::particles::vector::Vector;
 
 /// No sphere.
 const NONE: u32 = u32::MAX;

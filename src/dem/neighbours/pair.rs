@@ -1,6 +1,6 @@
 //! Pairs of spheres in lists.
 
-use crate::dem::block::ROWS;
+use crate::particles::block::ROWS;
 use fearless_simd::{Simd, SimdBase, SimdMask, mask64x8, u64x8};
 use std::cmp::Ordering;
 

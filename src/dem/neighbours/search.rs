@@ -2,8 +2,8 @@
 
 use super::cells::Cells;
 use super::hash::HashedCells;
-use crate::dem::particles::Particles;
-use crate::dem::vector::Vector;
+use crate::particles::Particles;
+use crate::particles::vector::Vector;
 use crate::scene::Neighbours;
 
 /// A way to find the spheres that may be near a sphere.

@@ -2,7 +2,7 @@
 //! in each.
 
 use super::{NearPair, Particles, WORD};
-use crate::dem::block::{ROWS, ones, row, turned};
+use crate::particles::block::{ROWS, ones, row, turned};
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
 /// The count of spheres that shield each one, kept up with the pairs whose part in it may change.

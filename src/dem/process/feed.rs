@@ -1,7 +1,7 @@
 //! Spheres that come in one after the other.
 
-use crate::dem::particles::Sphere;
 use crate::dem::system::Engine;
+use crate::particles::Sphere;
 use std::collections::VecDeque;
 
 /// Spheres that come in one after the other, at one place.

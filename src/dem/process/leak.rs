@@ -4,7 +4,7 @@
 //! whose gap is too narrow even for the smallest grain are taken to form a wall, and no centre may
 //! cross the line between theirs.
 
-use crate::dem::particles::Particles;
+use crate::particles::Particles;
 use crate::scene::{FixedSphere, FixedSpheres, Scene, Shape};
 use crate::simulation::{Guard, Instability};
 

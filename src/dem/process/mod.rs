@@ -14,8 +14,8 @@ pub(super) use state::ProcessState;
 
 use self::leak::LeakWatch;
 use self::rest::RestWatch;
-use super::particles::Particles;
 use super::system::Engine;
+use crate::particles::Particles;
 use crate::scene::Scene;
 use crate::simulation::{Counts, Instability, Milestone, MilestoneKind};
 

@@ -1,6 +1,6 @@
 //! When spheres count as at rest.
 
-use crate::dem::particles::Particles;
+use crate::particles::Particles;
 use crate::scene::Rest;
 
 /// One sphere at rest may have the limit of all spheres over this number, or over the number of

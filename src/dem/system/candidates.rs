@@ -5,12 +5,12 @@ use super::contact_laws::Laws;
 use super::contact_state::{ContactState, EarlierMotion, SphereProperties};
 use super::contact_task::{AtWalls, ContactSlice};
 use super::wall_contacts::{NearSphere, WallContacts};
-use crate::dem::block::Row;
-use crate::dem::contact::NormalLaw;
-use crate::dem::friction::TangentialLaw;
 use crate::dem::neighbours::NearPair;
-use crate::dem::vector::Vector;
 use crate::dem::walls::TankWall;
+use crate::forces::contact::NormalLaw;
+use crate::forces::friction::TangentialLaw;
+use crate::particles::block::Row;
+use crate::particles::vector::Vector;
 
 /// Contacts that may exist: near pairs, and spheres near walls.
 #[derive(Default)]

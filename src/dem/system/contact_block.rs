@@ -14,11 +14,11 @@ use super::lanes::{PropertyColumns, WallContactColumns};
 use super::partners::Partners;
 use super::sums::Sums;
 use super::touching::{Entries, Lanes};
-use crate::dem::block::{BLOCK, Column, Columns, ROWS, Row, row};
-use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{History, TangentialLaw};
-use crate::dem::math::inverse_square_root;
-use crate::dem::vector::Vector;
+use crate::forces::contact::NormalLaw;
+use crate::forces::friction::{History, TangentialLaw};
+use crate::particles::block::{BLOCK, Column, Columns, ROWS, Row, row};
+use crate::particles::math::inverse_square_root;
+use crate::particles::vector::Vector;
 use fearless_simd::{Simd, SimdBase, SimdFrom, f64x4, f64x8};
 use std::marker::PhantomData;
 

@@ -3,13 +3,13 @@
 //! Free of branches, as it stands in loops over blocks of contacts, which touch or not.
 
 use super::contact_state::{ContactState, SphereProperties};
-use crate::dem::contact::{NormalLaw, contact_radius};
-use crate::dem::friction::{
+use crate::dem::walls::{Wall, WallContact};
+use crate::forces::contact::{NormalLaw, contact_radius};
+use crate::forces::friction::{
     LoadedSpring, Spring, TangentialLaw, Touch, Traction, sliding_velocity,
 };
-use crate::dem::math::inverse_square_root;
-use crate::dem::vector::Vector;
-use crate::dem::walls::{Wall, WallContact};
+use crate::particles::math::inverse_square_root;
+use crate::particles::vector::Vector;
 
 /// The time that springs are loaded over until an evaluation of forces, with the mean velocities of
 /// that time.

@@ -1,7 +1,7 @@
 //! Position, motion and properties of the two at a contact.
 
-use crate::dem::particles::Particles;
-use crate::dem::vector::Vector;
+use crate::particles::Particles;
+use crate::particles::vector::Vector;
 
 /// Two spheres at a contact, or a sphere and a wall. Forces act on the first.
 #[derive(Clone, Copy)]

@@ -9,14 +9,14 @@ use super::partners::Partners;
 use super::sums::Sums;
 use super::touching::{Entries, LOOK, Touching};
 use super::wall_contacts::NearSphere;
-use crate::dem::block::BLOCK;
-use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::neighbours::NearPair;
 use crate::dem::profile::{self, Part, Profile};
 use crate::dem::threads::{split, split_shared};
-use crate::dem::vector::Vector;
 use crate::dem::walls::TankWall;
+use crate::forces::contact::NormalLaw;
+use crate::forces::friction::{History, TangentialLaw};
+use crate::particles::block::BLOCK;
+use crate::particles::vector::Vector;
 use fearless_simd::{Level, Simd};
 
 /// What a contact force depends on besides the two spheres and their history.

@@ -7,11 +7,11 @@ use super::moves::FirstTooFast;
 use super::partners::Partners;
 use super::sums::Sums;
 use super::touching::come_from_far;
-use crate::dem::contact::NormalLaw;
-use crate::dem::friction::TangentialLaw;
-use crate::dem::particles::Particles;
 use crate::dem::profile::{self, Part};
 use crate::dem::walls::TankWall;
+use crate::forces::contact::NormalLaw;
+use crate::forces::friction::TangentialLaw;
+use crate::particles::Particles;
 use crate::simulation::Instability;
 use std::ops::Range;
 
@@ -96,7 +96,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return;
         }
         let (particles, all) = (&self.particles, &self.setup.effects);
-        let potential = all.iter().take_while(|it| it.energy(particles).is_some());
+        let potential = all
+            .iter()
+            .take_while(|(_, it)| it.energy(particles).is_some());
         let potential = potential.count();
         self.act(0..potential);
         let particles = &self.particles;
@@ -116,9 +118,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             near.count_shielding(self.level, particles);
             self.mark(Part::Shield);
         }
-        for effect in &mut self.setup.effects {
+        for (place, effect) in &mut self.setup.effects {
             effect.prepare(self.neighbours.near.shielding());
-            profile::mark(&mut self.profile, effect.part());
+            profile::mark(&mut self.profile, Part::Effect(*place));
         }
     }
 

@@ -8,12 +8,12 @@ use super::candidates::Candidates;
 use super::contact_laws::ContactForce;
 use super::wall_contacts::{NearSphere, WallContacts};
 use super::{Engine, System};
-use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{History, Spring, TangentialLaw};
-use crate::dem::order::reorder;
-use crate::dem::particles::{Particles, retain};
 use crate::dem::profile::Part;
-use crate::dem::vector::Vector;
+use crate::forces::contact::NormalLaw;
+use crate::forces::friction::{History, Spring, TangentialLaw};
+use crate::particles::reorder::reorder;
+use crate::particles::vector::Vector;
+use crate::particles::{Particles, retain};
 use serde::{Deserialize, Serialize};
 
 /// Work since the start (J).
@@ -165,7 +165,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             .map(|(rate, inertia)| 0.5 * inertia * rate.norm_squared())
             .sum();
         let effects = self.setup.effects.iter();
-        let potential: f64 = effects.filter_map(|effect| effect.energy(particles)).sum();
+        let potential: f64 = effects
+            .filter_map(|(_, effect)| effect.energy(particles))
+            .sum();
         let springs = contacts.spring_energy;
         Some([
             kinetic + potential + contacts.elastic_energy + springs,

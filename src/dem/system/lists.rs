@@ -5,12 +5,12 @@ use super::contact_state::SphereProperties;
 use super::division::threads;
 use super::wall_contacts::WallContacts;
 use super::{Setup, System};
-use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::neighbours::NearPair;
-use crate::dem::particles::Particles;
 use crate::dem::profile::Part;
 use crate::dem::threads::both;
+use crate::forces::contact::NormalLaw;
+use crate::forces::friction::{History, TangentialLaw};
+use crate::particles::Particles;
 use crate::simulation::Instability;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
@@ -153,8 +153,8 @@ fn carry_over<H: History>(before: &[NearPair], now: &[NearPair], histories: &mut
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dem::friction::Spring;
-    use crate::dem::vector::Vector;
+    use crate::forces::friction::Spring;
+    use crate::particles::vector::Vector;
     use proptest::prelude::*;
     use std::collections::BTreeSet;
 

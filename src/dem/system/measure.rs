@@ -1,10 +1,10 @@
 //! What the contacts hold.
 
 use super::{Contacts, System};
-use crate::dem::contact::NormalLaw;
-use crate::dem::friction::TangentialLaw;
-use crate::dem::particles::Particles;
 use crate::dem::walls::Wall;
+use crate::forces::contact::NormalLaw;
+use crate::forces::friction::TangentialLaw;
+use crate::particles::Particles;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Reads positions alone, and builds the list at most earlier than a step would: bits of

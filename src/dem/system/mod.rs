@@ -33,16 +33,16 @@ use self::ledger::Ledger;
 pub(in crate::dem) use self::ledger::Work;
 pub(in crate::dem) use self::state::EngineState;
 use self::wall_contacts::WallContacts;
-use super::bodies::Bodies;
-use super::contact::NormalLaw;
-use super::effects::Effect;
-use super::friction::TangentialLaw;
 use super::guard::Limits;
 use super::neighbours::{Near, NearPair, Reach, VerletList};
-use super::particles::{Particles, Sphere, retain};
 use super::profile::{self, Part, Profile};
 use super::state::StateError;
 use super::walls::TankWall;
+use crate::forces::contact::NormalLaw;
+use crate::forces::effects::PlacedEffect;
+use crate::forces::friction::TangentialLaw;
+use crate::particles::bodies::Bodies;
+use crate::particles::{Particles, Sphere, retain};
 use crate::scene::{Integrator, Neighbours};
 use crate::simulation::Instability;
 use fearless_simd::Level;
@@ -97,7 +97,7 @@ pub(in crate::dem) struct Setup {
     /// In the order in which they act.
     pub(in crate::dem) walls: Vec<TankWall>,
     /// Those of a potential first.
-    pub(in crate::dem) effects: Vec<Box<dyn Effect>>,
+    pub(in crate::dem) effects: Vec<PlacedEffect>,
     /// Whether an effect needs the number of spheres below each sphere.
     pub(in crate::dem) shielded: bool,
     pub(in crate::dem) limits: Limits,

@@ -1,13 +1,14 @@
 //! Effects, kicks and drifts: loops over all spheres, or over each thread's.
 
-use crate::dem::block::BLOCK;
-use crate::dem::bodies::{Asked, Bodies, Spheres};
-use crate::dem::effects::Effect;
+use crate::dem::bodies::Spheres;
 use crate::dem::guard::{Limits, TooFast};
 use crate::dem::neighbours::Allowance;
 use crate::dem::profile::{self, Part, Profile};
 use crate::dem::threads::in_parallel;
-use crate::dem::vector::Vector;
+use crate::forces::effects::PlacedEffect;
+use crate::particles::block::BLOCK;
+use crate::particles::bodies::{Asked, Bodies};
+use crate::particles::vector::Vector;
 use fearless_simd::{Level, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
 
 /// Spheres to which everything is done before the next ones: few enough to stay in the nearest
@@ -20,7 +21,7 @@ pub(super) type FirstTooFast = [Option<TooFast>; 2];
 /// What is done to each sphere, in this order.
 pub(super) struct Moves<'a> {
     /// Add to its force and torque.
-    pub(super) effects: &'a [Box<dyn Effect>],
+    pub(super) effects: &'a [PlacedEffect],
     /// How long each kick is (s), one after the other: the last of a step and the first of the next
     /// are two, as numbers are rounded after either.
     pub(super) kicks: &'a [f64],
@@ -59,7 +60,7 @@ impl Moves<'_> {
         level: Level,
         profile: &mut Option<Box<Profile>>,
     ) -> Found {
-        let asked = self.effects.iter().map(|effect| effect.asks());
+        let asked = self.effects.iter().map(|(_, effect)| effect.asks());
         let asked = asked.fold(Asked::default(), Asked::or);
         // Without rotation there are neither spins nor torques.
         let asked = Asked {
@@ -93,7 +94,7 @@ impl Moves<'_> {
         debug_assert!(self.kicks.len() <= found.too_fast.len());
         // Gravity alone is no more than a part of the kick.
         let alone = match self.effects {
-            [effect] => effect.acceleration().map(|it| (it, effect.part())),
+            [(place, effect)] => effect.acceleration().map(|it| (it, Part::Effect(*place))),
             _ => None,
         };
         while spheres.len() > 0 {
@@ -141,9 +142,9 @@ impl Moves<'_> {
         for from in (0..spheres.len()).step_by(BLOCK) {
             bodies.take(simd, spheres, from, asked);
             profile::mark(profile, Part::Rest);
-            for effect in self.effects {
+            for (place, effect) in self.effects {
                 effect.apply(level, bodies);
-                profile::mark(profile, effect.part());
+                profile::mark(profile, Part::Effect(*place));
             }
             bodies.give(simd, spheres, from, asked);
         }

@@ -1,11 +1,11 @@
 //! Sorting the spheres of a large scene in memory, and all that has an entry per sphere with them.
 
 use super::System;
-use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::neighbours::NearPair;
 use crate::dem::order;
 use crate::dem::profile::Part;
+use crate::forces::contact::NormalLaw;
+use crate::forces::friction::{History, TangentialLaw};
 use crate::simulation::Instability;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
@@ -31,7 +31,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let places = order::places(order);
         self.follow_pairs(&places);
         self.particles.reorder(order);
-        for effect in &mut self.setup.effects {
+        for (_, effect) in &mut self.setup.effects {
             effect.reorder(order);
         }
         for wall in &mut self.walls {

@@ -2,11 +2,11 @@
 
 use super::contact_block::EarlierRows;
 use super::wall_contacts::NearSphere;
-use crate::dem::block::BLOCK;
 use crate::dem::bodies::Spheres;
 use crate::dem::neighbours::NearPair;
-use crate::dem::particles::Particles;
-use crate::dem::vector::Vector;
+use crate::particles::Particles;
+use crate::particles::block::BLOCK;
+use crate::particles::vector::Vector;
 use std::ops::Range;
 
 /// What contacts read of spheres, from one on: of all, of those that a thread answers for, or of

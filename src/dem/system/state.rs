@@ -6,11 +6,11 @@
 use super::ledger::Books;
 use super::wall_contacts::WallContacts;
 use super::{Age, Near, NearPair, Setup, System, VerletList};
-use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::order;
-use crate::dem::particles::Particles;
 use crate::dem::state::StateError;
+use crate::forces::contact::NormalLaw;
+use crate::forces::friction::{History, TangentialLaw};
+use crate::particles::Particles;
 use crate::simulation::Instability;
 use serde::de::DeserializeOwned;
 use serde::ser::SerializeSeq;
@@ -143,7 +143,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         limits.fit(&particles.radius, *dt);
         if *sorted {
             let order = order::between(&present.number, &particles.number, particles.fixed);
-            for effect in effects {
+            for (_, effect) in effects {
                 effect.reorder(&order);
             }
         }

@@ -17,14 +17,15 @@ use super::moves::{Drift, FirstTooFast, Found, Moves};
 use super::partners::Partners;
 use super::sums::Sums;
 use super::touching::LOOK;
-use crate::dem::block::BLOCK;
-use crate::dem::bodies::{Bodies, Spheres};
-use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{History, TangentialLaw};
+use crate::dem::bodies::Spheres;
 use crate::dem::neighbours::NearPair;
 use crate::dem::profile::Profile;
 use crate::dem::threads::in_parallel;
 use crate::dem::walls::TankWall;
+use crate::forces::contact::NormalLaw;
+use crate::forces::friction::{History, TangentialLaw};
+use crate::particles::block::BLOCK;
+use crate::particles::bodies::Bodies;
 use fearless_simd::Level;
 
 /// Spheres are moved after this many near pairs: few enough that these are still in a near cache, so

@@ -1,7 +1,7 @@
 //! Forces and torques, as contacts add to them.
 
-use crate::dem::friction::TangentialLaw;
-use crate::dem::vector::Vector;
+use crate::forces::friction::TangentialLaw;
+use crate::particles::vector::Vector;
 use fearless_simd::{Simd, f64x4};
 
 /// Forces and torques of some spheres, one after the other.

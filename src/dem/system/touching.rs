@@ -3,8 +3,8 @@
 
 use super::contact_state::SphereProperties;
 use super::partners::Partners;
-use crate::dem::block::{BLOCK, ROWS, row, turned};
 use crate::dem::neighbours::{NearPair, keep_pairs};
+use crate::particles::block::{BLOCK, ROWS, row, turned};
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask32x8, mask64x8, u32x8};
 use prefetch_index::prefetch_index;
 
@@ -234,8 +234,8 @@ fn keep_entries<S: Simd>(simd: S, first: usize, which: u64, list: &mut [u32]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dem::particles::Particles;
-    use crate::dem::vector::Vector;
+    use crate::particles::Particles;
+    use crate::particles::vector::Vector;
     use fearless_simd::Level;
     use proptest::prelude::*;
 

@@ -1,7 +1,7 @@
 //! A wall, the spheres near it, and what their contacts with it remember.
 
-use crate::dem::particles::Particles;
 use crate::dem::walls::{TankWall, Wall};
+use crate::particles::Particles;
 
 /// A sphere that may touch a wall, and its entry in the wall's list.
 #[derive(Clone, Copy, Debug, Default)]
@@ -106,8 +106,8 @@ impl<H: Copy + Default> WallContacts<H> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dem::vector::Vector;
     use crate::dem::walls::Plane;
+    use crate::particles::vector::Vector;
 
     fn heights(heights: &[f64]) -> Particles {
         Particles {

@@ -1,8 +1,8 @@
 //! Limits of the Hertz contact.
 
 use super::overlap::deepest_at_start;
-use super::{Limit, Scheme};
-use crate::dem::contact::restitution::{dissipation_time_from_restitution, time_scale};
+use super::{Limit, scheme_of};
+use crate::forces::contact::restitution::{dissipation_time_from_restitution, time_scale};
 use crate::scene::{Contact, Friction, Scene, Shape};
 use std::f64::consts::PI;
 
@@ -156,7 +156,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
         return Vec::new();
     };
     let radius = scene.smallest_radius();
-    let scheme = Scheme::of(scene);
+    let scheme = scheme_of(scene);
     let frequency = impact.angular_frequency();
     // The law's damping at overlap xi: g = K c A sqrt(xi) / m_eff.
     let rate = 2.0 / 3.0 * dissipation_factor * dissipation_time(scene) * frequency * frequency;
@@ -208,7 +208,7 @@ fn friction_limit(scene: &Scene, impact: &Impact, poisson_ratio: f64) -> Option<
             regularisation,
         } => Some(Limit {
             name: "regularised friction",
-            seconds: Scheme::of(scene).oscillator(
+            seconds: scheme_of(scene).oscillator(
                 0.0,
                 3.5 * coefficient * impact.largest_force()
                     / (regularisation * impact.effective_mass),
@@ -222,7 +222,7 @@ fn friction_limit(scene: &Scene, impact: &Impact, poisson_ratio: f64) -> Option<
             let stiffness_ratio = 2.0 * (1.0 - poisson_ratio) / (2.0 - poisson_ratio);
             Some(Limit {
                 name: "sticking contact",
-                seconds: Scheme::of(scene).oscillator(
+                seconds: scheme_of(scene).oscillator(
                     (3.5 * stiffness_ratio).sqrt() * impact.angular_frequency(),
                     0.0,
                 ),

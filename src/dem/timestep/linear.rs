@@ -1,6 +1,6 @@
 //! Limits of the linear contact.
 
-use super::{Limit, Scheme, fastest_impact};
+use super::{Limit, fastest_impact, scheme_of};
 use crate::scene::{Contact, Friction, Scene};
 use std::f64::consts::PI;
 
@@ -67,7 +67,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
     let Some(impact) = stiffest_impact(scene) else {
         return Vec::new();
     };
-    let scheme = Scheme::of(scene);
+    let scheme = scheme_of(scene);
     let frequency = impact.angular_frequency();
     let speed = fastest_impact(scene);
     let mut limits = vec![

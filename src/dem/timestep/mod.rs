@@ -16,31 +16,19 @@
 //! limits know of several contacts of one sphere, which need that of twelve (tests/engine/stability
 //! measures both).
 
-mod air;
 mod hertz;
 mod linear;
 mod overlap;
 mod silbert;
 mod standing;
 
+pub use crate::forces::limit::Limit;
 pub use hertz::{Impact, dissipation_time, rayleigh_time};
 pub use linear::LinearImpact;
 pub use standing::Standing;
 
+use crate::forces::limit::{Regime, Scheme};
 use crate::scene::{Integrator, Scene, Start, StartSphere, Tank};
-
-/// A limit of the time step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limit {
-    /// What sets it.
-    pub name: &'static str,
-    /// Largest time step (s).
-    pub seconds: f64,
-    /// Whether a larger step is unstable and refused. The others are advice.
-    pub decisive: bool,
-    /// Formula and meaning, in one line.
-    pub explanation: &'static str,
-}
 
 /// The fastest relative speed (m/s) that the scene lets expect at an impact: the largest of the
 /// speeds at the start, of free fall from the highest start to the floor, of the air's updraught
@@ -71,20 +59,9 @@ pub fn fastest_impact(scene: &Scene) -> f64 {
         Start::Feed { .. } => libm::hypot(free_fall, start_speed),
         _ => free_fall,
     };
-    let updraught = scene
-        .dem
-        .effects
-        .updraught
-        .as_ref()
-        .map_or(0.0, |air| air.speed.abs());
-    let wall = tank.and_then(farthest_wall).unwrap_or(widest);
-    let swirl = scene
-        .dem
-        .effects
-        .swirl
-        .as_ref()
-        .map_or(0.0, |air| air.omega.abs() * wall);
-    [free_fall, updraught, swirl]
+    let reach = tank.and_then(farthest_wall).unwrap_or(widest);
+    let of_effects = scene.dem.effects.fastest(reach);
+    [free_fall, of_effects]
         .into_iter()
         .fold(start_speed, f64::max)
 }
@@ -146,33 +123,43 @@ fn displacement(scene: &Scene, speed: f64) -> Limit {
     }
 }
 
-/// What an integrator makes of an oscillator: it stays bounded as one would of which symplectic
-/// Euler makes the same, with another damping.
-#[derive(Clone, Copy)]
-struct Scheme {
-    /// Factor on damping rates.
-    damping: f64,
+/// What the limits of effects depend on.
+fn regime(scene: &Scene) -> Regime {
+    let (smallest_radius, smallest_mass) = (scene.smallest_radius(), scene.smallest_mass());
+    let inertia_factor = scene.spheres.shape.inertia_factor();
+    Regime {
+        scheme: scheme_of(scene),
+        smallest_radius,
+        smallest_mass,
+        smallest_inertia: inertia_factor * smallest_mass * smallest_radius * smallest_radius,
+        fastest_impact: fastest_impact(scene),
+        lowest_height: lowest_height(scene),
+    }
 }
 
-impl Scheme {
-    fn of(scene: &Scene) -> Self {
-        let damping = match scene.time.integrator {
-            // Of adaptive Verlet only the drag: sub-steps take care of contacts.
-            Integrator::SymplecticEuler
-            | Integrator::VelocityVerlet
-            | Integrator::AdaptiveVerlet => 1.0,
-            Integrator::SynchronisedVerlet => 2.0,
-        };
-        Self { damping }
+/// The lowest height (m) of a centre: of what holds spheres, or at the start.
+fn lowest_height(scene: &Scene) -> f64 {
+    match (&scene.start, scene.lowest_support()) {
+        (_, Some(floor)) => floor,
+        (Start::Random { z_min, .. }, None) => *z_min,
+        (Start::List { spheres }, None) => spheres
+            .iter()
+            .fold(f64::MAX, |low, sphere| low.min(sphere.position[2])),
+        (Start::Feed { position, .. }, None) => position[2],
+        (Start::File { .. }, None) => 0.0,
     }
+}
 
-    /// Largest step (s) at which an oscillator of that angular frequency w (1/s) and damping rate g
-    /// (1/s) stays bounded.
-    fn oscillator(self, frequency: f64, rate: f64) -> f64 {
-        // The positive root of (w dt)^2 + 2 g dt = 4, in the form that does not cancel.
-        let rate = self.damping * rate;
-        4.0 / (rate + (rate * rate + 4.0 * frequency * frequency).sqrt())
-    }
+/// What the integrator of a scene makes of an oscillator.
+pub(super) fn scheme_of(scene: &Scene) -> Scheme {
+    let damping = match scene.time.integrator {
+        // Of adaptive Verlet only the drag: sub-steps take care of contacts.
+        Integrator::SymplecticEuler | Integrator::VelocityVerlet | Integrator::AdaptiveVerlet => {
+            1.0
+        }
+        Integrator::SynchronisedVerlet => 2.0,
+    };
+    Scheme { damping }
 }
 
 /// The limit of a sphere with twelve contacts, each of which has that angular frequency w (1/s) and
@@ -198,8 +185,7 @@ pub fn limits(scene: &Scene) -> Vec<Limit> {
             limit.decisive = true;
         }
     }
-    limits.extend(air::drag_limit(scene));
-    limits.extend(air::spin_damping_limit(scene));
+    limits.extend(scene.dem.effects.limits(&regime(scene)));
     let finite = |limit: &Limit| limit.seconds.is_finite();
     limits.retain(finite);
     limits.sort_by(|a, b| {

@@ -1,10 +1,10 @@
 //! How deep spheres overlap at the start.
 
 use crate::dem::neighbours::visit_pairs;
-use crate::dem::particles::Particles;
 use crate::dem::start;
-use crate::dem::vector::Vector;
 use crate::dem::walls::{TankWall, Wall};
+use crate::particles::Particles;
+use crate::particles::vector::Vector;
 use crate::scene::{Scene, Start, Tank};
 
 /// The deepest overlap (m) of two listed spheres, or of one with a wall; zero where none touch.

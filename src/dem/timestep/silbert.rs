@@ -1,7 +1,7 @@
 //! Limits of the Hertz contact of Silbert et al.
 
 use super::overlap::deepest_at_start;
-use super::{Impact, Limit, Scheme};
+use super::{Impact, Limit, scheme_of};
 use crate::scene::{Contact, Friction, Scene};
 
 /// An elastic impact, and the effective radius (m) of its partners.
@@ -73,7 +73,7 @@ pub(super) fn limits(scene: &Scene) -> Vec<Limit> {
     else {
         return Vec::new();
     };
-    let scheme = Scheme::of(scene);
+    let scheme = scheme_of(scene);
     let least = |seconds: &dyn Fn(&Meeting) -> f64| {
         let seconds = meetings.iter().map(seconds);
         seconds.fold(f64::INFINITY, f64::min)

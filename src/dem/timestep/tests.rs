@@ -226,7 +226,7 @@ fn the_damped_limit_is_where_an_oscillator_diverges() {
     for integrator in Integrator::ALL.into_iter().filter(without_sub_steps) {
         let mut scene = pair("");
         scene.time.integrator = integrator;
-        let scheme = Scheme::of(&scene);
+        let scheme = scheme_of(&scene);
         for (frequency, dissipation) in [(5.0, 0.0), (1.0, 0.1), (3.0, 1.0), (10.0, 3.0)] {
             let rate = 2.0 / 3.0 * dissipation * frequency * frequency;
             let limit = scheme.oscillator(frequency, rate);

@@ -1,8 +1,8 @@
 //! The cylindrical wall about the z axis.
 
 use super::{Wall, WallContact};
-use crate::dem::math::inverse_square_root;
-use crate::dem::vector::Vector;
+use crate::particles::math::inverse_square_root;
+use crate::particles::vector::Vector;
 
 /// A vertical cylinder about the z axis, with the spheres inside.
 #[derive(Clone, Copy, Debug)]

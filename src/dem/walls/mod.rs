@@ -7,7 +7,7 @@ pub use cylinder::Cylinder;
 pub use plane::Plane;
 
 use super::profile::Part;
-use super::vector::Vector;
+use crate::particles::vector::Vector;
 use crate::scene::Tank;
 
 /// Where a sphere is with respect to a wall.

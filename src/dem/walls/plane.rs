@@ -1,7 +1,7 @@
 //! A plane wall: the floor, or a side.
 
 use super::{Wall, WallContact};
-use crate::dem::vector::Vector;
+use crate::particles::vector::Vector;
 
 /// A plane, with the spheres before it.
 #[derive(Clone, Copy, Debug)]

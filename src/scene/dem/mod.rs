@@ -1,16 +1,15 @@
 //! The part of a scene that belongs to the discrete element model: laws of contact, effects, fixed
 //! spheres, what ends a run, guards.
 
-mod contact;
-mod drag;
-mod effects;
 mod guards;
 mod neighbours;
 mod silo;
 
-pub use contact::{Contact, ContactDrag, Friction};
-pub use drag::{Drag, DragForm, DragLaw};
-pub use effects::{Effects, Gravity, SpinDamping, Swirl, Updraught};
+pub use crate::forces::contact::{Contact, ContactDrag};
+pub use crate::forces::effects::{
+    Drag, DragForm, DragLaw, Effects, Gravity, SpinDamping, Swirl, Updraught,
+};
+pub use crate::forces::friction::Friction;
 pub use guards::Guards;
 pub use neighbours::Neighbours;
 pub(crate) use silo::MOST_HOPPER_SPHERES;

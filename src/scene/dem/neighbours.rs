@@ -1,6 +1,6 @@
 //! How the pairs that may touch are found.
 
-use crate::scene::quantities::length;
+use crate::document::quantities::length;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
 //! A silo: fixed spheres as walls and door, grains that are fed in, and when the door opens.
 
+use crate::document::quantities::{length, place};
 use crate::document::{quantity, unit};
-use crate::scene::quantities::{length, place};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;

@@ -2,8 +2,8 @@
 //! and radius of each.
 
 use super::FileError;
+use crate::document::quantities::LENGTHS;
 use crate::document::text;
-use crate::scene::quantities::LENGTHS;
 use crate::scene::{FixedSphere, FixedSpheres, LengthUnit};
 use std::path::Path;
 

@@ -9,7 +9,6 @@ mod time;
 
 use super::{
     Contact, Friction, Geometry, LIST_KEY, Radii, SCENE, START_SPHERE, Scene, Spheres, Start,
-    Updraught,
 };
 use crate::document::{Problem, any_of, number};
 
@@ -51,29 +50,7 @@ impl Scene {
     }
 
     fn check_laws(&self, problems: &mut Vec<Problem>) {
-        if self.dem.effects.drag.is_none() {
-            let users = [
-                ("swirl", self.dem.effects.swirl.is_some()),
-                ("updraught", self.dem.effects.updraught.is_some()),
-            ];
-            for (name, _) in users.iter().filter(|(_, present)| *present) {
-                let message = format!("[{name}] needs a drag law, but there is no [drag]");
-                let help = "add [drag] with `law` and `linear` or `quadratic`";
-                problems.push(Problem::new(*name, message).help(help));
-            }
-        } else if self.dem.effects.swirl.is_none() && self.dem.effects.updraught.is_none() {
-            let message = "[drag] acts through [swirl] or [updraught], but there is neither";
-            let help = "add [swirl], with `omega = 0.0` for still air, or remove [drag]";
-            problems.push(Problem::new("drag", message).help(help));
-        }
-        let rotates = |air: &Updraught| air.reference_omega.is_some();
-        if self.dem.effects.updraught.as_ref().is_some_and(rotates)
-            && self.dem.effects.swirl.is_none()
-        {
-            let message = "`updraught.reference_omega` refers to [swirl], but there is none";
-            let help = "add [swirl], or remove `reference_omega`";
-            problems.push(Problem::new("updraught.reference_omega", message).help(help));
-        }
+        problems.extend(self.dem.effects.problems(self.dem.friction.is_some()));
         if self.dem.friction.is_some() && self.dem.contact.is_none() {
             let message = "[friction] acts at contacts, but there is no [contact]";
             let help = "add [contact] with `law = \"hertz\"`, or remove [friction]";
@@ -89,11 +66,6 @@ impl Scene {
             let there = any_of(friction.contacts().iter().copied().map(named));
             let help = format!("use {here} here, or {there} in [contact]");
             problems.push(Problem::new("friction.law", message).help(help));
-        }
-        if self.dem.effects.spin_damping.is_some() && self.dem.friction.is_none() {
-            let message = "[spin_damping] acts on spins, but without [friction] there are none";
-            let help = "add [friction], or remove [spin_damping]";
-            problems.push(Problem::new("spin_damping", message).help(help));
         }
         if let Some(Contact::Hertz {
             dissipation_time,

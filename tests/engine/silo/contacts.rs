@@ -2,7 +2,7 @@
 
 use super::hopper;
 use phase::dem::Simulation;
-use phase::dem::vector::Vector;
+use phase::particles::vector::Vector;
 use phase::scene::Scene;
 
 /// Grains in empty space.

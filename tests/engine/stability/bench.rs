@@ -1,7 +1,8 @@
 //! What the cases share: scenes at a part of their limit, and what a run shows on its way.
 
 use crate::scenes::energy;
-use phase::dem::{Particles, Simulation, timestep};
+use phase::dem::{Simulation, timestep};
+use phase::particles::Particles;
 use phase::record::{Guard, Instability};
 use phase::scene::{Gravity, Integrator, Scene, StartSphere};
 

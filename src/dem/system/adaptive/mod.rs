@@ -11,11 +11,11 @@ use super::candidates::Candidates;
 use super::contact_laws::Loading;
 use super::wall_contacts::{NearSphere, WallContacts};
 use super::{Engine, Setup, System};
-use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{Grip, TangentialLaw};
-use crate::dem::particles::Particles;
-use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;
+use crate::forces::contact::NormalLaw;
+use crate::forces::friction::{Grip, TangentialLaw};
+use crate::particles::Particles;
+use crate::particles::vector::Vector;
 use crate::simulation::Instability;
 
 /// How often a step is tried, each time with more room. One that needs more is on its way to a

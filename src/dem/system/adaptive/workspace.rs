@@ -1,9 +1,9 @@
 //! What a step of adaptive Verlet works with.
 
 use super::islands::{Island, Islands};
-use crate::dem::particles::Particles;
-use crate::dem::vector::Vector;
 use crate::dem::walls::TankWall;
+use crate::particles::Particles;
+use crate::particles::vector::Vector;
 
 /// What a sub-step may take of an island's fastest oscillation, h (w + g) with angular frequency w
 /// and damping rate g: an impact then lasts 27 sub-steps or more.

@@ -1,11 +1,11 @@
 //! Springs of a block of contacts, and the limit of friction.
 
 use super::{ContactBlock, NOT_DEEP, if_touching, store};
-use crate::dem::block::{BLOCK, ROWS};
-use crate::dem::friction::{History, LoadedSpring, Spring, TangentialLaw, arm};
-use crate::dem::math::inverse_square_root;
 use crate::dem::system::contact_laws::LoadedContact;
-use crate::dem::vector::Vector;
+use crate::forces::friction::{History, LoadedSpring, Spring, TangentialLaw, arm};
+use crate::particles::block::{BLOCK, ROWS};
+use crate::particles::math::inverse_square_root;
+use crate::particles::vector::Vector;
 use fearless_simd::Simd;
 
 impl<H: History> ContactBlock<H> {

@@ -1,16 +1,16 @@
 //! Spheres at a wall in blocks of contacts.
 
 use super::ContactBlock;
-use crate::dem::block::{BLOCK, ROWS, row};
-use crate::dem::contact::NormalLaw;
-use crate::dem::friction::{History, TangentialLaw};
 use crate::dem::system::contact_laws::Laws;
 use crate::dem::system::contact_state::SphereProperties;
 use crate::dem::system::partners::Partners;
 use crate::dem::system::sums::Sums;
 use crate::dem::system::wall_contacts::NearSphere;
-use crate::dem::vector::Vector;
 use crate::dem::walls::Wall;
+use crate::forces::contact::NormalLaw;
+use crate::forces::friction::{History, TangentialLaw};
+use crate::particles::block::{BLOCK, ROWS, row};
+use crate::particles::vector::Vector;
 use fearless_simd::{Simd, SimdFrom, f64x4};
 
 impl<H: History> ContactBlock<H> {

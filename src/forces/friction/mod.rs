@@ -2,6 +2,7 @@
 
 mod coulomb;
 mod cundall_strack;
+mod keys;
 mod mindlin;
 mod silbert;
 mod spin;
@@ -9,13 +10,14 @@ mod spring;
 
 pub use coulomb::Coulomb;
 pub use cundall_strack::CundallStrack;
+pub use keys::Friction;
 pub use mindlin::Mindlin;
 pub use silbert::SilbertFriction;
 pub use spin::SpinFriction;
 pub use spring::{LoadedSpring, Spring};
 
-use super::math::inverse_square_root;
-use super::vector::Vector;
+use crate::particles::math::inverse_square_root;
+use crate::particles::vector::Vector;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -72,14 +74,14 @@ impl Touch {
 
 /// The torque of a tangential force (N) on either partner, over its lever.
 #[inline(always)]
-pub(super) fn arm(force: Vector, normal: Vector) -> Vector {
+pub(crate) fn arm(force: Vector, normal: Vector) -> Vector {
     force.cross(normal)
 }
 
 /// Velocity of one surface relative to the other at the contact point (m/s), tangential part, from
 /// that of the centres.
 #[inline(always)]
-pub(super) fn sliding_velocity(
+pub(crate) fn sliding_velocity(
     normal: Vector,
     velocity: Vector,
     spin: [Vector; 2],

@@ -1,7 +1,7 @@
 //! Coulomb friction, regularised at rest.
 
 use super::{Grip, Spring, TangentialLaw, Touch, Traction};
-use crate::dem::math::inverse_square_root;
+use crate::particles::math::inverse_square_root;
 
 /// f = -mu F_n u / max(|u|, u_0), with the sliding velocity u of the contact point (translation
 /// and spin). Below the regularisation speed u_0 it is viscous, so a pile at rest creeps.

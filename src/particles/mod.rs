@@ -1,8 +1,14 @@
-//! The spheres of a simulation, one array per quantity.
+//! The spheres of a simulation, one array per quantity, and what is computed of them in blocks.
 
-use super::order::reorder;
-use super::vector::Vector;
+pub(crate) mod block;
+pub(crate) mod bodies;
+pub mod math;
+pub(crate) mod reorder;
+pub mod vector;
+
+use reorder::reorder;
 use serde::{Deserialize, Serialize};
+use vector::Vector;
 
 /// The spheres. Every array has one entry per sphere, or none at all where the scene has no
 /// use for it: spins, torques and moments of inertia exist only with friction.
@@ -11,8 +17,8 @@ pub struct Particles {
     /// How many of the spheres, the first ones, never move.
     pub fixed: usize,
     /// Number of each sphere in the scene, counted from 0, fixed ones by themselves; empty where no
-    /// sphere comes or goes and there are fewer than [`MANY`](super::order::MANY), which makes
-    /// numbers and indices the same.
+    /// sphere comes or goes and there are too few to be sorted, which makes numbers and indices the
+    /// same.
     pub number: Vec<u32>,
     /// Centres (m).
     pub position: Vec<Vector>,
@@ -38,7 +44,7 @@ pub struct Particles {
 
 impl Particles {
     /// Forgets the forces and torques of the latest evaluation.
-    pub(super) fn clear_forces(&mut self) {
+    pub(crate) fn clear_forces(&mut self) {
         self.force.fill(Vector::ZERO);
         self.torque.fill(Vector::ZERO);
     }
@@ -59,7 +65,7 @@ impl Particles {
     }
 
     /// Whether every array has an entry per sphere, or none where a scene may have no use for it.
-    pub(super) fn fits_together(&self) -> bool {
+    pub(crate) fn fits_together(&self) -> bool {
         let all = self.len();
         let turning = if self.rotate() { all } else { 0 };
         let vectors = [&self.position, &self.velocity, &self.force];
@@ -138,7 +144,7 @@ impl Particles {
     }
 
     /// Puts the spheres into a new order.
-    pub(super) fn reorder(&mut self, order: &[u32]) {
+    pub(crate) fn reorder(&mut self, order: &[u32]) {
         reorder(&mut self.number, order);
         let vectors = [
             &mut self.position,
@@ -163,7 +169,7 @@ impl Particles {
     }
 
     /// The place in the scene of the sphere at an index: its number, those of fixed spheres first.
-    pub(super) fn place_in_scene(&self, index: usize) -> usize {
+    pub(crate) fn place_in_scene(&self, index: usize) -> usize {
         match self.number.get(index) {
             Some(&number) if index >= self.fixed => self.fixed + number as usize,
             _ => index,
@@ -173,7 +179,7 @@ impl Particles {
     /// The least index of a partner that sphere `i` may have in a list of pairs: pairs stand with
     /// the lower index first, and two fixed spheres are none.
     #[inline]
-    pub(super) fn first_partner(&self, i: usize) -> usize {
+    pub(crate) fn first_partner(&self, i: usize) -> usize {
         (i + 1).max(self.fixed)
     }
 
@@ -203,7 +209,7 @@ pub struct Sphere {
 }
 
 /// Keeps the entries that are to be kept; leaves an array alone that has none at all.
-pub(super) fn retain<T>(entries: &mut Vec<T>, keep: &[bool]) {
+pub(crate) fn retain<T>(entries: &mut Vec<T>, keep: &[bool]) {
     let mut keep = keep.iter();
     entries.retain(|_| keep.next().is_none_or(|keep| *keep));
 }

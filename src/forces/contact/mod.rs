@@ -1,11 +1,13 @@
 //! Normal contact laws: one file each.
 
 mod hertz;
+mod keys;
 mod linear;
 pub mod restitution;
 mod silbert;
 
 pub use hertz::Hertz;
+pub use keys::{Contact, ContactDrag};
 pub use linear::Linear;
 pub use silbert::Silbert;
 

@@ -1,7 +1,7 @@
 //! The friction of Silbert et al.
 
 use super::{Grip, LoadedSpring, Spring, TangentialLaw, Touch};
-use crate::dem::contact::contact_radius;
+use crate::forces::contact::contact_radius;
 
 /// A spring of stiffness sqrt(R_eff xi) k_t and a dashpot sqrt(R_eff xi) gamma_t m_eff beside it,
 /// together capped at mu F_n (Silbert et al., Phys. Rev. E 64, 051302 (2001), for Hertzian

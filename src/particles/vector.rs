@@ -33,19 +33,19 @@ impl Vector {
 
     /// Its row of numbers, the last of which means nothing.
     #[inline(always)]
-    pub(in crate::dem) const fn row(&self) -> [f64; 4] {
+    pub(crate) const fn row(&self) -> [f64; 4] {
         [self.x, self.y, self.z, self.rest]
     }
 
     /// The vector of a row, whose last number means nothing.
     #[inline(always)]
-    pub(in crate::dem) const fn of_row([x, y, z, rest]: [f64; 4]) -> Self {
+    pub(crate) const fn of_row([x, y, z, rest]: [f64; 4]) -> Self {
         Self { x, y, z, rest }
     }
 
     /// Its row in a register.
     #[inline(always)]
-    pub(in crate::dem) fn simd<S: Simd>(&self, simd: S) -> f64x4<S> {
+    pub(crate) fn simd<S: Simd>(&self, simd: S) -> f64x4<S> {
         f64x4::simd_from(simd, self.row())
     }
 

@@ -5,31 +5,31 @@
 //! quantity of all pairs side by side. The way from the one to the other is the transposition of
 //! four rows of four numbers, in registers. No number is changed by it.
 
-use crate::dem::vector::Vector;
+use super::vector::Vector;
 use fearless_simd::{Simd, SimdBase, SimdCombine, SimdSplit, f64x4, f64x8};
 
 /// Pairs in a block.
-pub(in crate::dem) const BLOCK: usize = 32;
+pub(crate) const BLOCK: usize = 32;
 
 /// Four numbers side by side.
-pub(in crate::dem) type Row = [f64; 4];
+pub(crate) type Row = [f64; 4];
 
 /// One quantity of every pair in a block.
-pub(in crate::dem) type Column = [f64; BLOCK];
+pub(crate) type Column = [f64; BLOCK];
 
 /// The columns of one kind of row.
 #[repr(align(64))]
-pub(in crate::dem) struct Columns(pub(in crate::dem) [Column; 3]);
+pub(crate) struct Columns(pub(crate) [Column; 3]);
 
 /// Rows that are turned into columns, or columns into rows, at once.
-pub(in crate::dem) const ROWS: usize = 8;
+pub(crate) const ROWS: usize = 8;
 
 impl Columns {
-    pub(in crate::dem) const ZERO: Self = Self([[0.0; BLOCK]; 3]);
+    pub(crate) const ZERO: Self = Self([[0.0; BLOCK]; 3]);
 
     /// Fills the columns, each with the row of its lane.
     #[inline(always)]
-    pub(in crate::dem) fn fill<S: Simd>(&mut self, row: impl Fn(usize) -> f64x4<S>) {
+    pub(crate) fn fill<S: Simd>(&mut self, row: impl Fn(usize) -> f64x4<S>) {
         for at in (0..BLOCK).step_by(ROWS) {
             self.fill_from(at, &row);
         }
@@ -37,11 +37,7 @@ impl Columns {
 
     /// Fills the columns from `at` on, as many lanes as rows are turned at once.
     #[inline(always)]
-    pub(in crate::dem) fn fill_from<S: Simd>(
-        &mut self,
-        at: usize,
-        row: impl Fn(usize) -> f64x4<S>,
-    ) {
+    pub(crate) fn fill_from<S: Simd>(&mut self, at: usize, row: impl Fn(usize) -> f64x4<S>) {
         let [x, y, z] = turned(
             #[inline(always)]
             |k| row(at + k),
@@ -54,21 +50,21 @@ impl Columns {
 
     /// The vector of a lane.
     #[inline(always)]
-    pub(in crate::dem) fn vector(&self, k: usize) -> Vector {
+    pub(crate) fn vector(&self, k: usize) -> Vector {
         let [x, y, z] = &self.0;
         Vector::new(x[k], y[k], z[k])
     }
 
     /// Writes the vector of a lane.
     #[inline(always)]
-    pub(in crate::dem) fn set(&mut self, k: usize, vector: Vector) {
+    pub(crate) fn set(&mut self, k: usize, vector: Vector) {
         let [x, y, z] = &mut self.0;
         (x[k], y[k], z[k]) = (vector.x, vector.y, vector.z);
     }
 
     /// The rows from `at` on; their fourth numbers mean nothing.
     #[inline(always)]
-    pub(in crate::dem) fn rows<S: Simd>(&self, simd: S, at: usize) -> [f64x4<S>; ROWS] {
+    pub(crate) fn rows<S: Simd>(&self, simd: S, at: usize) -> [f64x4<S>; ROWS] {
         let [first, second, third] = &self.0;
         let (first, second, third) = (
             &first[at..at + ROWS],
@@ -103,7 +99,7 @@ impl Columns {
 /// Rows as columns, without their fourth numbers. Spelled out, as closures given to array methods
 /// would be calls of functions that are compiled without these vectors.
 #[inline(always)]
-pub(in crate::dem) fn turned<S: Simd>(row: impl Fn(usize) -> f64x4<S>) -> [f64x8<S>; 3] {
+pub(crate) fn turned<S: Simd>(row: impl Fn(usize) -> f64x4<S>) -> [f64x8<S>; 3] {
     let (a, b, c, d) = (row(0), row(1), row(2), row(3));
     let (e, f, g, h) = (row(4), row(5), row(6), row(7));
     if <S::f64s as SimdBase<S>>::LEN < ROWS {
@@ -138,13 +134,13 @@ fn transpose<S: Simd>([a, b, c, d]: [f64x4<S>; 4]) -> [f64x4<S>; 4] {
 
 /// The row of one of the vectors.
 #[inline(always)]
-pub(in crate::dem) fn row<S: Simd>(simd: S, vectors: &[Vector], i: u32) -> f64x4<S> {
+pub(crate) fn row<S: Simd>(simd: S, vectors: &[Vector], i: u32) -> f64x4<S> {
     vectors[i as usize].simd(simd)
 }
 
 /// The places of the ones among bits.
 #[inline(always)]
-pub(in crate::dem) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
+pub(crate) fn ones(mut bits: u64) -> impl Iterator<Item = usize> {
     std::iter::from_fn(
         #[inline(always)]
         move || {

@@ -1,7 +1,6 @@
 //! Linear spring and dashpot.
 
-use super::NormalLaw;
-use crate::scene::ContactDrag;
+use super::{ContactDrag, NormalLaw};
 
 /// F = k delta + b d(delta)/dt along the line of centres, with overlap delta, spring constant k and
 /// drag constant b (Cundall and Strack, 1979). With the drag on the whole relative velocity

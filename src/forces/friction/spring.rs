@@ -1,15 +1,15 @@
 //! The loaded spring of a contact that sticks.
 
 use super::Touch;
-use crate::dem::math::inverse_square_root;
-use crate::dem::vector::Vector;
+use crate::particles::math::inverse_square_root;
+use crate::particles::vector::Vector;
 use serde::{Deserialize, Serialize};
 
 /// The loaded spring of a contact that sticks.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Spring {
     /// Its force (N).
-    pub(in crate::dem) force: Vector,
+    pub(crate) force: Vector,
 }
 
 /// Of the squares of two forces (N4): those of a spring of 1e-70 N.
@@ -58,23 +58,23 @@ impl Spring {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoadedSpring {
     /// Its force (N).
-    pub(in crate::dem) elastic: Vector,
+    pub(crate) elastic: Vector,
     /// The force that a dashpot beside it takes from that (N).
-    pub(in crate::dem) drag: Vector,
+    pub(crate) drag: Vector,
     /// The most that friction carries of both (N).
-    pub(in crate::dem) limit: f64,
+    pub(crate) limit: f64,
 }
 
 impl LoadedSpring {
     /// The force of both (N), as long as friction carries it.
     #[inline(always)]
-    pub(in crate::dem) fn force(&self) -> Vector {
+    pub(crate) fn force(&self) -> Vector {
         self.elastic - self.drag
     }
 
     /// Square of the force of both (N2).
     #[inline(always)]
-    pub(in crate::dem) fn squared(&self) -> f64 {
+    pub(crate) fn squared(&self) -> f64 {
         self.force().norm_squared()
     }
 
@@ -82,7 +82,7 @@ impl LoadedSpring {
     /// which it would go on sticking from there (Luding, Granular Matter 10, 235 (2008), section
     /// 2.3). Takes the square of the force (N2) and 1 / its root.
     #[inline(always)]
-    pub(in crate::dem) fn capped(&self, squared: f64, inverse_root: f64) -> (Vector, Spring) {
+    pub(crate) fn capped(&self, squared: f64, inverse_root: f64) -> (Vector, Spring) {
         let force = self.force();
         // Selects, not branches: so the loop over a block of contacts is turned into vector
         // instructions.

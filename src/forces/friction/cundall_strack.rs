@@ -52,7 +52,7 @@ impl TangentialLaw for CundallStrack {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dem::vector::Vector;
+    use crate::particles::vector::Vector;
 
     const DT: f64 = 1e-3;
 

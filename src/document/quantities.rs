@@ -1,29 +1,29 @@
 //! Quantities of several keys, with their ranges. These are wider than any experiment and narrow
 //! enough that masses, energies and numbers of steps made of them neither vanish nor overflow.
 
-use crate::document::{Attribute, quantity};
+use super::{Attribute, quantity};
 
 /// Least and largest length (m), in scene files and in the files that they name.
-pub(super) const LENGTHS: [f64; 2] = [1e-9, 1e9];
+pub(crate) const LENGTHS: [f64; 2] = [1e-9, 1e9];
 
 /// A length (m).
-pub(super) fn length(symbol: &str, name: &str) -> Attribute {
+pub(crate) fn length(symbol: &str, name: &str) -> Attribute {
     let [least, most] = LENGTHS;
     quantity(symbol, "m", name).at_least(least).at_most(most)
 }
 
 /// A coordinate (m).
-pub(super) fn place(symbol: &str, name: &str) -> Attribute {
+pub(crate) fn place(symbol: &str, name: &str) -> Attribute {
     let [_, most] = LENGTHS;
     quantity(symbol, "m", name).at_least(-most).at_most(most)
 }
 
 /// A time (s) that the run is made of.
-pub(super) fn seconds(symbol: &str, name: &str) -> Attribute {
+pub(crate) fn seconds(symbol: &str, name: &str) -> Attribute {
     quantity(symbol, "s", name).at_least(1e-15).at_most(1e15)
 }
 
 /// A number from 0 to 1.
-pub(super) fn fraction(symbol: &str, name: &str) -> Attribute {
+pub(crate) fn fraction(symbol: &str, name: &str) -> Attribute {
     quantity(symbol, "", name).at_least(0.0).at_most(1.0)
 }

@@ -1,8 +1,8 @@
 //! Mindlin friction by increments.
 
 use super::{LoadedSpring, Spring, TangentialLaw, Touch};
-use crate::dem::contact::contact_radius;
-use crate::dem::vector::Vector;
+use crate::forces::contact::contact_radius;
+use crate::particles::vector::Vector;
 
 /// Mindlin's tangential stiffness k_t = 8 G* sqrt(R_eff xi) on a contact that sticks, loaded and
 /// unloaded by increments of the sliding displacement, df = -k_t du, and capped at mu F_n; G* = G /

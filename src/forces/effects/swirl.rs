@@ -1,0 +1,82 @@
+//! Drag toward air in rigid rotation about the axis.
+
+use super::drag::{
+    Coefficients, DragKernel, Form, Linear, QuadraticComponents, QuadraticVector, missing_drag,
+};
+use super::{Effect, EffectKeys, Effects, OneBody};
+use crate::document::{Problem, quantity};
+use crate::particles::block::BLOCK;
+use crate::particles::bodies::{Asked, Bodies};
+use crate::particles::vector::Vector;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::marker::PhantomData;
+
+/// Air in rigid rotation about the axis (Rice, 2012, eqs. 21 to 27).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Swirl {
+    /// Angular velocity Omega of the air (rad/s), counter-clockwise seen from above.
+    #[schemars(transform = quantity("Ω", "rad/s", "angular velocity of the air"))]
+    pub omega: f64,
+}
+
+impl EffectKeys for Swirl {
+    fn effect(&self, all: &Effects, radii: &[f64]) -> Option<Box<dyn Effect>> {
+        fn boxed<K: DragKernel>(omega: f64, coefficients: Coefficients) -> Box<dyn Effect> {
+            Box::new(SwirlForce::<K> {
+                omega,
+                coefficients,
+                kernel: PhantomData,
+            })
+        }
+        let drag = all.drag.as_ref()?;
+        let coefficients = Coefficients::new(drag, radii);
+        Some(match drag.kernel() {
+            Form::Linear => boxed::<Linear>(self.omega, coefficients),
+            Form::Vector => boxed::<QuadraticVector>(self.omega, coefficients),
+            Form::Components => boxed::<QuadraticComponents>(self.omega, coefficients),
+        })
+    }
+
+    fn problems(&self, all: &Effects, _: bool) -> Vec<Problem> {
+        missing_drag(all, "swirl")
+    }
+
+    fn fastest(&self, reach: f64) -> f64 {
+        self.omega.abs() * reach
+    }
+}
+
+/// Rice (2012), eqs. 21 to 27: drag toward the air's velocity Omega x r, on all three
+/// components, the air's own vertical speed being zero in this term.
+struct SwirlForce<K> {
+    omega: f64,
+    coefficients: Coefficients,
+    kernel: PhantomData<K>,
+}
+
+impl<K: DragKernel> OneBody for SwirlForce<K> {
+    const ASKS: Asked = Asked {
+        motion: true,
+        turn: false,
+    };
+
+    fn reorder(&mut self, order: &[u32]) {
+        self.coefficients.reorder(order);
+    }
+
+    #[inline(always)]
+    fn add(&self, bodies: &mut Bodies) {
+        let [c1, c2] = self.coefficients.of_block(bodies);
+        let [x, y, _] = &bodies.position.0;
+        let [fx, fy, fz] = &mut bodies.force.0;
+        for k in 0..BLOCK {
+            let air = Vector::new(-self.omega * y[k], self.omega * x[k], 0.0);
+            let force = K::vector(c1[k], c2[k], air - bodies.velocity.vector(k));
+            fx[k] += force.x;
+            fy[k] += force.y;
+            fz[k] += force.z;
+        }
+    }
+}
