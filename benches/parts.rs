@@ -6,8 +6,8 @@ use divan::Bencher;
 use divan::counter::ItemsCount;
 use phase::dem::neighbours::{Reach, VerletList};
 use phase::dem::{Simulation, start};
-use phase::forces::contact::{Hertz, NormalLaw};
-use phase::forces::friction::{Coulomb, Frictionless, Mindlin, Spring, TangentialLaw, Touch};
+use phase::forces::contact::{HertzLaw, NormalLaw};
+use phase::forces::friction::{CoulombLaw, Frictionless, MindlinLaw, Spring, TangentialLaw, Touch};
 use phase::observe::Observer;
 use phase::particles::vector::Vector;
 use phase::scene::{Neighbours, Scene, Start};
@@ -53,7 +53,7 @@ fn touches() -> Vec<Touch> {
 
 /// The laws alone of a block of pairs: what the engine puts around them is in the whole scenes.
 fn laws<T: TangentialLaw>(bencher: Bencher<'_, '_>, tangential: T) {
-    let normal = Hertz::new(2.83e5, 0.3, 1e-3, 1.0);
+    let normal = HertzLaw::new(2.83e5, 0.3, 1e-3, 1.0);
     let touches = touches();
     let mut springs = [Spring::default(); BLOCK];
     bencher.counter(ItemsCount::new(BLOCK)).bench_local(|| {
@@ -81,12 +81,12 @@ fn block_of_pairs_hertz(bencher: Bencher<'_, '_>) {
 
 #[divan::bench]
 fn block_of_pairs_hertz_coulomb(bencher: Bencher<'_, '_>) {
-    laws(bencher, Coulomb::new(0.3, 1e-3));
+    laws(bencher, CoulombLaw::new(0.3, 1e-3));
 }
 
 #[divan::bench]
 fn block_of_pairs_hertz_mindlin(bencher: Bencher<'_, '_>) {
-    laws(bencher, Mindlin::new(0.3, 2.83e5, 0.3));
+    laws(bencher, MindlinLaw::new(0.3, 2.83e5, 0.3));
 }
 
 /// Building the list of all pairs that may touch, of spheres strewn over a tank.

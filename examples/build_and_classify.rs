@@ -6,8 +6,8 @@
 
 use phase::classify::{Sieves, classify};
 use phase::scene::{
-    Contact, DemScene, Drag, DragForm, DragLaw, Effects, Gravity, Integrator, Radii, Scene, Shape,
-    Spheres, Start, Swirl, Tank, Time,
+    Contact, DemScene, Drag, DragForm, DragLaw, Effects, Gravity, Hertz, Integrator, Radii, Scene,
+    Shape, Spheres, Start, Swirl, Tank, Time,
 };
 use phase::{run, store};
 use std::error::Error;
@@ -41,14 +41,14 @@ fn tank(omega: f64) -> Scene {
             ..Tank::default()
         }),
         dem: DemScene {
-            contact: Some(Contact::Hertz {
+            contact: Some(Contact::Hertz(Hertz {
                 young_modulus: 5.657e5,
                 poisson_ratio: 0.3,
                 dissipation_time: Some(1e-3),
                 restitution: None,
                 restitution_speed: 1.0,
                 dissipation_factor: 1.0,
-            }),
+            })),
             effects: Effects {
                 gravity: Some(Gravity {
                     acceleration: 9.8,

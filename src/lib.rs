@@ -27,7 +27,7 @@
 //!
 //! ```
 //! use phase::classify::{Label, Sieves, classify};
-//! use phase::scene::{
+//! use phase::scene::{Hertz,
 //!     Contact, DemScene, Effects, Gravity, Integrator, Radii, Scene, Shape, Spheres, Start, Tank,
 //!     Time,
 //! };
@@ -36,14 +36,14 @@
 //! let scene = Scene {
 //!     tank: Some(Tank { radius: Some(0.03), floor: Some(0.0), ..Tank::default() }),
 //!     dem: DemScene {
-//!         contact: Some(Contact::Hertz {
+//!         contact: Some(Contact::Hertz(Hertz {
 //!             young_modulus: 5e5,
 //!             poisson_ratio: 0.3,
 //!             dissipation_time: Some(1e-3),
 //!             restitution: None,
 //!             restitution_speed: 1.0,
 //!             dissipation_factor: 1.0,
-//!         }),
+//!         })),
 //!         effects: Effects {
 //!             gravity: Some(Gravity { acceleration: 9.8, tilt: 0.0 }),
 //!             ..Effects::default()

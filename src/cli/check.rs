@@ -9,7 +9,7 @@ use super::time_step::{self, Tightest, tightest_limits};
 use super::{classify, format, job, kind};
 use phase::cost::{Forecast, Leaves, forecast};
 use phase::dem::timestep::{Limit, Standing};
-use phase::scene::{Contact, FileKind, Friction, Scene, Start, Tank};
+use phase::scene::{FileKind, Scene, Start, Tank};
 use phase::study::AnyFile;
 use phase::sweep::{Axis, Job, Sweep, describe, work};
 use serde::Serialize;
@@ -138,36 +138,26 @@ fn describe_grid(title: Option<&String>, runs: &str, axes: &[Axis]) -> Vec<Strin
 }
 
 /// The effects that the scene names; no other costs anything.
-fn effects(scene: &Scene) -> Vec<&'static str> {
+fn effects(scene: &Scene) -> Vec<String> {
     let tank = scene.tank.as_ref();
-    let law = |law: &Option<Friction>| match law {
-        Some(Friction::Spin { .. }) => "friction (spin)",
-        Some(Friction::Coulomb { .. }) => "friction (Coulomb)",
-        Some(Friction::CundallStrack { .. }) => "friction (Cundall and Strack)",
-        Some(Friction::Mindlin { .. }) => "friction (Mindlin)",
-        Some(Friction::Silbert { .. }) => "friction (Silbert)",
-        None => "",
-    };
-    let contact = match scene.dem.contact {
-        Some(Contact::Linear { .. }) => "contact (linear)",
-        Some(Contact::Silbert { .. }) => "contact (Silbert)",
-        Some(Contact::Hertz { .. }) | None => "contact (Hertz)",
-    };
-    let feed = matches!(scene.start, Start::Feed { .. });
+    let contact = scene.dem.contact.iter();
+    let friction = scene.dem.friction.iter();
+    let laws = contact
+        .map(|contact| format!("contact ({})", contact.law()))
+        .chain(friction.map(|friction| format!("friction ({})", friction.law())));
     let others = [
-        (scene.dem.contact.is_some(), contact),
-        (scene.dem.friction.is_some(), law(&scene.dem.friction)),
         (tank.is_some_and(|tank| tank.radius.is_some()), "cylinder"),
         (tank.is_some_and(Tank::has_sides), "sides"),
         (tank.is_some_and(|tank| tank.floor.is_some()), "floor"),
         (scene.dem.geometry.is_some(), "fixed spheres"),
-        (feed, "feed"),
+        (matches!(scene.start, Start::Feed { .. }), "feed"),
         (scene.dem.door.is_some(), "door"),
         (scene.dem.outlet.is_some(), "outlet"),
     ];
-    let others = others.into_iter().filter(|(used, _)| *used);
-    let effects = scene.dem.effects.names();
-    effects.chain(others.map(|(_, name)| name)).collect()
+    let others = others.iter().filter(|(used, _)| *used);
+    let effects = scene.dem.effects.names().map(str::to_owned);
+    let others = others.map(|(_, name)| (*name).to_owned());
+    effects.chain(laws).chain(others).collect()
 }
 
 fn describe_time(scene: &Scene) -> String {
@@ -251,7 +241,7 @@ struct Answer<'a> {
     axes: &'a [Axis],
     seeds: &'a [u64],
     spheres: usize,
-    effects: Vec<&'static str>,
+    effects: Vec<String>,
     duration: f64,
     frames: u64,
     steps_per_frame: u64,

@@ -1,9 +1,7 @@
 //! How fast a disc must be to squeeze through a wall of fixed ones, or too deep into it.
 
 use super::process::wall_pairs;
-use super::timestep;
-use crate::forces::contact::{Hertz, Linear, NormalLaw, Silbert};
-use crate::scene::{Contact, FixedSphere, Geometry, Scene, Shape};
+use crate::scene::{FixedSphere, Geometry, Scene, Shape};
 
 /// The weakest place of a scene's walls, for the disc that they hold least.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,27 +104,6 @@ fn speed_to(scene: &Scene, radius: f64, place: [f64; 3], fixed: &[FixedSphere]) 
 }
 
 fn elastic_energy(scene: &Scene, overlap: f64, effective_radius: f64) -> f64 {
-    let Some(contact) = &scene.dem.contact else {
-        return 0.0;
-    };
-    match *contact {
-        Contact::Linear {
-            stiffness,
-            damping,
-            drag,
-        } => Linear::new(stiffness, damping, drag).elastic_energy(overlap, effective_radius),
-        Contact::Silbert { stiffness, damping } => {
-            Silbert::new(stiffness, damping).elastic_energy(overlap, effective_radius)
-        }
-        Contact::Hertz {
-            young_modulus,
-            poisson_ratio,
-            dissipation_factor,
-            ..
-        } => {
-            let time = timestep::dissipation_time(scene);
-            Hertz::new(young_modulus, poisson_ratio, time, dissipation_factor)
-                .elastic_energy(overlap, effective_radius)
-        }
-    }
+    let contact = scene.dem.contact.as_ref();
+    contact.map_or(0.0, |it| it.elastic_energy(overlap, effective_radius))
 }

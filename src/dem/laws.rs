@@ -1,14 +1,13 @@
-//! Which contact and friction laws go together, and the engine compiled for them.
+//! The engine compiled for a scene's laws of contact and friction.
 
 use super::simulation::BuildError;
 use super::system::{Engine, Setup, System};
-use super::timestep;
-use crate::forces::contact::{Hertz, Linear, NoContact, NormalLaw, Silbert};
+use crate::forces::contact::{Contact, ContactKeys, NoContact, NormalLaw, with_keys};
 use crate::forces::friction::{
-    Coulomb, CundallStrack, Frictionless, Mindlin, SilbertFriction, SpinFriction, TangentialLaw,
+    Friction, FrictionKeys, Frictionless, TangentialLaw, with_pairs_of_laws,
 };
 use crate::particles::Particles;
-use crate::scene::{Contact, Friction, Scene};
+use crate::scene::Scene;
 
 /// The engine compiled for the scene's contact and friction. Each pair of laws costs time to
 /// compile, so only those are here that go together.
@@ -27,87 +26,25 @@ pub(super) fn engine(
     }
     let dt = scene.time.dt;
     let spheres = (setup, particles);
-    match scene.dem.contact {
-        None => match scene.dem.friction {
-            None => Ok(boxed(NoContact, Frictionless, spheres)),
-            Some(_) => Err(BuildError::FrictionWithoutContact),
-        },
-        Some(Contact::Hertz {
-            young_modulus,
-            poisson_ratio,
-            dissipation_factor,
-            ..
-        }) => {
-            let dissipation_time = timestep::dissipation_time(scene);
-            let normal = Hertz::new(
-                young_modulus,
-                poisson_ratio,
-                dissipation_time,
-                dissipation_factor,
-            );
-            Ok(match scene.dem.friction {
-                None => boxed(normal, Frictionless, spheres),
-                Some(Friction::CundallStrack { .. } | Friction::Silbert { .. }) => {
-                    return Err(BuildError::LawsDoNotGoTogether);
-                }
-                Some(Friction::Spin { coefficient }) => {
-                    boxed(normal, SpinFriction::new(coefficient, dt), spheres)
-                }
-                Some(Friction::Coulomb {
-                    coefficient,
-                    regularisation,
-                }) => boxed(normal, Coulomb::new(coefficient, regularisation), spheres),
-                Some(Friction::Mindlin { coefficient }) => {
-                    let law = Mindlin::new(coefficient, young_modulus, poisson_ratio);
-                    boxed(normal, law, spheres)
-                }
-            })
-        }
-        Some(Contact::Linear {
-            stiffness,
-            damping,
-            drag,
-        }) => {
-            let normal = Linear::new(stiffness, damping, drag);
-            match scene.dem.friction {
-                None => Ok(boxed(normal, Frictionless, spheres)),
-                Some(Friction::Coulomb {
-                    coefficient,
-                    regularisation,
-                }) => Ok(boxed(
-                    normal,
-                    Coulomb::new(coefficient, regularisation),
-                    spheres,
-                )),
-                Some(Friction::CundallStrack {
-                    coefficient,
-                    stiffness,
-                    damping,
-                }) => {
-                    let law = CundallStrack::new(coefficient, stiffness, damping);
-                    Ok(boxed(normal, law, spheres))
-                }
-                Some(
-                    Friction::Spin { .. } | Friction::Mindlin { .. } | Friction::Silbert { .. },
-                ) => Err(BuildError::LawsDoNotGoTogether),
+    let radius = scene.spheres.radius.mean();
+    let mass = scene.spheres.shape.mass(scene.spheres.density, radius);
+    macro_rules! of_pair {
+        ($(($contact:ident, $friction:ident),)+) => {
+            match (&scene.dem.contact, &scene.dem.friction) {
+                (None, None) => Ok(boxed(NoContact, Frictionless, spheres)),
+                (None, Some(_)) => Err(BuildError::FrictionWithoutContact),
+                (Some(contact), None) => Ok(with_keys!(contact, contact => {
+                    boxed(contact.law(radius, mass), Frictionless, spheres)
+                })),
+                $((Some(Contact::$contact(contact)), Some(Friction::$friction(friction))) => {
+                    let friction = friction.law(contact, dt);
+                    Ok(boxed(contact.law(radius, mass), friction, spheres))
+                })+
+                (Some(_), Some(_)) => Err(BuildError::LawsDoNotGoTogether),
             }
-        }
-        Some(Contact::Silbert { stiffness, damping }) => {
-            let normal = Silbert::new(stiffness, damping);
-            match scene.dem.friction {
-                None => Ok(boxed(normal, Frictionless, spheres)),
-                Some(Friction::Silbert {
-                    coefficient,
-                    stiffness,
-                    damping,
-                }) => {
-                    let law = SilbertFriction::new(coefficient, stiffness, damping);
-                    Ok(boxed(normal, law, spheres))
-                }
-                Some(_) => Err(BuildError::LawsDoNotGoTogether),
-            }
-        }
+        };
     }
+    with_pairs_of_laws!(of_pair)
 }
 
 #[cfg(test)]

@@ -1,5 +1,11 @@
 //! Limits of the time step, as effects and laws state them.
 
+use std::cell::LazyCell;
+
+/// The limit that adaptive Verlet, whose sub-steps resolve contacts, shares with the others: there
+/// it decides.
+pub(crate) const DISPLACEMENT: &str = "displacement";
+
 /// A limit of the time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
@@ -13,20 +19,63 @@ pub struct Limit {
     pub explanation: &'static str,
 }
 
-/// What the limits of effects depend on.
-pub(crate) struct Regime {
+/// What the limits of effects and laws depend on.
+pub(crate) struct Regime<'a> {
     /// What the integrator makes of an oscillator.
     pub(crate) scheme: Scheme,
     /// Radius of the smallest sphere (m).
     pub(crate) smallest_radius: f64,
+    /// Radius of the largest sphere (m).
+    pub(crate) largest_radius: f64,
+    /// Mean radius (m).
+    pub(crate) mean_radius: f64,
     /// Mass of the smallest sphere (kg).
     pub(crate) smallest_mass: f64,
-    /// Moment of inertia of the smallest sphere (kg m2).
-    pub(crate) smallest_inertia: f64,
+    /// Mass of the largest sphere (kg).
+    pub(crate) largest_mass: f64,
+    /// Mass of a sphere of the mean radius (kg).
+    pub(crate) mean_mass: f64,
+    /// Density (kg/m3).
+    pub(crate) density: f64,
+    /// I / (m r^2).
+    pub(crate) inertia_factor: f64,
+    /// Whether there are walls or fixed spheres.
+    pub(crate) has_walls: bool,
     /// The fastest relative speed (m/s) to expect.
     pub(crate) fastest_impact: f64,
     /// The lowest height (m) of a centre.
     pub(crate) lowest_height: f64,
+    /// The guard on displacements in a step, in radii.
+    pub(crate) displacement_guard: f64,
+    /// The deepest overlap (m) at the start, found on demand.
+    pub(crate) deepest_at_start: LazyCell<f64, Box<dyn FnOnce() -> f64 + 'a>>,
+}
+
+impl Regime<'_> {
+    /// Moment of inertia of the smallest sphere (kg m2).
+    pub(crate) fn smallest_inertia(&self) -> f64 {
+        self.inertia_factor * self.smallest_mass * self.smallest_radius * self.smallest_radius
+    }
+
+    /// 1 + m r^2 / I: a force at the surface moves it as if the mass were that much less.
+    pub(crate) fn surface_factor(&self) -> f64 {
+        1.0 + 1.0 / self.inertia_factor
+    }
+
+    /// The limit at which the fastest sphere reaches the displacement guard: the smallest one, that
+    /// the largest one has knocked on at this speed (m/s).
+    pub(crate) fn displacement(&self, speed: f64) -> Limit {
+        let (light, heavy) = (self.smallest_mass, self.largest_mass);
+        let knocked_on = 2.0 * heavy / (heavy + light);
+        Limit {
+            name: DISPLACEMENT,
+            seconds: self.displacement_guard * self.smallest_radius / (speed * knocked_on),
+            decisive: false,
+            explanation: "the fastest sphere stays below the displacement guard: the smallest at \
+                          the speed of the fastest impact, times 2 M / (M + m), at which the \
+                          largest knocks it on",
+        }
+    }
 }
 
 /// What an integrator makes of an oscillator: it stays bounded as one would of which symplectic

@@ -269,10 +269,10 @@ mod tests {
         assert_eq!(unit(&scene, "spheres.density"), "kg/m³");
         scene.spheres.shape = crate::scene::Shape::Disc;
         assert_eq!(unit(&scene, "spheres.density"), "kg/m²");
-        scene.dem.contact = Some(crate::scene::Contact::Silbert {
+        scene.dem.contact = Some(crate::scene::Contact::Silbert(crate::scene::Silbert {
             stiffness: 1e6,
             damping: 1.0,
-        });
+        }));
         assert_eq!(unit(&scene, "contact.stiffness"), "Pa");
         assert_eq!(scene.notation("spheres.radius[0].share"), None);
     }

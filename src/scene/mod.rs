@@ -22,9 +22,10 @@ mod vary;
 
 pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
-    Contact, ContactDrag, DemScene, Door, Drag, DragForm, DragLaw, Effects, FixedSphere,
-    FixedSpheres, Friction, Geometry, Gravity, Guards, Hopper, LengthUnit, Neighbours, Outlet,
-    Rest, SpinDamping, Swirl, Updraught,
+    Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Drag, DragForm, DragLaw, Effects,
+    FixedSphere, FixedSpheres, Friction, Geometry, Gravity, Guards, Hertz, Hopper, LengthUnit,
+    Linear, Mindlin, Neighbours, Outlet, Rest, Silbert, SilbertFriction, Spin, SpinDamping, Swirl,
+    Updraught,
 };
 pub use file_kind::FileKind;
 pub use keys::Notation;

@@ -6,8 +6,8 @@ use crate::dem::timestep::Impact;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 use crate::scene::{
-    Contact, DemScene, Effects, Gravity, Guards, Integrator, Radii, Scene, Shape, Spheres, Start,
-    StartSphere, Tank, Time,
+    Contact, DemScene, Effects, Gravity, Guards, Hertz, Integrator, Radii, Scene, Shape, Silbert,
+    Spheres, Start, StartSphere, Tank, Time,
 };
 use serde::Deserialize;
 
@@ -62,14 +62,14 @@ impl Material {
 
     /// The contact law.
     pub(super) fn contact(&self) -> Contact {
-        Contact::Hertz {
+        Contact::Hertz(Hertz {
             young_modulus: self.young_modulus,
             poisson_ratio: self.poisson_ratio,
             dissipation_time: Some(self.dissipation_time),
             restitution: None,
             restitution_speed: 1.0,
             dissipation_factor: self.dissipation_factor,
-        }
+        })
     }
 }
 
@@ -103,10 +103,10 @@ impl SilbertMaterial {
 
     /// The contact law.
     pub(super) fn contact(&self) -> Contact {
-        Contact::Silbert {
+        Contact::Silbert(Silbert {
             stiffness: self.stiffness,
             damping: self.damping,
-        }
+        })
     }
 }
 

@@ -4,7 +4,9 @@ use super::bench::{Bench, moving, reduced};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
 use crate::dem::timestep::LinearImpact;
-use crate::scene::{Contact, ContactDrag, DemScene, FixedSphere, Geometry, Scene, Shape, Spheres};
+use crate::scene::{
+    Contact, ContactDrag, DemScene, FixedSphere, Geometry, Linear, Scene, Shape, Spheres,
+};
 use serde::Deserialize;
 
 /// Two discs, or a disc and a fixed one, hit each other head-on.
@@ -102,11 +104,11 @@ impl Dashpot {
                 ..scene.spheres
             },
             dem: DemScene {
-                contact: Some(Contact::Linear {
+                contact: Some(Contact::Linear(Linear {
                     stiffness: self.stiffness,
                     damping: self.damping,
                     drag: self.drag,
-                }),
+                })),
                 geometry,
                 ..scene.dem
             },

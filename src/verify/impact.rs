@@ -5,7 +5,7 @@ use super::{Family, Measured, VerifyError, named};
 use crate::dem::{Simulation, timestep};
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
-use crate::scene::{Contact, DemScene, Friction, Scene, StartSphere, Tank};
+use crate::scene::{Contact, DemScene, Friction, Hertz, Scene, StartSphere, Tank};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -277,12 +277,12 @@ impl Impact {
         let mut law = material.contact();
         if let (
             Some(given),
-            Contact::Hertz {
+            Contact::Hertz(Hertz {
                 dissipation_time,
                 restitution,
                 restitution_speed,
                 ..
-            },
+            }),
         ) = (self.restitution, &mut law)
         {
             *dissipation_time = None;

@@ -4,7 +4,7 @@ use super::bench::{AnyMaterial, Bench, downward, floor, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
 use crate::particles::Particles;
-use crate::scene::{DemScene, Effects, Friction, Scene, StartSphere};
+use crate::scene::{Coulomb, DemScene, Effects, Friction, Scene, StartSphere};
 use serde::Deserialize;
 
 /// A sphere slides along x on the floor, pressed by its weight, until it rolls.
@@ -38,7 +38,7 @@ impl Family for Rolling {
         // Sliding ends where the friction no longer has its full size: below the speed at which it
         // is regularised, or where the sliding turns round.
         let rest = match self.friction {
-            Friction::Coulomb { regularisation, .. } => regularisation,
+            Friction::Coulomb(Coulomb { regularisation, .. }) => regularisation,
             _ => 0.0,
         };
         let sign = (self.speed - self.spin * self.radius).signum();

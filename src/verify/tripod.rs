@@ -3,7 +3,7 @@
 use super::bench::{Bench, Material, at, downward, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
-use crate::forces::contact::{Hertz, NormalLaw};
+use crate::forces::contact::{HertzLaw, NormalLaw};
 use crate::particles::vector::Vector;
 use crate::scene::{DemScene, Effects, Scene, Tank};
 use serde::Deserialize;
@@ -64,7 +64,7 @@ impl Family for Tripod {
         let mut simulation = Simulation::new(&scene)?;
         bench.advance_for(&mut simulation, self.duration, self.dt)?;
         let particles = simulation.particles();
-        let law = Hertz::new(
+        let law = HertzLaw::new(
             self.material.young_modulus,
             self.material.poisson_ratio,
             0.0,

@@ -5,7 +5,7 @@ use crate::support::Workplace;
 use phase::observe::Snapshot;
 use phase::plot;
 use phase::record::{Outcome, RunRecord};
-use phase::scene::{self, Contact, DemScene, Friction, Scene};
+use phase::scene::{self, Contact, Coulomb, DemScene, Friction, Hertz, Mindlin, Scene, Spin};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -13,16 +13,16 @@ use std::path::{Path, PathBuf};
 const RADIUS: f64 = 0.004;
 
 /// The law of the thesis.
-const SPIN: Friction = Friction::Spin { coefficient: 0.002 };
+const SPIN: Friction = Friction::Spin(Spin { coefficient: 0.002 });
 
 /// Laws in which forces and torques have a reaction, at a coefficient of friction.
 fn lawful(coefficient: f64) -> [Friction; 2] {
     [
-        Friction::Coulomb {
+        Friction::Coulomb(Coulomb {
             coefficient,
             regularisation: 1e-2,
-        },
-        Friction::Mindlin { coefficient },
+        }),
+        Friction::Mindlin(Mindlin { coefficient }),
     ]
 }
 
@@ -232,7 +232,7 @@ fn figure_8_left_a_sphere_without_spin_keeps_its_speed_along_the_wall() {
 #[test]
 fn figure_8_right_a_sphere_with_spin_ends_rolling_along_the_wall() {
     let scene = load("wall-with-spin");
-    let Some(Friction::Mindlin { coefficient }) = scene.dem.friction else {
+    let Some(Friction::Mindlin(Mindlin { coefficient })) = scene.dem.friction else {
         panic!("a law that knows sliding")
     };
     for law in lawful(coefficient) {
@@ -329,9 +329,9 @@ fn figure_10_the_cradle_passes_its_momentum_on_and_on() {
 #[test]
 fn figure_10_a_dissipating_cradle_is_not_perfect() {
     let mut scene = load("cradle");
-    let Some(Contact::Hertz {
+    let Some(Contact::Hertz(Hertz {
         dissipation_time, ..
-    }) = &mut scene.dem.contact
+    })) = &mut scene.dem.contact
     else {
         panic!("contacts")
     };

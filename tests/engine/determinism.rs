@@ -3,7 +3,7 @@
 use crate::scenes::{INTEGRATORS, State, cluster, frictions, state, tank};
 use phase::dem::{Simulation, timestep};
 use phase::record::{Guard, Instability};
-use phase::scene::{Friction, Integrator, Scene, StartSphere};
+use phase::scene::{Coulomb, Friction, Integrator, Mindlin, Scene, Spin, StartSphere};
 use proptest::prelude::*;
 
 const STEPS: u64 = 2000;
@@ -328,15 +328,15 @@ fn odd_sphere() -> impl Strategy<Value = StartSphere> {
 fn odd_friction() -> impl Strategy<Value = Option<Friction>> {
     prop_oneof![
         Just(None),
-        odd_size().prop_map(|coefficient| Some(Friction::Spin { coefficient })),
-        (odd_size(), odd_size()).prop_map(|(coefficient, regularisation)| Some(
-            Friction::Coulomb {
+        odd_size().prop_map(|coefficient| Some(Friction::Spin(Spin { coefficient }))),
+        (odd_size(), odd_size()).prop_map(|(coefficient, regularisation)| Some(Friction::Coulomb(
+            Coulomb {
                 coefficient,
                 regularisation
             }
-        )),
+        ))),
         prop::sample::select(vec![0.0, 0.3, 1e300])
-            .prop_map(|coefficient| Some(Friction::Mindlin { coefficient })),
+            .prop_map(|coefficient| Some(Friction::Mindlin(Mindlin { coefficient }))),
     ]
 }
 

@@ -2,7 +2,7 @@
 
 use phase::dem::Simulation;
 use phase::dem::timestep::Impact;
-use phase::scene::{Integrator, Scene, Start, StartSphere};
+use phase::scene::{Integrator, Scene, Shape, Start, StartSphere};
 
 /// Steel spheres in empty space, of 4 mm unless they say otherwise.
 fn steel(spheres: Vec<StartSphere>, dissipation: f64, dt: f64) -> Scene {
@@ -18,9 +18,9 @@ fn steel(spheres: Vec<StartSphere>, dissipation: f64, dt: f64) -> Scene {
     scene.spheres.count = spheres.len();
     scene.start = Start::list(spheres);
     scene.time.dt = dt;
-    if let Some(phase::scene::Contact::Hertz {
+    if let Some(phase::scene::Contact::Hertz(phase::scene::Hertz {
         dissipation_time, ..
-    }) = &mut scene.dem.contact
+    })) = &mut scene.dem.contact
     {
         *dissipation_time = Some(dissipation);
     }
@@ -58,7 +58,8 @@ fn kinetic(simulation: &Simulation) -> f64 {
 /// independent integration.
 #[test]
 fn an_impact_within_a_step_is_resolved() {
-    let contact_time = Impact::of_equal_spheres(0.004, 7850.0, 2.1e11, 0.3, 1.0).contact_time();
+    let mass = Shape::Sphere.mass(7850.0, 0.004);
+    let contact_time = Impact::of_equal_spheres(0.004, mass, 2.1e11, 0.3, 1.0).contact_time();
     let dt = 40.0 * contact_time;
     for phase in 0..16 {
         let gap = f64::from(phase) / 16.0 * dt;
@@ -248,7 +249,9 @@ fn a_pressed_pair_that_parts_sees_a_third() {
             sphere(0.0159 + gap, 0.0),
         ];
         let mut scene = steel(row, 0.0, 1e-3);
-        if let Some(phase::scene::Contact::Hertz { young_modulus, .. }) = &mut scene.dem.contact {
+        if let Some(phase::scene::Contact::Hertz(phase::scene::Hertz { young_modulus, .. })) =
+            &mut scene.dem.contact
+        {
             *young_modulus = 1e7;
         }
         let fine = compare(&scene, 1e-6, 0.02);

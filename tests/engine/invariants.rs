@@ -6,7 +6,9 @@ use crate::scenes::{
 };
 use phase::dem::Simulation;
 use phase::particles::vector::Vector;
-use phase::scene::{Contact, DragForm, Friction, Integrator, Scene, StartSphere, Tank};
+use phase::scene::{
+    Contact, Coulomb, DragForm, Friction, Hertz, Integrator, Mindlin, Scene, StartSphere, Tank,
+};
 use proptest::prelude::*;
 
 /// Laws in which every force on a sphere has a reaction on its partner, torques included.
@@ -81,9 +83,9 @@ proptest! {
         integrator in integrators(),
     ) {
         let friction = if coulomb {
-            Friction::Coulomb { coefficient, regularisation: 1e-2 }
+            Friction::Coulomb(Coulomb { coefficient, regularisation: 1e-2 })
         } else {
-            Friction::Mindlin { coefficient }
+            Friction::Mindlin(Mindlin { coefficient })
         };
         let (into, along) = (libm::cos(angle), libm::sin(angle));
         let sphere = StartSphere {
@@ -99,7 +101,7 @@ proptest! {
             floor: (!cylinder).then_some(0.0),
             ..Tank::default()
         });
-        if let Some(Contact::Hertz { poisson_ratio: ratio, .. }) = &mut scene.dem.contact {
+        if let Some(Contact::Hertz(Hertz { poisson_ratio: ratio, .. })) = &mut scene.dem.contact {
             *ratio = poisson_ratio;
         }
         let mut simulation = Simulation::new(&scene).unwrap();
@@ -244,7 +246,7 @@ proptest! {
         check(&other, &end.reordered(&order), "renumbered")?;
         let mut other = scene.clone();
         other.spheres.density *= 100.0;
-        if let Some(Contact::Hertz { young_modulus, .. }) = &mut other.dem.contact {
+        if let Some(Contact::Hertz(Hertz { young_modulus, .. })) = &mut other.dem.contact {
             *young_modulus *= 100.0;
         }
         check(&other, &end, "scaled")?;
@@ -269,7 +271,7 @@ fn scaling_all_forces_and_masses_changes_nothing() {
     for (scene, start, radius) in tanks() {
         let mut scaled = going_on(&scene, &start, &radius);
         scaled.spheres.density *= 100.0;
-        if let Some(Contact::Hertz { young_modulus, .. }) = &mut scaled.dem.contact {
+        if let Some(Contact::Hertz(Hertz { young_modulus, .. })) = &mut scaled.dem.contact {
             *young_modulus *= 100.0;
         }
         let drag = scaled.dem.effects.drag.as_mut().unwrap();

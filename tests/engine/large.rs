@@ -7,7 +7,7 @@ use crate::support::Workplace;
 use phase::dem::Simulation;
 use phase::dem::order::MANY;
 use phase::record::Guard;
-use phase::scene::{Friction, Integrator, Radii, Scene, Start, StartSphere};
+use phase::scene::{Friction, Integrator, Mindlin, Radii, Scene, Start, StartSphere};
 use phase::store::{content_digest, read_record};
 
 const COUNT: usize = MANY + 404;
@@ -34,7 +34,7 @@ fn large(friction: Option<Friction>, integrator: Integrator) -> Scene {
 }
 
 fn mindlin() -> Option<Friction> {
-    Some(Friction::Mindlin { coefficient: 0.3 })
+    Some(Friction::Mindlin(Mindlin { coefficient: 0.3 }))
 }
 
 /// Places, velocities and spins in the order of the scene.

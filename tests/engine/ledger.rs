@@ -5,7 +5,7 @@ use crate::support::Workplace;
 use phase::observe::Observations;
 use phase::record::{Outcome, RunRecord};
 use phase::run;
-use phase::scene::{Friction, Integrator, Scene};
+use phase::scene::{CundallStrack, Friction, Integrator, Scene};
 use std::ops::ControlFlow;
 
 fn observe(scene: &Scene) -> RunRecord {
@@ -269,11 +269,11 @@ fn the_books_of_a_tank_close() {
 fn the_books_of_a_silo_close() {
     for integrator in INTEGRATORS {
         let mut silo = scene(&crate::support::silo_file(), integrator);
-        silo.dem.friction = Some(Friction::CundallStrack {
+        silo.dem.friction = Some(Friction::CundallStrack(CundallStrack {
             coefficient: 0.5,
             stiffness: 50.0,
             damping: 0.01,
-        });
+        }));
         silo.time.dt = 2.5e-4;
         let books = with_ledger(&silo);
         assert!(last(&books.discharged) > 0.0);

@@ -4,7 +4,9 @@
 use phase::dem::Simulation;
 use phase::particles::Particles;
 use phase::particles::vector::Vector;
-use phase::scene::{Contact, Friction, Integrator, Scene, Start, StartSphere};
+use phase::scene::{
+    Contact, Coulomb, Friction, Hertz, Integrator, Mindlin, Scene, Spin, Start, StartSphere,
+};
 use proptest::prelude::*;
 
 pub(crate) const INTEGRATORS: [Integrator; 4] = Integrator::ALL;
@@ -13,12 +15,12 @@ pub(crate) const INTEGRATORS: [Integrator; 4] = Integrator::ALL;
 pub(crate) fn frictions() -> [Option<Friction>; 4] {
     [
         None,
-        Some(Friction::Spin { coefficient: 0.01 }),
-        Some(Friction::Coulomb {
+        Some(Friction::Spin(Spin { coefficient: 0.01 })),
+        Some(Friction::Coulomb(Coulomb {
             coefficient: 0.3,
             regularisation: 1e-2,
-        }),
-        Some(Friction::Mindlin { coefficient: 0.3 }),
+        })),
+        Some(Friction::Mindlin(Mindlin { coefficient: 0.3 })),
     ]
 }
 
@@ -126,9 +128,9 @@ pub(crate) fn energy(simulation: &mut Simulation, gravity: f64) -> f64 {
 }
 
 pub(crate) fn damped(mut scene: Scene, time: f64) -> Scene {
-    let Some(Contact::Hertz {
+    let Some(Contact::Hertz(Hertz {
         dissipation_time, ..
-    }) = &mut scene.dem.contact
+    })) = &mut scene.dem.contact
     else {
         panic!("a scene with contacts")
     };

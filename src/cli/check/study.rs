@@ -115,7 +115,7 @@ struct Answer<'a> {
     axes: &'a [Axis],
     integrators: Vec<Span>,
     spheres: usize,
-    effects: Vec<&'static str>,
+    effects: Vec<String>,
     duration: f64,
     frames: u64,
     forecast: Option<ForecastAnswer>,

@@ -16,19 +16,17 @@
 //! limits know of several contacts of one sphere, which need that of twelve (tests/engine/stability
 //! measures both).
 
-mod hertz;
-mod linear;
 mod overlap;
-mod silbert;
 mod standing;
 
+pub use crate::forces::contact::{Impact, LinearImpact, rayleigh_time};
 pub use crate::forces::limit::Limit;
-pub use hertz::{Impact, dissipation_time, rayleigh_time};
-pub use linear::LinearImpact;
 pub use standing::Standing;
 
-use crate::forces::limit::{Regime, Scheme};
-use crate::scene::{Integrator, Scene, Start, StartSphere, Tank};
+use crate::forces::limit::{DISPLACEMENT, Regime, Scheme};
+use crate::scene::{Integrator, Scene, Spheres, Start, StartSphere, Tank};
+use overlap::deepest_at_start;
+use std::cell::LazyCell;
 
 /// The fastest relative speed (m/s) that the scene lets expect at an impact: the largest of the
 /// speeds at the start, of free fall from the highest start to the floor, of the air's updraught
@@ -100,40 +98,35 @@ fn extent(spheres: &[StartSphere]) -> (f64, f64, f64) {
 
 /// Duration (s) of the shortest contact the scene lets expect, if there is any.
 pub fn shortest_contact(scene: &Scene) -> Option<f64> {
-    let hertz = hertz::stiffest_impact(scene).or_else(|| silbert::stiffest_impact(scene));
-    let hertz = hertz.map(|impact| impact.contact_time());
-    hertz.or_else(|| linear::stiffest_impact(scene).map(|impact| impact.contact_time()))
+    let meetings = scene.dem.contact.as_ref()?.meetings(&regime(scene));
+    meetings.first().map(|meeting| meeting.contact_time)
 }
 
-/// The limit that adaptive Verlet, whose sub-steps resolve contacts, shares with the others: there
-/// it decides.
-const DISPLACEMENT: &str = "displacement";
-
-/// The limit at which the fastest sphere reaches the displacement guard: the smallest one, that the
-/// largest one has knocked on.
-fn displacement(scene: &Scene, speed: f64) -> Limit {
-    let (light, heavy) = (scene.smallest_mass(), scene.largest_mass());
-    let knocked_on = 2.0 * heavy / (heavy + light);
-    Limit {
-        name: DISPLACEMENT,
-        seconds: scene.dem.guards.displacement * scene.smallest_radius() / (speed * knocked_on),
-        decisive: false,
-        explanation: "the fastest sphere stays below the displacement guard: the smallest at the speed \
-                      of the fastest impact, times 2 M / (M + m), at which the largest knocks it on",
-    }
-}
-
-/// What the limits of effects depend on.
-fn regime(scene: &Scene) -> Regime {
-    let (smallest_radius, smallest_mass) = (scene.smallest_radius(), scene.smallest_mass());
-    let inertia_factor = scene.spheres.shape.inertia_factor();
+/// What the limits of effects and laws depend on.
+fn regime(scene: &Scene) -> Regime<'_> {
+    let Spheres {
+        radius,
+        density,
+        shape,
+        ..
+    } = &scene.spheres;
+    let (smallest_radius, largest_radius) = scene.radius_range();
+    let mean_radius = radius.mean();
     Regime {
         scheme: scheme_of(scene),
         smallest_radius,
-        smallest_mass,
-        smallest_inertia: inertia_factor * smallest_mass * smallest_radius * smallest_radius,
+        largest_radius,
+        mean_radius,
+        smallest_mass: shape.mass(*density, smallest_radius),
+        largest_mass: shape.mass(*density, largest_radius),
+        mean_mass: shape.mass(*density, mean_radius),
+        density: *density,
+        inertia_factor: shape.inertia_factor(),
+        has_walls: scene.tank.is_some() || scene.dem.geometry.is_some(),
         fastest_impact: fastest_impact(scene),
         lowest_height: lowest_height(scene),
+        displacement_guard: scene.dem.guards.displacement,
+        deepest_at_start: LazyCell::new(Box::new(|| deepest_at_start(scene))),
     }
 }
 
@@ -162,30 +155,23 @@ pub(super) fn scheme_of(scene: &Scene) -> Scheme {
     Scheme { damping }
 }
 
-/// The limit of a sphere with twelve contacts, each of which has that angular frequency w (1/s) and
-/// damping rate g (1/s) in a pair alone.
-fn twelve_contacts(scheme: Scheme, frequency: f64, rate: f64) -> Limit {
-    Limit {
-        name: "twelve contacts",
-        seconds: scheme.oscillator(6.0_f64.sqrt() * frequency, 6.0 * rate),
-        decisive: false,
-        explanation: "(w dt)^2 + 2 g dt < 4 of a sphere with twelve such contacts, w and g^(1/2) \
-                      sqrt(6) times those of a pair: all of them are taken to act along one line",
-    }
-}
-
 /// All limits that apply to a scene, the decisive ones first, each group smallest first.
 pub fn limits(scene: &Scene) -> Vec<Limit> {
-    let mut limits = hertz::limits(scene);
-    limits.extend(linear::limits(scene));
-    limits.extend(silbert::limits(scene));
+    let regime = regime(scene);
+    let mut limits = Vec::new();
+    if let Some(contact) = &scene.dem.contact {
+        let meetings = contact.meetings(&regime);
+        limits.extend(contact.limits(&meetings, &regime));
+        let friction = scene.dem.friction.as_ref();
+        limits.extend(friction.and_then(|it| it.limit(contact, &meetings, &regime)));
+    }
     if scene.time.integrator == Integrator::AdaptiveVerlet {
         limits.retain(|limit| limit.name == DISPLACEMENT);
         for limit in &mut limits {
             limit.decisive = true;
         }
     }
-    limits.extend(scene.dem.effects.limits(&regime(scene)));
+    limits.extend(scene.dem.effects.limits(&regime));
     let finite = |limit: &Limit| limit.seconds.is_finite();
     limits.retain(finite);
     limits.sort_by(|a, b| {

@@ -1,4 +1,5 @@
 use super::*;
+use crate::scene::Contact;
 use crate::scene::{Scene, Shape};
 use std::path::Path;
 
@@ -8,7 +9,8 @@ fn close(found: f64, expected: f64, tolerance: f64) {
 }
 
 fn impact_at_one_metre_per_second(young_modulus: f64, density: f64) -> Impact {
-    Impact::of_equal_spheres(0.004, density, young_modulus, 0.3, 1.0)
+    let mass = Shape::Sphere.mass(density, 0.004);
+    Impact::of_equal_spheres(0.004, mass, young_modulus, 0.3, 1.0)
 }
 
 #[test]
@@ -38,7 +40,8 @@ fn limits_of_a_soft_and_of_a_steel_pair() {
 #[test]
 fn elastic_impacts_of_known_materials() {
     // Set-ups of Chung and Ooi (2011): overlap (um), force (N), contact time (us).
-    let glass = Impact::of_equal_spheres(0.01, 2800.0, 48e9, 0.2, 20.0);
+    let mass = Shape::Sphere.mass(2800.0, 0.01);
+    let glass = Impact::of_equal_spheres(0.01, mass, 48e9, 0.2, 20.0);
     let aluminium_on_rigid_wall = Impact {
         effective_mass: Shape::Sphere.mass(2699.0, 0.1),
         stiffness: 4.0 / 3.0 * 70e9 / (1.0 - 0.3 * 0.3) * 0.1_f64.sqrt(),
@@ -119,16 +122,20 @@ fn the_scene_decides_which_limits_there_are() {
 #[test]
 fn a_restitution_becomes_a_dissipation_time() {
     // b = 0.473881 gives e = 0.609834523 for this pair at 1 m/s with A = 1e-3 s and c = 1.
-    let scene = pair(&hertz("restitution = 0.609834523"));
-    close(dissipation_time(&scene), 1e-3, 1e-6);
-    let scene = pair(&hertz(
-        "restitution = 0.494664113, dissipation_factor = 1.5",
-    ));
-    close(dissipation_time(&scene), 1e-3, 1e-6);
-    assert_eq!(
-        dissipation_time(&pair(&hertz("dissipation_time = 2e-4"))),
-        2e-4
+    let time = |text: &str| {
+        let scene = pair(&hertz(text));
+        let Some(Contact::Hertz(hertz)) = &scene.dem.contact else {
+            unreachable!("the pair has a Hertz contact");
+        };
+        hertz.dissipation_time(scene.smallest_radius(), scene.smallest_mass())
+    };
+    close(time("restitution = 0.609834523"), 1e-3, 1e-6);
+    close(
+        time("restitution = 0.494664113, dissipation_factor = 1.5"),
+        1e-3,
+        1e-6,
     );
+    assert_eq!(time("dissipation_time = 2e-4"), 2e-4);
 }
 
 /// Symptom: any step was accepted for spheres at rest that overlap, and gained energy. Cause: the

@@ -1,19 +1,155 @@
 //! Viscoelastic Hertz contact.
 
-use super::{NormalLaw, contact_radius};
+use super::restitution::dissipation_time_from_restitution;
+use super::{ContactKeys, Impact, Meeting, NormalLaw, contact_radius};
+use crate::document::{Problem, quantity};
+use crate::forces::limit::{Limit, Regime};
+use crate::forces::one;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+/// Viscoelastic Hertz contact (Brilliantov et al., 1996), never attractive.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Hertz {
+    /// Young's modulus Y (Pa).
+    #[schemars(transform = quantity("Y", "Pa", "Young's modulus").above(0.0))]
+    pub young_modulus: f64,
+    /// Poisson's ratio nu.
+    #[schemars(transform = quantity("ν", "", "Poisson's ratio").above(-1.0).at_most(0.5))]
+    pub poisson_ratio: f64,
+    /// Dissipation time A (s). Give this or `restitution`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = quantity("A", "s", "dissipation time").at_least(0.0))]
+    pub dissipation_time: Option<f64>,
+    /// Restitution of a head-on pair at `restitution_speed`, from which A follows for
+    /// the scene's (mean) radius. Give this or `dissipation_time`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(
+        transform = quantity("e", "", "coefficient of restitution").at_least(0.01).at_most(1.0)
+    )]
+    pub restitution: Option<f64>,
+    /// Relative speed at which `restitution` holds (m/s, default 1).
+    #[serde(default = "one")]
+    #[schemars(
+        transform = quantity("v_e", "m/s", "speed at which the restitution holds").above(0.0)
+    )]
+    pub restitution_speed: f64,
+    /// Factor c of the dissipative term: 1 as the thesis prints it (default), 3/2 as
+    /// Brilliantov et al. derive it.
+    #[serde(default = "one")]
+    #[schemars(transform = quantity("c", "", "factor of the dissipative term").above(0.0))]
+    pub dissipation_factor: f64,
+}
+
+impl Hertz {
+    /// Dissipation time A (s): as given, or the one that gives a pair of spheres of that radius (m)
+    /// and mass (kg) the restitution.
+    pub fn dissipation_time(&self, radius: f64, mass: f64) -> f64 {
+        match (self.dissipation_time, self.restitution) {
+            (Some(time), _) => time,
+            (None, None) => 0.0,
+            (None, Some(restitution)) => {
+                let impact = self.impact(radius, mass, self.restitution_speed);
+                let factor = self.dissipation_factor;
+                dissipation_time_from_restitution(restitution, impact.time_scale(), factor)
+            }
+        }
+    }
+
+    /// The impact of two spheres of one radius (m) and mass (kg) at a relative speed (m/s).
+    fn impact(&self, radius: f64, mass: f64, speed: f64) -> Impact {
+        Impact::of_equal_spheres(radius, mass, self.young_modulus, self.poisson_ratio, speed)
+    }
+}
+
+impl ContactKeys for Hertz {
+    type Law = HertzLaw;
+    const NAME: &'static str = "hertz";
+    const CONTACT_LIMIT: &'static str = "2/w of the two smallest spheres at their deepest overlap, \
+                                         at the start or in the fastest impact, \
+                                         w^2 = (3/2) K sqrt(xi) / m_eff";
+    const DAMPED_LIMIT: &'static str = "(w dt)^2 + 2 q g dt < 4 with the w of the contact limit \
+                                        and the damping rate g = (2/3) c A w^2; q = 2 for \
+                                        synchronised-verlet, else 1";
+
+    fn law(&self, mean_radius: f64, mean_mass: f64) -> HertzLaw {
+        HertzLaw::new(
+            self.young_modulus,
+            self.poisson_ratio,
+            self.dissipation_time(mean_radius, mean_mass),
+            self.dissipation_factor,
+        )
+    }
+
+    /// The impact of the two smallest spheres at the fastest speed, or from the deepest overlap at
+    /// the start. A wall or a larger partner is softer: w^2 falls with the effective mass faster
+    /// than it grows with the effective radius.
+    fn meetings(&self, regime: &Regime<'_>) -> Vec<Meeting> {
+        let (radius, mass) = (regime.smallest_radius, regime.smallest_mass);
+        let impact = self.impact(radius, mass, regime.fastest_impact);
+        let fastest = impact.or_release_from(*regime.deepest_at_start);
+        if fastest.speed <= 0.0 {
+            return Vec::new();
+        }
+        let frequency = fastest.angular_frequency();
+        // The law's damping at overlap xi: g = K c A sqrt(xi) / m_eff.
+        let time = self.dissipation_time(regime.mean_radius, regime.mean_mass);
+        let rate = 2.0 / 3.0 * self.dissipation_factor * time * frequency * frequency;
+        vec![Meeting::of_impact(&fastest, 0.5 * radius, rate)]
+    }
+
+    fn other_limits(&self, regime: &Regime<'_>) -> Vec<Limit> {
+        let (young_modulus, poisson_ratio) = (self.young_modulus, self.poisson_ratio);
+        let (radius, density) = (regime.smallest_radius, regime.density);
+        vec![Limit {
+            name: "Rayleigh time",
+            seconds: rayleigh_time(radius, density, young_modulus, poisson_ratio),
+            decisive: false,
+            explanation: "pi r sqrt(rho/G) / (0.1631 nu + 0.8766) of the smallest sphere; a \
+                          fifth of it is customary",
+        }]
+    }
+
+    fn problems(&self) -> Vec<Problem> {
+        match (self.dissipation_time, self.restitution) {
+            (None, None) => {
+                let message = "[contact] does not say how much it dissipates";
+                let help = "add `dissipation_time` (0.0 is elastic) or `restitution`";
+                vec![Problem::new("contact", message).help(help)]
+            }
+            (Some(_), Some(_)) => {
+                let message =
+                    "`contact.dissipation_time` and `contact.restitution` exclude each other";
+                let help = "keep the one that is known and remove the other";
+                vec![Problem::new("contact.restitution", message).help(help)]
+            }
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// Rayleigh time (s): a surface wave's way around half a sphere of that radius (m),
+/// pi r sqrt(rho / G) / (0.1631 nu + 0.8766) with the shear modulus G = Y / (2 (1 + nu))
+/// (Thornton and Randall, 1988; Ning and Ghadiri, 2006).
+pub fn rayleigh_time(radius: f64, density: f64, young_modulus: f64, poisson_ratio: f64) -> f64 {
+    let shear_modulus = young_modulus / (2.0 * (1.0 + poisson_ratio));
+    PI * radius * (density / shear_modulus).sqrt() / (0.1631 * poisson_ratio + 0.8766)
+}
 
 /// F = K (xi^1.5 + c A sqrt(xi) dxi/dt), never attractive, with
 /// K = 2 Y sqrt(R_eff) / (3 (1 - nu^2)), overlap xi, dissipation time A and factor c:
 /// c = 3/2 in Brilliantov et al., Phys. Rev. E 53, 5382 (1996), c = 1 in Rice (2012), eq. 9.
 #[derive(Clone, Copy, Debug)]
-pub struct Hertz {
+pub struct HertzLaw {
     /// K / sqrt(R_eff) (Pa).
     modulus: f64,
     /// c A (s).
     dissipation: f64,
 }
 
-impl Hertz {
+impl HertzLaw {
     /// The law for partners of the same material: Young's modulus (Pa), Poisson's ratio,
     /// dissipation time A (s) and the factor c.
     pub fn new(young_modulus: f64, poisson_ratio: f64, dissipation_time: f64, factor: f64) -> Self {
@@ -38,7 +174,7 @@ impl Hertz {
     }
 }
 
-impl NormalLaw for Hertz {
+impl NormalLaw for HertzLaw {
     const WIDENS: bool = true;
 
     #[inline(always)]

@@ -1,92 +1,166 @@
-//! The keys of contact laws.
+//! The table of a contact law in a scene.
 
-use crate::document::quantity;
-use crate::forces::one;
+use super::{Hertz, Impact, Linear, NormalLaw, Silbert};
+use crate::document::Problem;
+use crate::forces::limit::{Limit, Regime};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Normal contact law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "law", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(tag = "law", rename_all = "kebab-case")]
+#[expect(missing_docs, reason = "what a law is stands at its keys")]
 pub enum Contact {
-    /// Viscoelastic Hertz contact (Brilliantov et al., 1996), never attractive.
-    Hertz {
-        /// Young's modulus Y (Pa).
-        #[schemars(transform = quantity("Y", "Pa", "Young's modulus").above(0.0))]
-        young_modulus: f64,
-        /// Poisson's ratio nu.
-        #[schemars(transform = quantity("ν", "", "Poisson's ratio").above(-1.0).at_most(0.5))]
-        poisson_ratio: f64,
-        /// Dissipation time A (s). Give this or `restitution`.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        #[schemars(transform = quantity("A", "s", "dissipation time").at_least(0.0))]
-        dissipation_time: Option<f64>,
-        /// Restitution of a head-on pair at `restitution_speed`, from which A follows for
-        /// the scene's (mean) radius. Give this or `dissipation_time`.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        #[schemars(
-            transform = quantity("e", "", "coefficient of restitution").at_least(0.01).at_most(1.0)
-        )]
-        restitution: Option<f64>,
-        /// Relative speed at which `restitution` holds (m/s, default 1).
-        #[serde(default = "one")]
-        #[schemars(
-            transform = quantity("v_e", "m/s", "speed at which the restitution holds").above(0.0)
-        )]
-        restitution_speed: f64,
-        /// Factor c of the dissipative term: 1 as the thesis prints it (default), 3/2 as
-        /// Brilliantov et al. derive it.
-        #[serde(default = "one")]
-        #[schemars(transform = quantity("c", "", "factor of the dissipative term").above(0.0))]
-        dissipation_factor: f64,
-    },
-    /// Spring and dashpot, both linear (Cundall and Strack, 1979; Remmers, 2009): F = k delta + b
-    /// times the rate of the overlap. Attractive at the end of a contact.
-    Linear {
-        /// Spring constant k (N/m).
-        #[schemars(transform = quantity("k", "N/m", "spring constant of a contact").above(0.0))]
-        stiffness: f64,
-        /// Drag constant b (N s/m).
-        #[schemars(transform = quantity("b", "N s/m", "drag constant of a contact").at_least(0.0))]
-        damping: f64,
-        /// Which part of the relative velocity the drag acts on.
-        #[serde(default)]
-        drag: ContactDrag,
-    },
-    /// Hertzian spring and a dashpot that grows with the masses (Silbert et al., 2001;
-    /// `gran/hertz/history` of LAMMPS): F = sqrt(R_eff xi) (k_n xi + gamma_n m_eff dxi/dt).
-    /// Attractive at the end of a contact.
-    Silbert {
-        /// Stiffness k_n (Pa).
-        #[schemars(transform = quantity("k", "Pa", "spring constant of a contact").above(0.0))]
-        stiffness: f64,
-        /// Damping gamma_n (1/(m s)).
-        #[schemars(
-            transform = quantity("b", "1/(m s)", "drag constant of a contact").at_least(0.0)
-        )]
-        damping: f64,
-    },
+    Hertz(Hertz),
+    Linear(Linear),
+    Silbert(Silbert),
 }
 
-/// Which part of the relative velocity of two partners a contact's drag acts on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum ContactDrag {
-    /// The part along the line of centres.
-    #[default]
-    Normal,
-    /// All of it (Remmers, 2009), which also slows spheres that slide along each other. Spins do
-    /// not count.
-    Whole,
+/// Does the same with the keys of any contact law.
+macro_rules! with_keys {
+    ($contact:expr, $keys:ident => $do:expr) => {
+        match $contact {
+            $crate::forces::contact::Contact::Hertz($keys) => $do,
+            $crate::forces::contact::Contact::Linear($keys) => $do,
+            $crate::forces::contact::Contact::Silbert($keys) => $do,
+        }
+    };
+}
+
+pub(crate) use with_keys;
+
+/// The keys of a contact law.
+pub(crate) trait ContactKeys {
+    /// The law for the engine.
+    type Law: NormalLaw;
+
+    /// Name of the law, as in a scene file.
+    const NAME: &'static str;
+
+    /// What the limit `contact` means.
+    const CONTACT_LIMIT: &'static str;
+
+    /// What the limit `damped contact` means.
+    const DAMPED_LIMIT: &'static str;
+
+    /// The law, in a scene whose spheres have that mean radius (m), and one of that radius that
+    /// mass (kg).
+    fn law(&self, mean_radius: f64, mean_mass: f64) -> Self::Law;
+
+    /// The impacts that may limit the time step, the stiffest one first; none if nothing moves.
+    fn meetings(&self, regime: &Regime<'_>) -> Vec<Meeting>;
+
+    /// Limits besides those that follow from the meetings.
+    fn other_limits(&self, _regime: &Regime<'_>) -> Vec<Limit> {
+        Vec::new()
+    }
+
+    /// Keys that do not go together.
+    fn problems(&self) -> Vec<Problem> {
+        Vec::new()
+    }
+}
+
+/// An impact of two partners, as it limits the time step.
+pub(crate) struct Meeting {
+    /// Effective mass m1 m2 / (m1 + m2) (kg).
+    pub(crate) effective_mass: f64,
+    /// Relative speed (m/s).
+    pub(crate) speed: f64,
+    /// Angular frequency w (1/s) of the contact where it is stiffest.
+    pub(crate) frequency: f64,
+    /// Damping rate g (1/s) there.
+    pub(crate) rate: f64,
+    /// Largest force (N).
+    pub(crate) largest_force: f64,
+    /// Duration (s).
+    pub(crate) contact_time: f64,
+    /// Radius sqrt(R_eff xi) of the contact (m) where it is deepest, if the law has one.
+    pub(crate) contact_radius: f64,
+}
+
+impl Meeting {
+    /// Of an impact of an effective radius (m), with a damping rate (1/s).
+    pub(super) fn of_impact(impact: &Impact, effective_radius: f64, rate: f64) -> Self {
+        Self {
+            effective_mass: impact.effective_mass,
+            speed: impact.speed,
+            frequency: impact.angular_frequency(),
+            rate,
+            largest_force: impact.largest_force(),
+            contact_time: impact.contact_time(),
+            contact_radius: (effective_radius * impact.deepest_overlap()).sqrt(),
+        }
+    }
 }
 
 impl Contact {
     /// Name of the law, as in a scene file.
     pub fn law(&self) -> &'static str {
-        match self {
-            Self::Hertz { .. } => "hertz",
-            Self::Linear { .. } => "linear",
-            Self::Silbert { .. } => "silbert",
+        fn name<K: ContactKeys>(_: &K) -> &'static str {
+            K::NAME
         }
+        with_keys!(self, keys => name(keys))
     }
+
+    /// As [`NormalLaw::elastic_energy`].
+    pub(crate) fn elastic_energy(&self, overlap: f64, effective_radius: f64) -> f64 {
+        // Of no law does it depend on the dissipation.
+        with_keys!(self, keys => keys.law(1.0, 1.0).elastic_energy(overlap, effective_radius))
+    }
+
+    /// As [`ContactKeys::meetings`].
+    pub(crate) fn meetings(&self, regime: &Regime<'_>) -> Vec<Meeting> {
+        with_keys!(self, keys => keys.meetings(regime))
+    }
+
+    /// As [`ContactKeys::problems`].
+    pub(crate) fn problems(&self) -> Vec<Problem> {
+        with_keys!(self, keys => keys.problems())
+    }
+
+    /// The limits of the time step that follow from its meetings, without those of friction.
+    pub(crate) fn limits(&self, meetings: &[Meeting], regime: &Regime<'_>) -> Vec<Limit> {
+        with_keys!(self, keys => limits(keys, meetings, regime))
+    }
+}
+
+fn limits<K: ContactKeys>(keys: &K, meetings: &[Meeting], regime: &Regime<'_>) -> Vec<Limit> {
+    let Some(stiffest) = meetings.first() else {
+        return Vec::new();
+    };
+    let least = |frequency: f64, rate: f64| {
+        let seconds = meetings.iter().map(|meeting| {
+            let (frequency, rate) = (frequency * meeting.frequency, rate * meeting.rate);
+            regime.scheme.oscillator(frequency, rate)
+        });
+        seconds.fold(f64::INFINITY, f64::min)
+    };
+    let mut limits = vec![
+        Limit {
+            name: "contact",
+            seconds: 2.0 / stiffest.frequency,
+            decisive: true,
+            explanation: K::CONTACT_LIMIT,
+        },
+        Limit {
+            name: "twelve contacts",
+            seconds: least(6.0_f64.sqrt(), 6.0),
+            decisive: false,
+            explanation: "(w dt)^2 + 2 g dt < 4 of a sphere with twelve such contacts, w and \
+                          g^(1/2) sqrt(6) times those of a pair: all of them are taken to act \
+                          along one line",
+        },
+        regime.displacement(stiffest.speed),
+    ];
+    if stiffest.rate > 0.0 {
+        limits.push(Limit {
+            name: "damped contact",
+            seconds: least(1.0, 1.0),
+            decisive: true,
+            explanation: K::DAMPED_LIMIT,
+        });
+    }
+    limits.extend(keys.other_limits(regime));
+    limits
 }

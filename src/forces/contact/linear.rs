@@ -1,12 +1,77 @@
 //! Linear spring and dashpot.
 
-use super::{ContactDrag, NormalLaw};
+use super::{ContactKeys, LinearImpact, Meeting, NormalLaw};
+use crate::document::quantity;
+use crate::forces::limit::Regime;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Spring and dashpot, both linear (Cundall and Strack, 1979; Remmers, 2009): F = k delta + b
+/// times the rate of the overlap. Attractive at the end of a contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Linear {
+    /// Spring constant k (N/m).
+    #[schemars(transform = quantity("k", "N/m", "spring constant of a contact").above(0.0))]
+    pub stiffness: f64,
+    /// Drag constant b (N s/m).
+    #[schemars(transform = quantity("b", "N s/m", "drag constant of a contact").at_least(0.0))]
+    pub damping: f64,
+    /// Which part of the relative velocity the drag acts on.
+    #[serde(default)]
+    pub drag: ContactDrag,
+}
+
+/// Which part of the relative velocity of two partners a contact's drag acts on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactDrag {
+    /// The part along the line of centres.
+    #[default]
+    Normal,
+    /// All of it (Remmers, 2009), which also slows spheres that slide along each other. Spins do
+    /// not count.
+    Whole,
+}
+
+impl ContactKeys for Linear {
+    type Law = LinearLaw;
+    const NAME: &'static str = "linear";
+    const CONTACT_LIMIT: &'static str = "2/w of the two smallest spheres, w^2 = k / m_eff";
+    const DAMPED_LIMIT: &'static str = "(w dt)^2 + 2 q g dt < 4 with the w of the contact limit \
+                                        and the damping rate g = b / m_eff; q = 2 for \
+                                        synchronised-verlet, else 1";
+
+    fn law(&self, _: f64, _: f64) -> LinearLaw {
+        LinearLaw::new(self.stiffness, self.damping, self.drag)
+    }
+
+    /// The impact of the two smallest spheres; all others have larger effective masses, and are
+    /// softer.
+    fn meetings(&self, regime: &Regime<'_>) -> Vec<Meeting> {
+        let impact = LinearImpact {
+            effective_mass: 0.5 * regime.smallest_mass,
+            stiffness: self.stiffness,
+            damping: self.damping,
+        };
+        let (frequency, speed) = (impact.angular_frequency(), regime.fastest_impact);
+        vec![Meeting {
+            effective_mass: impact.effective_mass,
+            speed,
+            frequency,
+            rate: impact.damping_rate(),
+            largest_force: impact.stiffness * speed / frequency,
+            contact_time: impact.contact_time(),
+            contact_radius: 0.0,
+        }]
+    }
+}
 
 /// F = k delta + b d(delta)/dt along the line of centres, with overlap delta, spring constant k and
 /// drag constant b (Cundall and Strack, 1979). With the drag on the whole relative velocity
 /// (Remmers, 2009) also -b times its tangential part.
 #[derive(Clone, Copy, Debug)]
-pub struct Linear {
+pub struct LinearLaw {
     /// k (N/m).
     stiffness: f64,
     /// b (N s/m).
@@ -15,7 +80,7 @@ pub struct Linear {
     sideways_drag: f64,
 }
 
-impl Linear {
+impl LinearLaw {
     /// The law with a spring constant (N/m) and a drag constant (N s/m).
     pub fn new(stiffness: f64, damping: f64, drag: ContactDrag) -> Self {
         Self {
@@ -29,7 +94,7 @@ impl Linear {
     }
 }
 
-impl NormalLaw for Linear {
+impl NormalLaw for LinearLaw {
     const DRAGS_SIDEWAYS: bool = true;
     const ATTRACTS: bool = true;
 

@@ -1,15 +1,18 @@
-//! Normal contact laws: one file each.
+//! Normal contact laws, one file each: keys, formula, what limits the time step.
 
 mod hertz;
+mod impact;
 mod keys;
 mod linear;
 pub mod restitution;
 mod silbert;
 
-pub use hertz::Hertz;
-pub use keys::{Contact, ContactDrag};
-pub use linear::Linear;
-pub use silbert::Silbert;
+pub use hertz::{Hertz, HertzLaw, rayleigh_time};
+pub use impact::{Impact, LinearImpact};
+pub use keys::Contact;
+pub(crate) use keys::{ContactKeys, Meeting, with_keys};
+pub use linear::{ContactDrag, Linear, LinearLaw};
+pub use silbert::{Silbert, SilbertLaw};
 
 /// Radius sqrt(R_eff xi) (m) of the disc in which partners touch (Hertz, 1882), from the overlap xi
 /// (m) and the effective radius r1 r2 / (r1 + r2) (m; the sphere's own at a flat wall).

@@ -94,7 +94,7 @@ impl EffectKeys for Drag {
 
     /// A sphere that slips through the air at speed u returns to its terminal speed at the rate
     /// (c1 + 2 c2 u) / m. Swirl and updraught both act on the vertical velocity.
-    fn limit(&self, all: &Effects, regime: &Regime) -> Option<Limit> {
+    fn limit(&self, all: &Effects, regime: &Regime<'_>) -> Option<Limit> {
         let updraught = all.updraught.as_ref().map_or(0.0, |air| {
             let height = regime.lowest_height - air.origin;
             air.strength_in(all.swirl.as_ref()) * libm::exp(-air.decay * height)

@@ -70,7 +70,7 @@ pub(crate) trait EffectKeys {
     fn effect(&self, all: &Effects, radii: &[f64]) -> Option<Box<dyn Effect>>;
 
     /// Its limit of the time step, if it has one.
-    fn limit(&self, _all: &Effects, _regime: &Regime) -> Option<Limit> {
+    fn limit(&self, _all: &Effects, _regime: &Regime<'_>) -> Option<Limit> {
         None
     }
 
@@ -125,7 +125,7 @@ impl Effects {
     }
 
     /// Their limits of the time step.
-    pub(crate) fn limits(&self, regime: &Regime) -> impl Iterator<Item = Limit> {
+    pub(crate) fn limits(&self, regime: &Regime<'_>) -> impl Iterator<Item = Limit> {
         self.keys()
             .flatten()
             .filter_map(|keys| keys.limit(self, regime))

@@ -24,8 +24,8 @@ impl EffectKeys for SpinDamping {
         }))
     }
 
-    fn limit(&self, _: &Effects, regime: &Regime) -> Option<Limit> {
-        let rate = self.coefficient / regime.smallest_inertia;
+    fn limit(&self, _: &Effects, regime: &Regime<'_>) -> Option<Limit> {
+        let rate = self.coefficient / regime.smallest_inertia();
         Some(Limit {
             name: "spin damping",
             seconds: regime.scheme.oscillator(0.0, rate),

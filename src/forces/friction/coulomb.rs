@@ -1,17 +1,62 @@
 //! Coulomb friction, regularised at rest.
 
+use super::FrictionKeys;
 use super::{Grip, Spring, TangentialLaw, Touch, Traction};
+use crate::document::quantity;
+use crate::forces::contact::Meeting;
+use crate::forces::limit::{Limit, Regime};
 use crate::particles::math::inverse_square_root;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Sliding friction capped at mu F_n, from the velocity of the contact point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Coulomb {
+    /// Coefficient mu.
+    #[schemars(transform = quantity("μ", "", "coefficient of friction").at_least(0.0))]
+    pub coefficient: f64,
+    /// Sliding speed below which the force falls linearly to zero (m/s).
+    #[schemars(transform = quantity("v_μ", "m/s", "sliding speed of full friction").above(0.0))]
+    pub regularisation: f64,
+}
+
+impl Coulomb {
+    /// Name of the law, as in a scene file.
+    pub(crate) const NAME: &'static str = "coulomb";
+}
+
+impl<C> FrictionKeys<C> for Coulomb {
+    type Law = CoulombLaw;
+
+    fn law(&self, _: &C, _: f64) -> CoulombLaw {
+        CoulombLaw::new(self.coefficient, self.regularisation)
+    }
+
+    fn limit(&self, _: &C, meetings: &[Meeting], regime: &Regime<'_>) -> Option<Limit> {
+        let stiffest = meetings.first()?;
+        let rate = regime.surface_factor() * self.coefficient * stiffest.largest_force
+            / (self.regularisation * stiffest.effective_mass);
+        Some(Limit {
+            name: "regularised friction",
+            seconds: regime.scheme.oscillator(0.0, rate),
+            decisive: false,
+            explanation: "2 u_0 m_eff / ((1 + m r^2 / I) q mu F) at the largest force; above it \
+                          sliding that should stop changes sign from step to step; q = 2 for \
+                          synchronised-verlet, else 1",
+        })
+    }
+}
 
 /// f = -mu F_n u / max(|u|, u_0), with the sliding velocity u of the contact point (translation
 /// and spin). Below the regularisation speed u_0 it is viscous, so a pile at rest creeps.
 #[derive(Clone, Copy, Debug)]
-pub struct Coulomb {
+pub struct CoulombLaw {
     coefficient: f64,
     regularisation: f64,
 }
 
-impl Coulomb {
+impl CoulombLaw {
     /// The law with coefficient mu and regularisation speed u_0 (m/s).
     pub fn new(coefficient: f64, regularisation: f64) -> Self {
         Self {
@@ -21,7 +66,7 @@ impl Coulomb {
     }
 }
 
-impl TangentialLaw for Coulomb {
+impl TangentialLaw for CoulombLaw {
     type History = ();
 
     #[inline(always)]

@@ -1,12 +1,60 @@
 //! Friction by a tangential spring and dashpot.
 
+use super::FrictionKeys;
 use super::{Grip, LoadedSpring, Spring, TangentialLaw, Touch};
+use crate::document::quantity;
+use crate::forces::contact::{Linear, Meeting};
+use crate::forces::limit::{Limit, Regime};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A tangential spring and dashpot, together capped at mu F_n (Cundall and Strack, 1979); needs
+/// the linear contact. A pile holds still, and grains can arch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CundallStrack {
+    /// Coefficient mu.
+    #[schemars(transform = quantity("μ", "", "coefficient of friction").at_least(0.0))]
+    pub coefficient: f64,
+    /// Tangential spring constant k_t (N/m).
+    #[schemars(transform = quantity("k_t", "N/m", "tangential spring constant").above(0.0))]
+    pub stiffness: f64,
+    /// Tangential drag constant b_t (N s/m).
+    #[serde(default)]
+    #[schemars(transform = quantity("b_t", "N s/m", "tangential drag constant").at_least(0.0))]
+    pub damping: f64,
+}
+
+impl CundallStrack {
+    /// Name of the law, as in a scene file.
+    pub(crate) const NAME: &'static str = "cundall-strack";
+}
+
+impl FrictionKeys<Linear> for CundallStrack {
+    type Law = CundallStrackLaw;
+
+    fn law(&self, _: &Linear, _: f64) -> CundallStrackLaw {
+        CundallStrackLaw::new(self.coefficient, self.stiffness, self.damping)
+    }
+
+    fn limit(&self, _: &Linear, meetings: &[Meeting], regime: &Regime<'_>) -> Option<Limit> {
+        let moved = regime.surface_factor() / meetings.first()?.effective_mass;
+        let (frequency, rate) = ((self.stiffness * moved).sqrt(), self.damping * moved);
+        Some(Limit {
+            name: "sticking contact",
+            seconds: regime.scheme.oscillator(frequency, rate),
+            decisive: true,
+            explanation: "(w dt)^2 + 2 q g dt < 4 with w^2 = k_t / m_t and g = b_t / m_t, \
+                          m_t = m_eff / (1 + m r^2 / I); q = 2 for synchronised-verlet, else 1",
+        })
+    }
+}
 
 /// A spring of constant stiffness k_t and a dashpot b_t along the contact, together capped at mu
 /// F_n (Cundall and Strack, Geotechnique 29, 47 (1979)): df = -k_t du and f - b_t u while it
 /// sticks.
 #[derive(Clone, Copy, Debug)]
-pub struct CundallStrack {
+pub struct CundallStrackLaw {
     coefficient: f64,
     /// k_t (N/m).
     stiffness: f64,
@@ -14,7 +62,7 @@ pub struct CundallStrack {
     damping: f64,
 }
 
-impl CundallStrack {
+impl CundallStrackLaw {
     /// The law with coefficient mu, tangential stiffness k_t (N/m) and drag constant b_t (N s/m).
     pub fn new(coefficient: f64, stiffness: f64, damping: f64) -> Self {
         Self {
@@ -25,7 +73,7 @@ impl CundallStrack {
     }
 }
 
-impl TangentialLaw for CundallStrack {
+impl TangentialLaw for CundallStrackLaw {
     const DRAGS: bool = true;
     type History = Spring;
 
@@ -75,7 +123,7 @@ mod tests {
         }
     }
 
-    fn slide(law: CundallStrack, spring: &mut Spring, speed: f64, steps: u32) -> f64 {
+    fn slide(law: CundallStrackLaw, spring: &mut Spring, speed: f64, steps: u32) -> f64 {
         let mut force = 0.0;
         for _ in 0..steps {
             force = law
@@ -89,7 +137,7 @@ mod tests {
     #[test]
     fn it_sticks_slides_and_turns_back_like_a_spring_with_a_slider() {
         // k_t = 50 N/m, cap mu F_n = 0.6 N, reached after 12 mm.
-        let law = CundallStrack::new(0.3, 50.0, 0.0);
+        let law = CundallStrackLaw::new(0.3, 50.0, 0.0);
         let mut spring = Spring::default();
         let close =
             |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found}");
@@ -103,7 +151,7 @@ mod tests {
     #[test]
     fn spring_and_dashpot_are_capped_together() {
         // b_t u = 0.5 N: of the 0.6 N that friction can carry, 0.1 N are left to the spring.
-        let law = CundallStrack::new(0.3, 50.0, 5.0);
+        let law = CundallStrackLaw::new(0.3, 50.0, 5.0);
         let mut spring = Spring::default();
         let force = slide(law, &mut spring, 0.1, 1000);
         assert!((force + 0.6).abs() < 1e-12, "{force}");
@@ -115,7 +163,7 @@ mod tests {
 
     #[test]
     fn the_spring_turns_with_the_pair() {
-        let law = CundallStrack::new(0.3, 50.0, 0.0);
+        let law = CundallStrackLaw::new(0.3, 50.0, 0.0);
         let mut spring = Spring::default();
         slide(law, &mut spring, 0.1, 100);
         let (sine, cosine) = libm::sincos(0.7);

@@ -1,12 +1,57 @@
 //! Mindlin friction by increments.
 
+use super::FrictionKeys;
 use super::{LoadedSpring, Spring, TangentialLaw, Touch};
+use crate::document::quantity;
 use crate::forces::contact::contact_radius;
+use crate::forces::contact::{Hertz, Meeting};
+use crate::forces::limit::{Limit, Regime};
 use crate::particles::vector::Vector;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-/// Mindlin's tangential stiffness k_t = 8 G* sqrt(R_eff xi) on a contact that sticks, loaded and
+/// Mindlin's history spring by increments, capped at mu F_n; needs the Hertz contact.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Mindlin {
+    /// Coefficient mu.
+    #[schemars(transform = quantity("μ", "", "coefficient of friction").at_least(0.0))]
+    pub coefficient: f64,
+}
+
+impl Mindlin {
+    /// Name of the law, as in a scene file.
+    pub(crate) const NAME: &'static str = "mindlin";
+}
+
+impl FrictionKeys<Hertz> for Mindlin {
+    type Law = MindlinLaw;
+
+    fn law(&self, contact: &Hertz, _: f64) -> MindlinLaw {
+        MindlinLaw::new(
+            self.coefficient,
+            contact.young_modulus,
+            contact.poisson_ratio,
+        )
+    }
+
+    fn limit(&self, contact: &Hertz, meetings: &[Meeting], regime: &Regime<'_>) -> Option<Limit> {
+        let nu = contact.poisson_ratio;
+        let stiffness_ratio = 2.0 * (1.0 - nu) / (2.0 - nu);
+        let factor = (regime.surface_factor() * stiffness_ratio).sqrt();
+        Some(Limit {
+            name: "sticking contact",
+            seconds: (regime.scheme).oscillator(factor * meetings.first()?.frequency, 0.0),
+            decisive: true,
+            explanation: "2/w of the tangential spring, w^2 = (1 + m r^2 / I) k_t / m_eff with \
+                          k_t / k_n = 2 (1 - nu) / (2 - nu)",
+        })
+    }
+}
+
+/// MindlinLaw's tangential stiffness k_t = 8 G* sqrt(R_eff xi) on a contact that sticks, loaded and
 /// unloaded by increments of the sliding displacement, df = -k_t du, and capped at mu F_n; G* = G /
-/// (2 (2 - nu)) for equal materials (Mindlin, J. Appl. Mech. 16, 259 (1949); Chung and Ooi,
+/// (2 (2 - nu)) for equal materials (MindlinLaw, J. Appl. Mech. 16, 259 (1949); Chung and Ooi,
 /// Granular Matter 13, 643 (2011)).
 ///
 /// The force of a spring that holds still stays when the normal force falls, although its
@@ -14,13 +59,13 @@ use crate::particles::vector::Vector;
 /// an elastic impact can so gain energy, less than 1e-5 of it for nu > 0.2 and mu < 3, up to
 /// 4e-4 for nu = 0 and mu = 0.5.
 #[derive(Clone, Copy, Debug)]
-pub struct Mindlin {
+pub struct MindlinLaw {
     coefficient: f64,
     /// 8 G* (Pa).
     modulus: f64,
 }
 
-impl Mindlin {
+impl MindlinLaw {
     /// The law with coefficient mu, Young's modulus (Pa) and Poisson's ratio of both partners.
     pub fn new(coefficient: f64, young_modulus: f64, poisson_ratio: f64) -> Self {
         let shear_modulus = young_modulus / (2.0 * (1.0 + poisson_ratio));
@@ -31,7 +76,7 @@ impl Mindlin {
     }
 }
 
-impl TangentialLaw for Mindlin {
+impl TangentialLaw for MindlinLaw {
     const WIDENS: bool = true;
     type History = Spring;
 

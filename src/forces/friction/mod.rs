@@ -1,4 +1,4 @@
-//! Tangential contact laws: one file each. Pairs and walls go through the same code.
+//! Tangential contact laws, one file each: keys, formula, limit of the time step. Pairs and walls go through the same code.
 
 mod coulomb;
 mod cundall_strack;
@@ -8,12 +8,13 @@ mod silbert;
 mod spin;
 mod spring;
 
-pub use coulomb::Coulomb;
-pub use cundall_strack::CundallStrack;
+pub use coulomb::{Coulomb, CoulombLaw};
+pub use cundall_strack::{CundallStrack, CundallStrackLaw};
 pub use keys::Friction;
-pub use mindlin::Mindlin;
-pub use silbert::SilbertFriction;
-pub use spin::SpinFriction;
+pub(crate) use keys::{FrictionKeys, with_pairs_of_laws};
+pub use mindlin::{Mindlin, MindlinLaw};
+pub use silbert::{SilbertFriction, SilbertFrictionLaw};
+pub use spin::{Spin, SpinLaw};
 pub use spring::{LoadedSpring, Spring};
 
 use crate::particles::math::inverse_square_root;

@@ -1,7 +1,64 @@
 //! The friction of Silbert et al.
 
+use super::FrictionKeys;
 use super::{Grip, LoadedSpring, Spring, TangentialLaw, Touch};
+use crate::document::quantity;
 use crate::forces::contact::contact_radius;
+use crate::forces::contact::{Meeting, Silbert};
+use crate::forces::limit::{Limit, Regime};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// A history spring sqrt(R_eff xi) k_t by increments and a dashpot sqrt(R_eff xi) gamma_t
+/// m_eff, together capped at mu F_n (Silbert et al., 2001); needs the silbert contact. The
+/// spring keeps its force, where LAMMPS keeps the displacement.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SilbertFriction {
+    /// Coefficient mu.
+    #[schemars(transform = quantity("μ", "", "coefficient of friction").at_least(0.0))]
+    pub coefficient: f64,
+    /// Tangential stiffness k_t (Pa).
+    #[schemars(transform = quantity("k_t", "Pa", "tangential spring constant").above(0.0))]
+    pub stiffness: f64,
+    /// Tangential damping gamma_t (1/(m s)).
+    #[serde(default)]
+    #[schemars(
+        transform = quantity("b_t", "1/(m s)", "tangential drag constant").at_least(0.0)
+    )]
+    pub damping: f64,
+}
+
+impl SilbertFriction {
+    /// Name of the law, as in a scene file.
+    pub(crate) const NAME: &'static str = "silbert";
+}
+
+impl FrictionKeys<Silbert> for SilbertFriction {
+    type Law = SilbertFrictionLaw;
+
+    fn law(&self, _: &Silbert, _: f64) -> SilbertFrictionLaw {
+        SilbertFrictionLaw::new(self.coefficient, self.stiffness, self.damping)
+    }
+
+    fn limit(&self, _: &Silbert, meetings: &[Meeting], regime: &Regime<'_>) -> Option<Limit> {
+        let of_meeting = |meeting: &Meeting| {
+            let root = regime.surface_factor() * meeting.contact_radius;
+            let squared = self.stiffness * root / meeting.effective_mass;
+            regime
+                .scheme
+                .oscillator(squared.sqrt(), self.damping * root)
+        };
+        Some(Limit {
+            name: "sticking contact",
+            seconds: meetings.iter().map(of_meeting).reduce(f64::min)?,
+            decisive: true,
+            explanation: "(w dt)^2 + 2 q g dt < 4 with w^2 = f k_t sqrt(R_eff xi) / m_eff and \
+                          g = f gamma_t sqrt(R_eff xi), f = 1 + m r^2 / I, of pairs and at walls; \
+                          q = 2 for synchronised-verlet, else 1",
+        })
+    }
+}
 
 /// A spring of stiffness sqrt(R_eff xi) k_t and a dashpot sqrt(R_eff xi) gamma_t m_eff beside it,
 /// together capped at mu F_n (Silbert et al., Phys. Rev. E 64, 051302 (2001), for Hertzian
@@ -13,7 +70,7 @@ use crate::forces::contact::contact_radius;
 /// grows and shrinks with sqrt(xi); and it caps at mu |F_n| also where partners attract each other,
 /// where here no tangential force acts.
 #[derive(Clone, Copy, Debug)]
-pub struct SilbertFriction {
+pub struct SilbertFrictionLaw {
     coefficient: f64,
     /// k_t (Pa).
     stiffness: f64,
@@ -21,7 +78,7 @@ pub struct SilbertFriction {
     damping: f64,
 }
 
-impl SilbertFriction {
+impl SilbertFrictionLaw {
     /// The law with coefficient mu, tangential stiffness k_t (Pa) and damping gamma_t (1/(m s)).
     pub fn new(coefficient: f64, stiffness: f64, damping: f64) -> Self {
         Self {
@@ -32,7 +89,7 @@ impl SilbertFriction {
     }
 }
 
-impl TangentialLaw for SilbertFriction {
+impl TangentialLaw for SilbertFrictionLaw {
     const NEEDS_EFFECTIVE_MASS: bool = true;
     const WIDENS: bool = true;
     const DRAGS: bool = true;

@@ -1,6 +1,34 @@
 //! The thesis's friction, from spins alone.
 
+use super::FrictionKeys;
 use super::{Spring, TangentialLaw, Touch, Traction};
+use crate::document::quantities::fraction;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The thesis's rule (Rice, 2012, eqs. 10 to 14): from spins alone, an impulse per step.
+/// Depends on the time step, knows no sliding, does not conserve angular momentum.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Spin {
+    /// Coefficient mu.
+    #[schemars(transform = fraction("μ", "coefficient of friction"))]
+    pub coefficient: f64,
+}
+
+impl Spin {
+    /// Name of the law, as in a scene file.
+    pub(crate) const NAME: &'static str = "spin";
+}
+
+/// Its stability does not depend on the step: see the range of its coefficient.
+impl<C> FrictionKeys<C> for Spin {
+    type Law = SpinLaw;
+
+    fn law(&self, _: &C, dt: f64) -> SpinLaw {
+        SpinLaw::new(self.coefficient, dt)
+    }
+}
 
 /// Rice (2012), eqs. 10 to 14: f_i = -mu m dv_s / dt and tau_i = -mu I_i dw / dt, with dv_s the
 /// difference of the surface velocities due to spin, dw the sum of the spins perpendicular to the
@@ -9,12 +37,12 @@ use super::{Spring, TangentialLaw, Touch, Traction};
 /// An impulse per step: the law depends on the time step, knows no sliding and does not conserve
 /// angular momentum. It is kept because it is what the thesis ran.
 #[derive(Clone, Copy, Debug)]
-pub struct SpinFriction {
+pub struct SpinLaw {
     /// mu / dt (1/s).
     rate: f64,
 }
 
-impl SpinFriction {
+impl SpinLaw {
     /// The law with coefficient mu for time steps of `dt` (s).
     pub fn new(coefficient: f64, dt: f64) -> Self {
         Self {
@@ -23,7 +51,7 @@ impl SpinFriction {
     }
 }
 
-impl TangentialLaw for SpinFriction {
+impl TangentialLaw for SpinLaw {
     const WEIGHS: bool = true;
     type History = ();
 

@@ -5,11 +5,13 @@ mod guards;
 mod neighbours;
 mod silo;
 
-pub use crate::forces::contact::{Contact, ContactDrag};
+pub use crate::forces::contact::{Contact, ContactDrag, Hertz, Linear, Silbert};
 pub use crate::forces::effects::{
     Drag, DragForm, DragLaw, Effects, Gravity, SpinDamping, Swirl, Updraught,
 };
-pub use crate::forces::friction::Friction;
+pub use crate::forces::friction::{
+    Coulomb, CundallStrack, Friction, Mindlin, SilbertFriction, Spin,
+};
 pub use guards::Guards;
 pub use neighbours::Neighbours;
 pub(crate) use silo::MOST_HOPPER_SPHERES;

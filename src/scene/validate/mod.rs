@@ -59,35 +59,16 @@ impl Scene {
         if let (Some(contact), Some(friction)) = (&self.dem.contact, &self.dem.friction)
             && !friction.goes_with(contact)
         {
-            let contacts = friction.contacts().join(" or ");
+            let contacts = friction.contacts().collect::<Vec<_>>().join(" or ");
             let message = format!("this friction law goes with the {contacts} contact only");
             let named = |law: &str| format!("law = \"{law}\"");
             let here = any_of(Friction::laws_with(contact).map(named));
-            let there = any_of(friction.contacts().iter().copied().map(named));
+            let there = any_of(friction.contacts().map(named));
             let help = format!("use {here} here, or {there} in [contact]");
             problems.push(Problem::new("friction.law", message).help(help));
         }
-        if let Some(Contact::Hertz {
-            dissipation_time,
-            restitution,
-            ..
-        }) = &self.dem.contact
-        {
-            match (dissipation_time, restitution) {
-                (None, None) => problems.push(
-                    Problem::new("contact", "[contact] does not say how much it dissipates")
-                        .help("add `dissipation_time` (0.0 is elastic) or `restitution`"),
-                ),
-                (Some(_), Some(_)) => problems.push(
-                    Problem::new(
-                        "contact.restitution",
-                        "`contact.dissipation_time` and `contact.restitution` exclude each other",
-                    )
-                    .help("keep the one that is known and remove the other"),
-                ),
-                _ => {}
-            }
-        }
+        let contact = self.dem.contact.iter();
+        problems.extend(contact.flat_map(Contact::problems));
     }
 
     fn check_spheres(&self, problems: &mut Vec<Problem>) {

@@ -105,7 +105,7 @@ impl Scene {
             let help = "add [contact] with `law = \"linear\"` or `\"hertz\"`";
             problems.push(Problem::new("geometry", message).help(help));
         }
-        if let Some(Friction::Spin { .. }) = self.dem.friction {
+        if let Some(Friction::Spin(_)) = self.dem.friction {
             let message = "the spin friction is made for the tank and knows no fixed spheres";
             problems.push(Problem::new("friction.law", message).help("use `law = \"coulomb\"`"));
         }

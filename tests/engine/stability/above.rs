@@ -7,7 +7,8 @@ use crate::scenes::{cluster, damped, energy};
 use phase::dem::{Simulation, timestep};
 use phase::record::{Guard, Instability};
 use phase::scene::{
-    Contact, ContactDrag, Friction, Integrator, Scene, SpinDamping, StartSphere, Swirl, Tank,
+    Contact, ContactDrag, CundallStrack, Friction, Integrator, Linear, Mindlin, Scene, SpinDamping,
+    StartSphere, Swirl, Tank,
 };
 
 /// What is tried above the limit, in units of it.
@@ -66,7 +67,11 @@ fn oblique(integrator: Integrator, part: f64) -> f64 {
             moving([-0.005 - offset, 0.0, 0.0], [0.5, 0.0, 0.0]),
             moving([0.005, 0.0, 0.0], [-0.5, 0.3, 0.0]),
         ];
-        let scene = cluster(spheres, Some(Friction::Mindlin { coefficient: 3.0 }), 1e-6);
+        let scene = cluster(
+            spheres,
+            Some(Friction::Mindlin(Mindlin { coefficient: 3.0 })),
+            1e-6,
+        );
         assert_limited_by(&scene, "sticking contact");
         let mut simulation = Simulation::new(&at(&scene, integrator, part)).unwrap();
         let before = energy(&mut simulation, 0.0);
@@ -101,11 +106,11 @@ fn resting(damping: f64, friction: Option<Friction>) -> Scene {
         ..moving([0.0, 0.0, height], [0.0, 0.0, -1e-3])
     };
     scene.start = phase::scene::Start::list(vec![sphere]);
-    scene.dem.contact = Some(Contact::Linear {
+    scene.dem.contact = Some(Contact::Linear(Linear {
         stiffness,
         damping,
         drag: ContactDrag::Normal,
-    });
+    }));
     scene.tank = Some(Tank {
         floor: Some(0.0),
         ..Tank::default()
@@ -147,11 +152,11 @@ fn a_sphere_at_rest_above_the_damped_limit_trembles_or_is_reported() {
 /// Its spin grows a thousandfold, until friction can carry no more; then the contact goes too.
 #[test]
 fn a_sphere_at_rest_above_the_sticking_limit_trembles() {
-    let friction = Friction::CundallStrack {
+    let friction = Friction::CundallStrack(CundallStrack {
         coefficient: 0.5,
         stiffness: 8e3,
         damping: 0.0,
-    };
+    });
     let scene = resting(0.5, Some(friction));
     assert_limited_by(&scene, "sticking contact");
     for integrator in PLAIN {
@@ -186,7 +191,7 @@ fn a_spin_above_its_damping_limit_is_reported() {
         spin: [0.0, 1.0, 0.0],
         ..StartSphere::at([0.0; 3])
     };
-    let friction = Friction::Mindlin { coefficient: 0.5 };
+    let friction = Friction::Mindlin(Mindlin { coefficient: 0.5 });
     let mut scene = cluster(vec![spinning], Some(friction), 1e-6);
     scene.dem.effects.spin_damping = Some(SpinDamping { coefficient: 1e-3 });
     assert_limited_by(&scene, "spin damping");

@@ -4,7 +4,7 @@ use super::bench::{LIMIT, RADIUS, at, collide, keeps_or_is_reported, moving, run
 use crate::scenes::{angular_momentum, cluster, momentum, scales};
 use phase::dem::Simulation;
 use phase::record::{Guard, Instability};
-use phase::scene::{Contact, Friction, Integrator, Radii, Scene, StartSphere};
+use phase::scene::{Contact, Friction, Hertz, Integrator, Mindlin, Radii, Scene, StartSphere};
 
 /// Largest speed after an elastic impact at the limit, over that before: the impact takes two
 /// steps, and it depends on where the first falls. Measured: 0.61 to 2.33.
@@ -22,18 +22,18 @@ fn head_on(gap: f64) -> Scene {
 /// The same scene of steel at its full stiffness.
 pub(crate) fn of_steel(mut scene: Scene) -> Scene {
     scene.spheres.density = 7850.0;
-    if let Some(Contact::Hertz { young_modulus, .. }) = &mut scene.dem.contact {
+    if let Some(Contact::Hertz(Hertz { young_modulus, .. })) = &mut scene.dem.contact {
         *young_modulus = 2.1e11;
     }
     scene
 }
 
 fn with_restitution(mut scene: Scene, value: f64) -> Scene {
-    if let Some(Contact::Hertz {
+    if let Some(Contact::Hertz(Hertz {
         restitution,
         dissipation_time,
         ..
-    }) = &mut scene.dem.contact
+    })) = &mut scene.dem.contact
     {
         (*restitution, *dissipation_time) = (Some(value), None);
     }
@@ -90,7 +90,7 @@ fn steel_that_strikes_steel_askew_keeps_its_momenta_and_gains_no_energy() {
             ];
             let scene = cluster(
                 askew.to_vec(),
-                Some(Friction::Mindlin { coefficient }),
+                Some(Friction::Mindlin(Mindlin { coefficient })),
                 1e-6,
             );
             let scene = at(&with_restitution(of_steel(scene), 0.8), integrator, 0.2);

@@ -6,19 +6,22 @@ use super::bench::{
 use super::contacts::of_steel;
 use crate::scenes::{cluster, damped};
 use phase::dem::{BuildError, Simulation, start::StartError};
-use phase::scene::{Contact, ContactDrag, Friction, Integrator, Scene, Start, StartSphere, Tank};
+use phase::scene::{
+    Contact, ContactDrag, Coulomb, Friction, Hertz, Integrator, Linear, Mindlin, Scene, Start,
+    StartSphere, Tank,
+};
 
-pub(crate) const MINDLIN: Friction = Friction::Mindlin { coefficient: 0.5 };
+pub(crate) const MINDLIN: Friction = Friction::Mindlin(Mindlin { coefficient: 0.5 });
 
 /// A damped column at rest of spheres with these radii (m), the lowest first: every contact is as
 /// deep as its load asks.
 pub(crate) fn column(radii: &[f64], friction: Option<Friction>) -> Scene {
     let mut scene = damped(cluster(Vec::new(), friction, 1e-6), 1e-4);
-    let Some(Contact::Hertz {
+    let Some(Contact::Hertz(Hertz {
         young_modulus,
         poisson_ratio,
         ..
-    }) = scene.dem.contact
+    })) = scene.dem.contact
     else {
         panic!("spheres of Hertz's law")
     };
@@ -70,10 +73,10 @@ pub(crate) fn drift(scene: &Scene, steps: u64) -> [f64; 2] {
 }
 
 pub(crate) fn column_frictions() -> [Option<Friction>; 3] {
-    let coulomb = Friction::Coulomb {
+    let coulomb = Friction::Coulomb(Coulomb {
         coefficient: 0.5,
         regularisation: 1e-3,
-    };
+    });
     [None, Some(MINDLIN), Some(coulomb)]
 }
 
@@ -155,10 +158,10 @@ fn a_leaning_column_with_static_friction_does_not_creep() {
 /// the limit of twelve contacts, and 3e-5 at a twentieth of it.
 #[test]
 fn a_leaning_column_with_regularised_friction_trembles_where_the_step_is_coarse() {
-    let friction = Friction::Coulomb {
+    let friction = Friction::Coulomb(Coulomb {
         coefficient: 0.5,
         regularisation: 1e-2,
-    };
+    });
     for integrator in Integrator::ALL {
         let way = |part, rest, steps| {
             creep(
@@ -182,11 +185,11 @@ fn a_column_at_the_limit_of_a_pair_is_reported() {
         let scene = at(&column(&[RADIUS; 100], None), integrator, LIMIT);
         keeps_or_is_reported(run(&scene, 20_000, 20), 1.0 + 1e-9);
         let mut linear = column(&[RADIUS; 20], None);
-        linear.dem.contact = Some(Contact::Linear {
+        linear.dem.contact = Some(Contact::Linear(Linear {
             stiffness: 1e4,
             damping: 0.05,
             drag: ContactDrag::Normal,
-        });
+        }));
         keeps_or_is_reported(run(&at(&linear, integrator, LIMIT), 20_000, 20), 1.0 + 1e-9);
         let seen = run(&crowded(&linear, integrator, LIMIT), 20_000, 20).unwrap();
         assert!(seen.most < 1.0 + 1e-3, "{seen:?}");
@@ -236,11 +239,11 @@ fn eight_hundred_spheres_dropped_at_once_come_to_rest() {
 fn a_heap_of_steel_at_full_stiffness_loses_energy() {
     for integrator in Integrator::ALL {
         let mut scene = of_steel(dropped(60, Some(MINDLIN)));
-        if let Some(Contact::Hertz {
+        if let Some(Contact::Hertz(Hertz {
             restitution,
             dissipation_time,
             ..
-        }) = &mut scene.dem.contact
+        })) = &mut scene.dem.contact
         {
             (*restitution, *dissipation_time) = (Some(0.6), None);
         }

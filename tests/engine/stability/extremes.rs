@@ -5,7 +5,9 @@ use super::crowds::dropped;
 use crate::scenes::{cluster, damped, momentum, scales};
 use phase::dem::Simulation;
 use phase::record::Guard;
-use phase::scene::{Contact, Friction, Integrator, Scene, StartSphere, Swirl, Tank};
+use phase::scene::{
+    Contact, Friction, Hertz, Integrator, Mindlin, Scene, StartSphere, Swirl, Tank,
+};
 
 /// Takes the guards away.
 fn unguarded(mut scene: Scene) -> Scene {
@@ -95,7 +97,7 @@ fn fast_spheres_do_not_leave_the_tank_unreported() {
 
 /// Spheres in air that turns at 2000 rad/s.
 fn whirled(young_modulus: f64) -> Scene {
-    let mut scene = dropped(20, Some(Friction::Mindlin { coefficient: 0.5 }));
+    let mut scene = dropped(20, Some(Friction::Mindlin(Mindlin { coefficient: 0.5 })));
     scene.dem.effects.swirl = Some(Swirl { omega: 2000.0 });
     scene.dem.effects.drag = Some(toml::from_str("law = 'constant'\nlinear = 0.5").unwrap());
     scene.tank = Some(Tank {
@@ -103,10 +105,10 @@ fn whirled(young_modulus: f64) -> Scene {
         floor: Some(0.0),
         ..Tank::default()
     });
-    if let Some(Contact::Hertz {
+    if let Some(Contact::Hertz(Hertz {
         young_modulus: modulus,
         ..
-    }) = &mut scene.dem.contact
+    })) = &mut scene.dem.contact
     {
         *modulus = young_modulus;
     }

@@ -8,8 +8,8 @@
 use super::bench::{LIMIT, at, downward, moving};
 use phase::dem::Simulation;
 use phase::scene::{
-    Contact, DemScene, Effects, FixedSphere, Friction, Geometry, Integrator, Radii, Scene, Shape,
-    Spheres, Start, Time,
+    Contact, DemScene, Effects, FixedSphere, Friction, Geometry, Hertz, Integrator, Mindlin, Radii,
+    Scene, Shape, Spheres, Start, Time,
 };
 
 /// Radius of the large spheres (m).
@@ -52,15 +52,15 @@ fn neck(ratio: f64) -> Scene {
                 walls: vec![fixed(-LARGE), fixed(LARGE)],
                 door: Vec::new(),
             }),
-            contact: Some(Contact::Hertz {
+            contact: Some(Contact::Hertz(Hertz {
                 young_modulus: 5e8,
                 poisson_ratio: 0.3,
                 dissipation_time: None,
                 restitution: Some(0.5),
                 restitution_speed: 0.1,
                 dissipation_factor: 1.0,
-            }),
-            friction: Some(Friction::Mindlin { coefficient: 0.5 }),
+            })),
+            friction: Some(Friction::Mindlin(Mindlin { coefficient: 0.5 })),
             effects: Effects {
                 gravity: downward(),
                 ..Effects::default()

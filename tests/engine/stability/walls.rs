@@ -6,7 +6,9 @@ use super::bench::{
 };
 use crate::scenes::{cluster, damped, energy};
 use phase::dem::Simulation;
-use phase::scene::{FixedSphere, Friction, Geometry, Integrator, Scene, StartSphere, Swirl, Tank};
+use phase::scene::{
+    Coulomb, FixedSphere, Friction, Geometry, Integrator, Mindlin, Scene, StartSphere, Swirl, Tank,
+};
 
 const WALL: f64 = 0.06;
 
@@ -24,11 +26,11 @@ fn tank(spheres: Vec<StartSphere>, friction: Option<Friction>) -> Scene {
 
 fn frictions() -> [Friction; 2] {
     [
-        Friction::Coulomb {
+        Friction::Coulomb(Coulomb {
             coefficient: 0.5,
             regularisation: 1e-2,
-        },
-        Friction::Mindlin { coefficient: 0.5 },
+        }),
+        Friction::Mindlin(Mindlin { coefficient: 0.5 }),
     ]
 }
 
@@ -196,7 +198,10 @@ fn undamped_walls_keep_the_energy_or_the_run_is_reported() {
 fn fixed_spheres_reach_into_walls_as_they_like() {
     for integrator in Integrator::ALL {
         let free = StartSphere::at([0.0, 0.0, 0.05]);
-        let mut scene = tank(vec![free], Some(Friction::Mindlin { coefficient: 0.5 }));
+        let mut scene = tank(
+            vec![free],
+            Some(Friction::Mindlin(Mindlin { coefficient: 0.5 })),
+        );
         scene.dem.geometry = Some(Geometry::List {
             walls: vec![
                 FixedSphere {

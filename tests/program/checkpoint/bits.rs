@@ -7,7 +7,7 @@ use phase::dem::Simulation;
 use phase::record::{MilestoneKind, Outcome, RunRecord};
 use phase::resume::{Checkpoints, Ending};
 use phase::run::Run;
-use phase::scene::{Friction, Integrator, Neighbours, Scene};
+use phase::scene::{Coulomb, CundallStrack, Friction, Integrator, Mindlin, Neighbours, Scene};
 use phase::store::{content_digest, read_checkpoint, write_checkpoint};
 use std::ops::ControlFlow;
 use std::time::Duration;
@@ -96,15 +96,15 @@ fn a_tank_with_every_effect_goes_on_with_the_same_bits() {
 fn a_silo_goes_on_with_the_same_bits_while_it_is_filled_and_drained() {
     let laws = [
         None,
-        Some(Friction::Coulomb {
+        Some(Friction::Coulomb(Coulomb {
             coefficient: 0.3,
             regularisation: 1e-2,
-        }),
-        Some(Friction::CundallStrack {
+        })),
+        Some(Friction::CundallStrack(CundallStrack {
             coefficient: 0.5,
             stiffness: 50.0,
             damping: 0.01,
-        }),
+        })),
     ];
     for friction in laws {
         for integrator in Integrator::ALL {
@@ -125,7 +125,9 @@ fn a_grain_that_passes_a_wall_is_seen_across_a_checkpoint() {
     let mut scene = silo(None, Integrator::VelocityVerlet);
     scene.time.frame_interval = 3e-3;
     scene.dem.guards.overlap = 10.0;
-    let Some(phase::scene::Contact::Linear { stiffness, .. }) = &mut scene.dem.contact else {
+    let Some(phase::scene::Contact::Linear(phase::scene::Linear { stiffness, .. })) =
+        &mut scene.dem.contact
+    else {
         panic!("the silo's contact is linear");
     };
     *stiffness = 0.5;
@@ -165,7 +167,7 @@ fn any_way_to_find_neighbours_goes_on() {
 #[test]
 fn a_pile_needs_its_histories() {
     let mut scene = tank(
-        Some(Friction::Mindlin { coefficient: 0.3 }),
+        Some(Friction::Mindlin(Mindlin { coefficient: 0.3 })),
         Integrator::SymplecticEuler,
     );
     (scene.dem.effects.updraught, scene.dem.effects.swirl) = (None, None);

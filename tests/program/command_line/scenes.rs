@@ -32,7 +32,7 @@ fn check_says_what_would_run() {
     let answer = place.phase(&["check", "tiny.toml"]).code(0);
     let answer = answer
         .says("6 jobs")
-        .says("gravity, swirl, contact (Hertz), cylinder, floor");
+        .says("gravity, swirl, contact (hertz), cylinder, floor");
     for name in ["omega", "seeds", "time step", "time  ", "memory", "disk"] {
         assert!(
             answer.stdout.contains(&format!("  {name}")),

@@ -6,8 +6,8 @@ use phase::classify::{LabelRow, LabelTable};
 use phase::observe::{Observations, Snapshot};
 use phase::plot::{self, PlotError, Source, Svg};
 use phase::record::{Outcome, Program, RunRecord};
-use phase::scene::Friction;
 use phase::scene::Scene;
+use phase::scene::{Coulomb, Friction};
 use phase::store::StoreError;
 use phase::sweep::{Axis, PlotSettings, Sweep, parse_point};
 use serde_json::json;
@@ -93,10 +93,10 @@ impl Tank {
     pub(crate) fn of_four_axes() -> Self {
         let mut tank = Self::settled();
         // An axis is a key of the scene.
-        tank.sweep.scene.dem.friction = Some(Friction::Coulomb {
+        tank.sweep.scene.dem.friction = Some(Friction::Coulomb(Coulomb {
             coefficient: 0.0,
             regularisation: 1e-3,
-        });
+        }));
         let more = [
             ("spheres.density", "density", [2500.0, 7500.0]),
             ("friction.coefficient", "friction", [0.0, 0.05]),
