@@ -412,3 +412,23 @@ fn phase_plot_draws_the_tracks_of_a_record() {
     assert_eq!(answer.code, Some(2), "{answer:?}");
     assert!(answer.stderr.contains("record of one run"), "{answer:?}");
 }
+
+/// Symptom: discs of Hertz's contact parted with another restitution than the scene asked for, and
+/// the limit of the time step was another's. Cause: both took the mass of spheres.
+#[test]
+fn discs_part_with_the_restitution_of_the_scene() {
+    let text = "
+        spheres = { count = 2, radius = 0.004, density = 10.0, shape = 'disc' }
+        contact = { law = 'hertz', young_modulus = 1e5, poisson_ratio = 0.3, restitution = 0.5 }
+        start = { kind = 'list', spheres = [
+            { position = [-0.005, 0.0, 0.0], velocity = [0.5, 0.0, 0.0] },
+            { position = [0.005, 0.0, 0.0], velocity = [-0.5, 0.0, 0.0] },
+        ] }
+        time = { dt = 1e-6, duration = 0.05, frame_interval = 0.01 }
+        output = { trajectory = true }";
+    let scene = Scene::from_toml(text, Path::new("discs.toml")).unwrap();
+    let record = run(&scene);
+    let speeds = [0, 1].map(|disc| velocity(last(&record), disc)[0]);
+    close(speeds[0], -0.25, 1e-4);
+    close(speeds[1], 0.25, 1e-4);
+}
