@@ -26,8 +26,8 @@ pub enum ClassifyError {
     },
     /// The sieves of a silo count the grains that leave it, and none can.
     #[error(
-        "the sieves of a silo count the grains that leave it, and this scene has no outlet: give it \
-         `outlet.height`, or do not classify its runs"
+        "the sieves of a silo count the grains that leave it, and this scene has no outlet: give \
+         it `outlet.height`, or do not classify its runs"
     )]
     NoOutlet,
     /// The run did not count the rising spheres that the spout sieve asks for.

@@ -21,8 +21,9 @@ Example: other thresholds. Edit [sieves] in a copy of the sweep file, then
   phase classify results/quick --sweep edited.toml
   phase plot results/quick
 
-Example: dumps as the thesis's program wrote them (dump_r00.003_p03750.0_f006.0.npy: frames x spheres
-x 4 of x, y, z and energy). Radius, density and Omega come from the names, the rest from the scene
+Example: dumps as the thesis's program wrote them (dump_r00.003_p03750.0_f006.0.npy: frames x
+spheres x 4 of x, y, z and energy). Radius, density and Omega come from the names, the rest from the
+scene
   phase classify dumps --scene sweeps/scenes/theoretical.toml
 A dump has no velocities, spins or contact energies: the sieves get along without them, but the
 order parameters rotation and mobility are then those of displacements from frame to frame.")]

@@ -69,7 +69,8 @@ impl Console {
         match &*unwritten.unwrap_or_else(PoisonError::into_inner) {
             None => Ok(()),
             Some(error) => Err(Failure::failed(format_args!(
-                "cannot write to the standard output: {error}; the files of this command are complete"
+                "cannot write to the standard output: {error}; the files of this command are \
+                 complete"
             ))),
         }
     }

@@ -27,8 +27,8 @@ Formats:
         energy (J); the name says radius, density and Omega, and the seed unless it is 1
 
 Where spheres come and go, xyz, vtk and csv hold those that are in, by their id, and npy says NaN of
-those that are not. Fixed spheres go to NAME-fixed.xyz, NAME-fixed.csv, walls.npy and door.npy, and to
-further parts of a ParaView series.
+those that are not. Fixed spheres go to NAME-fixed.xyz, NAME-fixed.csv, walls.npy and door.npy, and
+to further parts of a ParaView series.
 
 Example: one frame in ten for ParaView
   phase export spout.h5 --to vtk --every 10
@@ -208,8 +208,8 @@ fn export(
     ));
     if arguments.to == Format::Dump && record.scene.has_flow() {
         return Err(Failure::refused(format_args!(
-            "{}: spheres come and go in this run, for which the thesis's dump has no place; npy holds \
-             the same numbers",
+            "{}: spheres come and go in this run, for which the thesis's dump has no place; npy \
+             holds the same numbers",
             path.display()
         )));
     }

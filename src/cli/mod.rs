@@ -140,7 +140,10 @@ pub(crate) fn main() -> ExitCode {
     let console = Console::new(verbosity.quiet, verbosity.verbose, wants_json);
     let is_text = |argument: OsString| argument.into_string().is_ok();
     if wants_json && !std::env::args_os().all(is_text) {
-        console.error("JSON holds text in UTF-8 only, and an argument is none; rename the file or folder, or leave out --json");
+        console.error(
+            "JSON holds text in UTF-8 only, and an argument is none; rename the file or folder, or \
+             leave out --json",
+        );
         return Exit::Refused.into();
     }
     let result = match command {

@@ -24,7 +24,8 @@ pub(crate) struct Arguments {
     /// The scene file (TOML).
     scene: PathBuf,
     /// Numbers of spheres [default: one to eight eighths of the scene's].
-    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_delimiter = ',')]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
     count: Vec<u32>,
     /// Side of the cells that are compared with the other searches (m) [default: that of the scene,
     /// or else the least that is valid].

@@ -23,7 +23,7 @@ Example: the speeds in two runs
   phase plot results/quick --figure speeds --point radius=0.002,omega=8 --point radius=0.006,omega=8
 Example: the paths of the spheres in one record, which needs `trajectory = true` in its scene
   phase plot results/collisions/cradle.h5
-Example: where the energy went, in a record of `phase run --ledger`; energies and speeds of any record
+Example: where the energy went, in a record of `phase run --ledger`; energies and speeds of any
   phase plot tank.h5 --figure ledger,energies,speeds --out figures")]
 pub(crate) struct Arguments {
     /// A results folder of `phase sweep`, a folder that holds several, or a record (.h5).

@@ -40,8 +40,9 @@ Example: a long run that was interrupted goes on
   phase run sweeps/scenes/silo.toml --resume
 
 A run that takes longer leaves a checkpoint beside the record to be, NAME.checkpoint beside NAME.h5,
-every two minutes and when it is interrupted. What goes on from it gives the same bits as a run that was
-not interrupted. Only the same build of phase, with the same scene and output, can go on from it.")]
+every two minutes and when it is interrupted. What goes on from it gives the same bits as a run that
+was not interrupted. Only the same build of phase, with the same scene and output, can go on from
+it.")]
 pub(crate) struct Arguments {
     /// The scene file (TOML).
     #[arg(required_unless_present = "from")]
@@ -170,8 +171,8 @@ fn lock(record: &Path) -> Result<Lock, Failure> {
     })?;
     lock.ok_or_else(|| {
         Failure::refused(format_args!(
-            "{file}: another `phase run` is making this record; wait until it ends, or choose another \
-             name with --out"
+            "{file}: another `phase run` is making this record; wait until it ends, or choose \
+             another name with --out"
         ))
     })
 }
@@ -192,8 +193,8 @@ fn write(
     written.map_err(|error| {
         let left = match store::read_checkpoint(checkpoints.path(), &record.scene) {
             Ok(Some(checkpoint)) => format!(
-                "the checkpoint of frame {} of {} stays: the same command with --resume goes on from \
-                 there ({})",
+                "the checkpoint of frame {} of {} stays: the same command with --resume goes on \
+                 from there ({})",
                 frame_of_state(checkpoint.state()).unwrap_or_default(),
                 record.scene.time.frames(),
                 checkpoints.path().display()
@@ -328,8 +329,8 @@ fn unmet(record: &RunRecord) -> Vec<String> {
     let mut unmet = Vec::new();
     if matches!(scene.start, Start::Feed { .. }) && !happened(MilestoneKind::Filled) {
         unmet.push(format!(
-            "NOT FILLED: {} of {all} spheres came in; the others found their place taken, or the time \
-             was up",
+            "NOT FILLED: {} of {all} spheres came in; the others found their place taken, or the \
+             time was up",
             last(&observations.released)
         ));
     }
@@ -345,7 +346,8 @@ fn unmet(record: &RunRecord) -> Vec<String> {
     let spilled = last(&observations.spilled);
     if spilled > 0.0 {
         unmet.push(format!(
-            "SPILLED: {spilled} spheres left before the door opened, over the rim or beside the silo"
+            "SPILLED: {spilled} spheres left before the door opened, over the rim or beside the \
+             silo"
         ));
     }
     unmet

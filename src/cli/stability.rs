@@ -26,8 +26,8 @@ use std::sync::atomic::Ordering;
 Example: Newton's cradle, all integrators, time step against stiffness
   phase stability sweeps/stability/cradle.toml
 
-The results folder holds stability.csv (one row per run), stability.makers.csv (which build made each row)
-and the figure as SVG and PNG.")]
+The results folder holds stability.csv (one row per run), stability.makers.csv (which build made
+each row) and the figure as SVG and PNG.")]
 pub(crate) struct Arguments {
     /// The study file (TOML).
     file: PathBuf,
@@ -178,7 +178,8 @@ impl Tried {
         match (self.all_stable_below, self.none_stable_above) {
             (Some(below), Some(above)) => {
                 text += &format!(
-                    "; the first that is not stable is at {below:.3} of the limit, the last that is at {above:.3}"
+                    "; the first that is not stable is at {below:.3} of the limit, the last that \
+                     is at {above:.3}"
                 );
             }
             (None, Some(above)) => text += &format!(", up to {above:.3} of the limit"),

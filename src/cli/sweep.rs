@@ -159,8 +159,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 pub(super) fn warn_of_windows(sweep: &Sweep, jobs: &[Job], console: &Console) {
     for (name, window, duration) in sweep.sieves_without_room(jobs) {
         console.warning(format_args!(
-            "the window of the sieve {name}, {window} s, is longer than the runs, {duration} s: it finds \
-             nothing in any of them; lengthen time.duration, or shorten `window` in [sieves.{name}]"
+            "the window of the sieve {name}, {window} s, is longer than the runs, {duration} s: it \
+             finds nothing in any of them; lengthen time.duration, or shorten `window` in \
+             [sieves.{name}]"
         ));
     }
 }

@@ -30,7 +30,8 @@ Example: two silos at rest beside each other
   phase view silo.h5 silo-mixture.h5 --time at-rest --color radius --out silos.png
 
 Example: an animation in real time; APNG (.png) keeps smaller files, GIF is shown by every program
-  phase run --from results/quick --point radius=0.003,omega=6 --snapshot-interval 0.05 --out spout.h5
+  phase run --from results/quick --point radius=0.003,omega=6 --snapshot-interval 0.05 \\
+    --out spout.h5
   phase view spout.h5 --animate spout.gif
 
 Example: a PNG of every state, for a program that makes films

@@ -25,7 +25,8 @@ pub enum StudyError {
     Unstable(#[from] Instability),
     /// The spheres do not come in before the scene's end.
     #[error(
-        "{count} spheres are not in after time.duration = {duration} s: extend it, or make room for them"
+        "{count} spheres are not in after time.duration = {duration} s: extend it, or make room \
+         for them"
     )]
     NotFilled {
         /// Number of spheres.

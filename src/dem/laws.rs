@@ -56,7 +56,9 @@ mod tests {
     #[test]
     fn the_engine_is_compiled_for_the_pairs_of_laws_that_a_scene_may_name() {
         let contacts = [
-            json!({ "law": "hertz", "young_modulus": 1e7, "poisson_ratio": 0.3, "restitution": 0.5 }),
+            json!({
+                "law": "hertz", "young_modulus": 1e7, "poisson_ratio": 0.3, "restitution": 0.5
+            }),
             json!({ "law": "linear", "stiffness": 100.0, "damping": 0.02 }),
             json!({ "law": "silbert", "stiffness": 1e7, "damping": 1e3 }),
         ];

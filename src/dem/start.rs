@@ -23,8 +23,8 @@ pub enum StartError {
     },
     /// Random positions need a tank to be in.
     #[error(
-        "start.kind = \"random\" needs walls all around; give the tank a radius, or width and depth, or \
-         list the spheres"
+        "start.kind = \"random\" needs walls all around; give the tank a radius, or width and \
+         depth, or list the spheres"
     )]
     NoTank,
     /// A file of radii or positions has not been read yet.

@@ -16,14 +16,14 @@ const MARGIN: f64 = 1.0;
 const LEAST_AREA: f64 = 10.0;
 
 /// Packing fraction of grains in the plane y = 0: the area of the discs pi r^2 that lies in the
-/// inside of the heap, over the area of that inside. What two discs share by their overlap counts for
-/// both.
+/// inside of the heap, over the area of that inside. What two discs share by their overlap counts
+/// for both.
 ///
-/// The inside leaves out what walls and free surface order or cut: of every vertical line it is what
-/// lies between the lowest and two diameters below the highest of the centres that are at most half a
-/// diameter beside the line, and at least one diameter from the surface of every fixed sphere
-/// (diameter: the mean of the grains). Lines are a fiftieth of a diameter apart; along a line
-/// everything is exact.
+/// The inside leaves out what walls and free surface order or cut: of every vertical line it is
+/// what lies between the lowest and two diameters below the highest of the centres that are at most
+/// half a diameter beside the line, and at least one diameter from the surface of every fixed
+/// sphere (diameter: the mean of the grains). Lines are a fiftieth of a diameter apart; along a
+/// line everything is exact.
 ///
 /// * `position`: centres (m), n x 3
 /// * `radius`: radii (m), n

@@ -119,20 +119,30 @@ scalars! {
     hole_radius "m" "Distance from the axis of the centre next to it";
     speed_mean "m/s" "Mean speed of the spheres";
     air_speed_mean "m/s" "Mean speed of the swirling air at the spheres, 0 without swirl";
-    rotation "rad/s" "Rotation rate of the spheres about the axis: angular momentum over moment of inertia of the centres, 0 if all lie on it";
-    fluctuation "m/s" "Root mean square velocity relative to rigid rotation at that rate and to the mean vertical velocity";
+    rotation "rad/s"
+        "Rotation rate of the spheres about the axis: angular momentum over moment of inertia of \
+         the centres, 0 if all lie on it";
+    fluctuation "m/s"
+        "Root mean square velocity relative to rigid rotation at that rate and to the mean \
+         vertical velocity";
     released "1" "Number of spheres that came in";
     discharged "1" "Number of spheres that left, but for those that spilled";
     spilled "1" "Number of spheres that left while the door was still closed: over the rim";
-    discharge_rate "1/s" "Number of spheres that left per second, over the last second or since the start";
+    discharge_rate "1/s"
+        "Number of spheres that left per second, over the last second or since the start";
     coordination "1" "Mean number of contacts of a sphere, not a number without spheres";
     mass_inside "kg" "Mass of all spheres that are in";
     springs "J" "Energy of the tangential springs of all contacts";
     dissipated_by_damping "J" "Energy that the damping of contacts dissipated since the start";
-    dissipated_by_friction "J" "Energy that friction dissipated since the start: work against tangential forces that springs do not hold";
+    dissipated_by_friction "J"
+        "Energy that friction dissipated since the start: work against tangential forces that \
+         springs do not hold";
     work_of_air "J" "Work of the air on the spheres since the start, the damping of spins included";
-    energy_brought "J" "Energy of the spheres that came in since the start, less that of those that left";
-    residual "J" "All energy and what was dissipated, less what the air and new spheres brought, less the same at the start: what the integrator got wrong";
+    energy_brought "J"
+        "Energy of the spheres that came in since the start, less that of those that left";
+    residual "J"
+        "All energy and what was dissipated, less what the air and new spheres brought, less the \
+         same at the start: what the integrator got wrong";
 }
 
 impl Observations {

@@ -1,4 +1,5 @@
-//! The discharge rate of a silo over the width of its opening, with the law of Beverloo fitted to it.
+//! The discharge rate of a silo over the width of its opening, with the law of Beverloo fitted to
+//! it.
 
 use super::chart::{Bar, Chart, Line, Panel};
 use super::grid::GridAxis;
@@ -140,7 +141,8 @@ fn fitted(source: &Source<'_>, line: &Series) -> Result<FittedLine, PlotError> {
     })
 }
 
-/// The bed of a line: its packing fraction at rest, mean over all runs, over the mean area of a grain.
+/// The bed of a line: its packing fraction at rest, mean over all runs, over the mean area of a
+/// grain.
 fn bed(source: &Source<'_>, line: &Series) -> Option<Bed> {
     // Other axes may change the grains or gravity from line to line.
     let (_, point) = line.points.first()?;
@@ -229,12 +231,13 @@ fn notes(lines: &[FittedLine]) -> Vec<String> {
     };
     vec![
         format!(
-            "Points: means over the seeds with 95 % intervals. Lines: fitted by least squares to the \
-             rates of {fitted} runs.{left_out} ±: 95 % intervals of the linearised fit (Student's t)."
+            "Points: means over the seeds with 95 % intervals. Lines: fitted by least squares to \
+             the rates of {fitted} runs.{left_out} ±: 95 % intervals of the linearised fit \
+             (Student's t)."
         ),
         format!(
-            "$n$: grains per area of the bed at rest, {range} /m²; $d$: mean diameter of the grains. \
-             Law: Beverloo et al. (1961); exponent: Franklin and Johanson (1955)."
+            "$n$: grains per area of the bed at rest, {range} /m²; $d$: mean diameter of the \
+             grains. Law: Beverloo et al. (1961); exponent: Franklin and Johanson (1955)."
         ),
     ]
 }

@@ -179,9 +179,8 @@ impl DrawingBackend for Canvas<'_> {
         let y = f64::from(y) + baseline * size;
         let paint = paint("fill", style.color());
         let spans = spans(text, size);
-        self.element(&format!(
-            r#"<text x="{x}" y="{y:.0}" font-size="{size}" text-anchor="{anchor}" {paint}{rotation}>{spans}</text>"#
-        ))
+        let place = format!(r#"x="{x}" y="{y:.0}" font-size="{size}" text-anchor="{anchor}""#);
+        self.element(&format!("<text {place} {paint}{rotation}>{spans}</text>"))
     }
 }
 
@@ -251,8 +250,10 @@ pub(super) fn picture(image: &Image, (x, y): (i32, i32), file: &[u8]) -> String 
 pub(super) fn document(size: (u32, u32), head: &str, body: &str) -> String {
     let (width, height) = size;
     let pixels = |units: u32| f64::from(units) / f64::from(UNITS);
+    let view = format!(r#"viewBox="0 0 {width} {height}""#);
+    let font = format!(r#"font-family="'{FAMILY}', Verdana, sans-serif""#);
     format!(
-        r##"<svg xmlns="http://www.w3.org/2000/svg" role="img" width="{}" height="{}" viewBox="0 0 {width} {height}" font-family="'{FAMILY}', Verdana, sans-serif">
+        r##"<svg xmlns="http://www.w3.org/2000/svg" role="img" width="{}" height="{}" {view} {font}>
 {head}<style>rect, .straight {{ shape-rendering: crispEdges }}</style>
 <rect width="{width}" height="{height}" fill="#ffffff"/>
 {body}</svg>

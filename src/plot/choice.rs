@@ -138,8 +138,8 @@ pub(super) fn states(source: &Source<'_>) -> Result<Vec<usize>, PlotError> {
         .collect())
 }
 
-/// Says how many runs [`states`] leaves out because they are unstable; nothing if there are none, or
-/// if points are asked for.
+/// Says how many runs [`states`] leaves out because they are unstable; nothing if there are none,
+/// or if points are asked for.
 pub(super) fn left_out(source: &Source<'_>) -> Option<String> {
     let rows = &source.table.rows;
     let unstable = rows

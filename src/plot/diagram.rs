@@ -73,8 +73,8 @@ impl Diagram<'_> {
 }
 
 impl<P> Diagram<'_, P> {
-    /// Size of the canvas, and what is drawn on it: below a title the panels, each with curves, of which
-    /// the last entries of the legend tell.
+    /// Size of the canvas, and what is drawn on it: below a title the panels, each with curves, of
+    /// which the last entries of the legend tell.
     pub(super) fn body(
         &self,
         title: Option<&str>,
@@ -229,7 +229,8 @@ impl<P> Diagram<'_, P> {
         let (columns, rows) = self.grid.cells();
         let group = |column: usize, row: usize| looks[column + row * columns].map(|at| at.group);
         type Group = Option<Option<i8>>;
-        let differ = |one: Group, other: Group| matches!((one, other), (Some(one), Some(other)) if one != other);
+        let differ =
+            |one: Group, other: Group| one.zip(other).is_some_and(|(one, other)| one != other);
         let line = |from: (i32, i32), to: (i32, i32)| {
             sheet.draw(&PathElement::new(
                 [from, to],

@@ -158,9 +158,9 @@ impl GridAxis {
     }
 }
 
-/// The length (m) that values of a key are shown over, and the symbol of the ratio: radii over that of
-/// the tank, openings over the mean diameter of the grains, unless what they are shown over is swept
-/// too.
+/// The length (m) that values of a key are shown over, and the symbol of the ratio: radii over that
+/// of the tank, openings over the mean diameter of the grains, unless what they are shown over is
+/// swept too.
 fn scale(key: &str, axes: &[Axis], scene: &Scene) -> Option<(f64, &'static str)> {
     let swept = |name: &str| axes.iter().any(|axis| axis.key.starts_with(name));
     match key {

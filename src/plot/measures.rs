@@ -39,8 +39,8 @@ impl Figure for MeasuresFigure {
         let named = lines.iter().filter(|line| !line.name.is_empty());
         let seeds = source.sweep.seeds.len();
         let note = format!(
-            "Points: means over {seeds} seeds, or over those that have a value. Bars: 95 % intervals \
-             of the means (Student's t; of shares Wilson's)."
+            "Points: means over {seeds} seeds, or over those that have a value. Bars: 95 % \
+             intervals of the means (Student's t; of shares Wilson's)."
         );
         Chart {
             name: self.name(),

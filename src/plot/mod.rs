@@ -278,7 +278,8 @@ pub enum PlotError {
     },
     /// There is nothing to draw.
     #[error(
-        "the table of labels is empty: no run of this sweep has ended and been classified; `phase sweep` goes on with it"
+        "the table of labels is empty: no run of this sweep has ended and been classified; `phase \
+         sweep` goes on with it"
     )]
     EmptyTable,
     /// No run has what the figure shows.
@@ -306,8 +307,8 @@ pub enum PlotError {
     NoTrajectory,
     /// The record of a run does not hold its ledger.
     #[error(
-        "the record holds no ledger of energy; add `ledger = true` to [output] of the scene and run \
-         it again"
+        "the record holds no ledger of energy; add `ledger = true` to [output] of the scene and \
+         run it again"
     )]
     NoLedger,
     /// The drawing failed.

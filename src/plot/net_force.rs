@@ -2,8 +2,8 @@
 //! tank, over its radius (Rice, 2012, eq. 46 and figure 21).
 //!
 //! The thesis leaves the factor of its eq. 44 open, a lift proportional to Omega^2. Here it is such
-//! that the lift at the scene's own Omega is the scene's updraught, whether that depends on Omega or
-//! not.
+//! that the lift at the scene's own Omega is the scene's updraught, whether that depends on Omega
+//! or not.
 
 use super::chart::{self, Chart, Line, Panel};
 use super::critical_rotation::{radii, samples, volume};

@@ -31,8 +31,8 @@ pub(super) const LINES: [RGBColor; 4] = [
     rgb(0xe8_a8_2c),
 ];
 
-/// Colours of many lines or spheres, in turn; told apart by every kind of colour vision (Okabe and Ito,
-/// 2008).
+/// Colours of many lines or spheres, in turn; told apart by every kind of colour vision (Okabe and
+/// Ito, 2008).
 pub(super) const DISTINCT: [RGBColor; 6] = [
     rgb(0x00_72_b2),
     rgb(0xd5_5e_00),

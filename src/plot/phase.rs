@@ -18,7 +18,9 @@ impl Figure for PhaseDiagram {
     }
 
     fn description(&self) -> String {
-        "phase diagram: the majority label at every point, paler and with a dot where seeds disagree".to_owned()
+        "phase diagram: the majority label at every point, paler and with a dot where seeds \
+         disagree"
+            .to_owned()
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {

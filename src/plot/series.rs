@@ -17,8 +17,8 @@ pub(super) struct Series {
 /// Values on the other axes, and the points that have them, each with its value on the axis.
 type Group = (Vec<f64>, Vec<(f64, Point)>);
 
-/// The lines of a sweep, as many as there are colours: of more, some evenly from first to last, and a
-/// sentence that says so.
+/// The lines of a sweep, as many as there are colours: of more, some evenly from first to last, and
+/// a sentence that says so.
 pub(super) fn lines(
     source: &Source<'_>,
     axis: &GridAxis,

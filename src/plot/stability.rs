@@ -1,5 +1,5 @@
-//! The phase diagram of the numerics: what became of the runs of a study, one panel per integrator, with
-//! the theoretical limit of the time step over it.
+//! The phase diagram of the numerics: what became of the runs of a study, one panel per integrator,
+//! with the theoretical limit of the time step over it.
 
 use super::contour::Nodes;
 use super::critical::Piece;
@@ -147,8 +147,8 @@ fn nodes(axis: &GridAxis) -> Vec<f64> {
     nodes
 }
 
-/// Where a step over its limit passes 1 between two places, `values` being that ratio less 1 there. On
-/// a logarithmic axis it is taken for a power of the place, which it is for most keys.
+/// Where a step over its limit passes 1 between two places, `values` being that ratio less 1 there.
+/// On a logarithmic axis it is taken for a power of the place, which it is for most keys.
 fn zero(logarithmic: bool, places: [f64; 2], values: [f64; 2]) -> f64 {
     let share = |[one, other]: [f64; 2]| one / (one - other);
     let [from, to] = places;

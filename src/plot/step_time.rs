@@ -1,5 +1,5 @@
-//! The time of a step with each way to find neighbours, against the number of spheres or the side of
-//! a cell (Remmers, 2009, assignments 7 and 8).
+//! The time of a step with each way to find neighbours, against the number of spheres or the side
+//! of a cell (Remmers, 2009, assignments 7 and 8).
 
 use super::chart::{self, Chart, Line, Panel};
 use super::style::px;

@@ -3,8 +3,8 @@
 //! ```text
 //! signature   21 bytes, "phase checkpoint" between marks
 //! version     u32
-//! header      version and commit of the program, the scene (JSON) without the spheres that its start
-//!             lists, and a hash of these
+//! header      version and commit of the program, the scene (JSON) without the spheres that its
+//!             start lists, and a hash of these
 //! state       of the run at one frame
 //! checksum    32 bytes, the BLAKE3 hash of all before
 //! ```

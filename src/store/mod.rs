@@ -83,7 +83,8 @@ pub enum StoreError {
     },
     /// The file is something other than a dump.
     #[error(
-        "{} is no dump, an array of frames x spheres x 4 of 64-bit floating point numbers: {reason}",
+        "{} is no dump, an array of frames x spheres x 4 of 64-bit floating point numbers: \
+         {reason}",
         path.display()
     )]
     NotADump {

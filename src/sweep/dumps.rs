@@ -74,7 +74,8 @@ fn refuse_repeated(labelling: &mut Labelling) {
             None => true,
             Some(other) => {
                 labelling.problems.push(format!(
-                    "{}: says the same radius, density, Omega and seed as {other}; keep one of them",
+                    "{}: says the same radius, density, Omega and seed as {other}; keep one of \
+                     them",
                     row.id
                 ));
                 false
@@ -106,8 +107,8 @@ fn scene_of(path: &Path, base: &Scene) -> Result<(Scene, DumpName), String> {
     let mut scene = base.clone();
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     let name = DumpName::parse(&file).ok_or_else(|| {
-        "its name must say radius, density and Omega, as in dump_r00.003_p03750.0_f006.0.npy (and a \
-         seed other than 1 as _s2 before the dot)"
+        "its name must say radius, density and Omega, as in dump_r00.003_p03750.0_f006.0.npy (and \
+         a seed other than 1 as _s2 before the dot)"
             .to_owned()
     })?;
     if let Radii::One(radius) = &mut scene.spheres.radius {

@@ -35,7 +35,10 @@ pub enum FolderError {
     )]
     NoSweep(PathBuf),
     /// `sweep.json` does not hold a sweep.
-    #[error("{}: not a sweep of this version of phase ({reason}); run `phase sweep` again", path.display())]
+    #[error(
+        "{}: not a sweep of this version of phase ({reason}); run `phase sweep` again",
+        path.display()
+    )]
     BadSweep {
         /// The file.
         path: PathBuf,

@@ -171,7 +171,8 @@ mod tests {
     fn keys_of_motion_include_the_spheres_of_a_list() {
         let text = r#"
             spheres = { count = 2, radius = 0.004, density = 1e3 }
-            start = { kind = "list", spheres = [{ position = [0, 0, 0] }, { position = [1, 0, 0] }] }
+            start.kind = "list"
+            start.spheres = [{ position = [0, 0, 0] }, { position = [1, 0, 0] }]
             gravity = { acceleration = 9.8 }
             time = { dt = 1e-4, duration = 1.0, frame_interval = 1e-3 }
         "#;

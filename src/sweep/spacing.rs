@@ -89,7 +89,10 @@ mod tests {
     proptest! {
         #[test]
         fn steps_rise_end_where_they_should_and_are_unique(
-            from in -1000_i32..1000, step in 1_i32..500, count in 1_usize..200, exponent in -9_i32..9,
+            from in -1000_i32..1000,
+            step in 1_i32..500,
+            count in 1_usize..200,
+            exponent in -9_i32..9,
         ) {
             let number = |digits: i32| format!("{digits}e{exponent}").parse::<f64>().unwrap();
             let to = number(from + step * count as i32);

@@ -168,8 +168,8 @@ impl Workers<'_> {
         run
     }
 
-    /// Advances a run to its end and tells of it; whether it went on from a checkpoint, and the work
-    /// that was not told of.
+    /// Advances a run to its end and tells of it; whether it went on from a checkpoint, and the
+    /// work that was not told of.
     fn drive(&self, job: &Job, run: Run) -> (resume::Ending, bool, u64) {
         let first = run.progress().frame;
         let (mut frame, mut work) = (first, job.work_at(&run.progress()));

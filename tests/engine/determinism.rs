@@ -424,7 +424,10 @@ proptest! {
         let mut scene = cluster(Vec::new(), None, 1e-4);
         scene.spheres.count = count;
         scene.spheres.radius = phase::scene::Radii::One(radius);
-        scene.tank = Some(phase::scene::Tank { radius: Some(tank), ..phase::scene::Tank::default() });
+        scene.tank = Some(phase::scene::Tank {
+                radius: Some(tank),
+                ..phase::scene::Tank::default()
+            });
         scene.start = phase::scene::Start::Random {
             z_min: heights[0].min(heights[1]),
             z_max: heights[0].max(heights[1]),

@@ -9,7 +9,11 @@ fn steel(spheres: Vec<StartSphere>, dissipation: f64, dt: f64) -> Scene {
     let mut scene: Scene = toml::from_str(
         r#"
         spheres = { count = 1, radius = 0.004, density = 7850.0 }
-        contact = { law = "hertz", young_modulus = 2.1e11, poisson_ratio = 0.3, dissipation_time = 0.0, dissipation_factor = 1.5 }
+        contact.law = "hertz"
+        contact.young_modulus = 2.1e11
+        contact.poisson_ratio = 0.3
+        contact.dissipation_time = 0.0
+        contact.dissipation_factor = 1.5
         start = { kind = "list", spheres = [] }
         time = { dt = 1e-5, duration = 1.0, frame_interval = 1.0, integrator = "adaptive-verlet" }
         "#,

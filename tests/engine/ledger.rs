@@ -41,10 +41,16 @@ fn impact(integrator: Integrator, friction: &str) -> Scene {
     let text = format!(
         r#"
         spheres = {{ count = 1, radius = 0.004, density = 1e4 }}
-        contact = {{ law = "hertz", young_modulus = 2e5, poisson_ratio = 0.3, dissipation_time = 2e-4 }}
+        contact.law = "hertz"
+        contact.young_modulus = 2e5
+        contact.poisson_ratio = 0.3
+        contact.dissipation_time = 2e-4
         {friction}
         tank = {{ floor = 0.0 }}
-        start = {{ kind = "list", spheres = [{{ position = [0.0, 0.0, 0.0041], velocity = [0.5, 0.0, -1.0], spin = [0.0, 20.0, 5.0] }}] }}
+        start.kind = "list"
+        start.spheres = [
+            {{ position = [0, 0, 0.0041], velocity = [0.5, 0, -1], spin = [0, 20, 5] }},
+        ]
         time = {{ dt = 1e-5, duration = 0.02, frame_interval = 1e-3 }}
         "#
     );
@@ -123,7 +129,11 @@ fn the_books_know_the_contact_of_silbert() {
                 spheres = {{ count = 2, radius = 0.004, density = 2500.0 }}
                 contact = {{ law = "silbert", stiffness = 1e6, damping = 2e5 }}
                 {friction}
-                start = {{ kind = "list", spheres = [{{ position = [0, 0, 0], velocity = [0.5, 0, 0.3] }}, {{ position = [0.0081, 0, 0] }}] }}
+                start.kind = "list"
+                start.spheres = [
+                    {{ position = [0, 0, 0], velocity = [0.5, 0, 0.3] }},
+                    {{ position = [0.0081, 0, 0] }},
+                ]
                 time = {{ dt = 1e-6, duration = 0.01, frame_interval = 1e-3 }}
                 "#
             );
@@ -156,11 +166,17 @@ fn sliding_into_rolling_costs_two_sevenths() {
             let text = format!(
                 r#"
                 spheres = {{ count = 1, radius = 0.004, density = 1e4 }}
-                contact = {{ law = "hertz", young_modulus = 2e6, poisson_ratio = 0.3, dissipation_time = 1e-4 }}
+                contact.law = "hertz"
+                contact.young_modulus = 2e6
+                contact.poisson_ratio = 0.3
+                contact.dissipation_time = 1e-4
                 friction = {law}
                 tank = {{ floor = 0.0 }}
                 gravity = {{ acceleration = 9.81 }}
-                start = {{ kind = "list", spheres = [{{ position = [0.0, 0.0, 0.0039568424], velocity = [1.0, 0.0, 0.0] }}] }}
+                start.kind = "list"
+                start.spheres = [
+                    {{ position = [0.0, 0.0, 0.0039568424], velocity = [1.0, 0.0, 0.0] }},
+                ]
                 time = {{ dt = 1e-5, duration = 0.2, frame_interval = 1e-2 }}
                 "#
             );
@@ -183,7 +199,11 @@ fn the_work_of_the_air_is_what_a_sphere_gains() {
             gravity = { acceleration = 9.8 }
             drag = { law = "constant", linear = 2e-4, quadratic = 5e-3 }
             swirl = { omega = 20.0 }
-            start = { kind = "list", spheres = [{ position = [0.1, 0.0, 0.0], velocity = [1.0, 0.0, 2.0] }, { position = [-0.2, 0.0, 0.5] }] }
+            start.kind = "list"
+            start.spheres = [
+                { position = [0.1, 0.0, 0.0], velocity = [1.0, 0.0, 2.0] },
+                { position = [-0.2, 0.0, 0.5] },
+            ]
             time = { dt = 1e-4, duration = 0.5, frame_interval = 0.1 }
         "#;
         let books = with_ledger(&scene(text, integrator));
@@ -213,13 +233,19 @@ fn the_residual_has_the_order_of_the_integrator() {
             let text = format!(
                 r#"
                 spheres = {{ count = 1, radius = 0.004, density = 1e4 }}
-                contact = {{ law = "hertz", young_modulus = 2e5, poisson_ratio = 0.3, dissipation_time = 2e-4 }}
+                contact.law = "hertz"
+                contact.young_modulus = 2e5
+                contact.poisson_ratio = 0.3
+                contact.dissipation_time = 2e-4
                 friction = {{ law = "mindlin", coefficient = 0.9 }}
                 tank = {{ floor = 0.0 }}
                 gravity = {{ acceleration = 200.0 }}
                 drag = {{ law = "constant", linear = 2e-3, quadratic = 5e-2 }}
                 swirl = {{ omega = 30.0 }}
-                start = {{ kind = "list", spheres = [{{ position = [0.1, 0.0, 0.0036], velocity = [0.03, -0.02, 0.0], spin = [2.0, 1.0, 3.0] }}] }}
+                start.kind = "list"
+                start.spheres = [
+                  {{ position = [0.1, 0, 0.0036], velocity = [0.03, -0.02, 0], spin = [2, 1, 3] }},
+                ]
                 time = {{ dt = {dt}, duration = 0.01, frame_interval = 1e-4 }}
                 "#
             );

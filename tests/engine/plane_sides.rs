@@ -13,10 +13,16 @@ fn scene(text: &str) -> Scene {
 fn bouncing(velocity: [f64; 3], tables: &str) -> Scene {
     scene(&format!(
         "spheres = {{ count = 1, radius = 0.01, density = 1000.0 }}
-        contact = {{ law = 'hertz', young_modulus = 1e7, poisson_ratio = 0.3, dissipation_time = 0.0 }}
+        contact.law = 'hertz'
+        contact.young_modulus = 1e7
+        contact.poisson_ratio = 0.3
+        contact.dissipation_time = 0.0
         tank = {{ width = 0.1, depth = 0.06 }}
         start = {{ kind = 'list', spheres = [{{ position = [0, 0, 0], velocity = {velocity:?} }}] }}
-        time = {{ dt = 1e-6, duration = 1.0, frame_interval = 1e-3, integrator = 'velocity-verlet' }}
+        time.dt = 1e-6
+        time.duration = 1.0
+        time.frame_interval = 1e-3
+        time.integrator = 'velocity-verlet'
         {tables}"
     ))
 }
@@ -147,7 +153,8 @@ fn sweeps_of_commands_take_the_box() {
 /// A heap under the laws of Silbert et al., of two sizes.
 fn heap_of_silbert(integrator: &str) -> Scene {
     scene(&format!(
-        "spheres = {{ count = 60, radius = [{{ radius = 0.4, share = 1 }}, {{ radius = 0.5, share = 1 }}], density = 1.909859317102744 }}
+        "spheres = {{ count = 60, radius = [{{ radius = 0.4, share = 1 }}, {{ radius = 0.5, share \
+         = 1 }}], density = 1.909859317102744 }}
         contact = {{ law = 'silbert', stiffness = 2e5, damping = 50.0 }}
         friction = {{ law = 'silbert', coefficient = 0.5, stiffness = 57142.857, damping = 25.0 }}
         tank = {{ width = 4.0, depth = 3.0, floor = 0.0 }}

@@ -259,7 +259,10 @@ fn tanks() -> impl Strategy<Value = (String, f64)> {
                 start = {{ kind = 'random', z_min = 0.01, z_max = 0.3 }}
                 gravity = {{ acceleration = 9.8 }}
                 output = {{ snapshot_interval = 0.0 }}
-                time = {{ dt = 'auto', safety_factor = {safety_factor}, duration = 0.12, frame_interval = {frame} }}"
+                time.dt = 'auto'
+                time.safety_factor = {safety_factor}
+                time.duration = 0.12
+                time.frame_interval = {frame}"
             );
             (text, safety_factor)
         },

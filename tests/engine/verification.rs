@@ -15,7 +15,8 @@ fn report(case: &Case, integrator: Integrator) -> Option<String> {
                 let verdict = if check.passed() { "ok" } else { "FAILED" };
                 write!(
                     lines,
-                    "\n    {verdict} {}: measured {:.10e}, expected {:.10e}, error {:.2e} of {:.0e}",
+                    "\n    {verdict} {}: measured {:.10e}, expected {:.10e}, error {:.2e} of \
+                     {:.0e}",
                     check.quantity, check.measured, check.expected, check.error, check.limit
                 )
                 .unwrap();
@@ -57,13 +58,9 @@ fn the_table_is_sound() {
 
 fn throw(expect: &str) -> Case {
     let row = format!(
-        "[[case]]\n\
-         name = \"throw\"\n\
-         setup = {{ family = \"flight\", radius = 0.01, density = 1e3, \
-                    velocity = [2.0, 0.0, 0.0], dt = 1e-3, duration = 1.0 }}\n\
-         expect = {{ {expect} }}\n\
-         tolerance = {{ relative = 1e-3 }}\n\
-         source = \"closed form\""
+        "[[case]]\n name = \"throw\"\n setup = {{ family = \"flight\", radius = 0.01, density = \
+         1e3, velocity = [2.0, 0.0, 0.0], dt = 1e-3, duration = 1.0 }}\n expect = {{ {expect} }}\n \
+         tolerance = {{ relative = 1e-3 }}\n source = \"closed form\""
     );
     verify::parse(&row).unwrap().remove(0)
 }
@@ -92,9 +89,8 @@ fn an_unknown_quantity_is_named_with_the_known_ones() {
 
 #[test]
 fn an_unknown_parameter_is_refused() {
-    let row = "[[case]]\nname = \"a\"\nexpect = {}\nsource = \"\"\n\
-               tolerance = { absolute = 1.0 }\n\
-               setup = { family = \"cradle\", colour = 1 }";
+    let row = "[[case]]\nname = \"a\"\nexpect = {}\nsource = \"\"\n tolerance = { absolute = 1.0 \
+               }\n setup = { family = \"cradle\", colour = 1 }";
     let error = verify::parse(row).unwrap_err().to_string();
     assert!(error.contains("case 1"), "{error}");
     assert!(error.contains("colour"), "{error}");

@@ -53,10 +53,12 @@ fn documents_are_what_the_program_prints() {
 fn the_reference_tells_type_unit_default_and_description() {
     let page = Workplace::new().phase(&["reference", "keys"]).code(0);
     page.says(
-        "| `density` | a number of at least 1e-9 and at most 1e15 | kg/m³, kg/m² | *needed* | Density rho",
+        "| `density` | a number of at least 1e-9 and at most 1e15 | kg/m³, kg/m² | *needed* | \
+         Density rho",
     )
     .says(
-        "| `dt` | a number of at least 1e-15 and at most 1e15, or \"auto\" | s | *needed* | Time step dt (s);",
+        "| `dt` | a number of at least 1e-15 and at most 1e15, or \"auto\" | s | *needed* | Time \
+         step dt (s);",
     )
     .says("| `overlap` | a number above 0 | | `1.5` | Largest overlap")
     .says("| `window` | a number above 0 | s | `0.5` | Window (s). |")

@@ -21,7 +21,7 @@ use std::time::Duration;
 const SCENE: &str = r#"
     spheres = { count = 3, radius = 0.004, density = 1000.0 }
     start = { kind = "list", spheres = [
-        { position = [0.0, 0.0, 1.0] }, { position = [0.1, 0.0, 2.0] }, { position = [0.2, 0.0, 3.0] },
+        { position = [0, 0, 1] }, { position = [0.1, 0, 2] }, { position = [0.2, 0, 3] },
     ] }
     gravity = { acceleration = 9.8 }
     time = { dt = 1e-3, duration = 0.2, frame_interval = 1e-2 }

@@ -135,8 +135,12 @@ fn sub_steps_leave_the_displacement() {
         values = [0.002, 0.004]
         [scene]
         spheres = { count = 1, radius = 0.004, density = 2500.0 }
-        contact = { law = "hertz", young_modulus = 1e9, poisson_ratio = 0.3, dissipation_time = 0.0 }
-        start = { kind = "list", spheres = [{ position = [0.0, 0.0, 0.0], velocity = [1.0, 0.0, 0.0] }] }
+        contact.law = "hertz"
+        contact.young_modulus = 1e9
+        contact.poisson_ratio = 0.3
+        contact.dissipation_time = 0.0
+        start.kind = "list"
+        start.spheres = [{ position = [0.0, 0.0, 0.0], velocity = [1.0, 0.0, 0.0] }]
         time = { dt = 1e-5, duration = 0.1, frame_interval = 1e-3 }
         "#,
     );

@@ -28,8 +28,13 @@ pub(crate) fn frictions() -> [Option<Friction>; 4] {
 pub(crate) fn tank(friction: Option<Friction>, integrator: Integrator) -> Scene {
     let mut scene: Scene = toml::from_str(
         r#"
-        spheres = { count = 60, radius = [{ radius = 0.003, share = 1 }, { radius = 0.004, share = 1 }], density = 3750.0 }
-        contact = { law = "hertz", young_modulus = 5.657e5, poisson_ratio = 0.3, dissipation_time = 1e-4 }
+        spheres.count = 60
+        spheres.radius = [{ radius = 0.003, share = 1 }, { radius = 0.004, share = 1 }]
+        spheres.density = 3750.0
+        contact.law = "hertz"
+        contact.young_modulus = 5.657e5
+        contact.poisson_ratio = 0.3
+        contact.dissipation_time = 1e-4
         tank = { radius = 0.03, floor = -0.05 }
         start = { kind = "random", z_min = -0.04, z_max = 0.06, speed = 0.3, spin = 5.0 }
         gravity = { acceleration = 9.8 }
@@ -50,7 +55,10 @@ pub(crate) fn cluster(spheres: Vec<StartSphere>, friction: Option<Friction>, dt:
     let mut scene: Scene = toml::from_str(
         r#"
         spheres = { count = 1, radius = 0.004, density = 1e4 }
-        contact = { law = "hertz", young_modulus = 1e6, poisson_ratio = 0.3, dissipation_time = 0.0 }
+        contact.law = "hertz"
+        contact.young_modulus = 1e6
+        contact.poisson_ratio = 0.3
+        contact.dissipation_time = 0.0
         start = { kind = "list", spheres = [] }
         time = { dt = 1e-5, duration = 1.0, frame_interval = 1e-3, integrator = "velocity-verlet" }
         "#,

@@ -8,7 +8,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Threshold of the arching sieve: the outflow has stopped if no grain left in the last window, or
-/// if the run ended because all grains were at rest. It is an arch only if grains are over the opening.
+/// if the run ended because all grains were at rest. It is an arch only if grains are over the
+/// opening.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ArchingSieve {

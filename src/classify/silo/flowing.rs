@@ -7,8 +7,8 @@ use crate::document::unit;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Thresholds of the flowing sieve: a silo flows if at least `least` grains left in the last window.
-/// One that was opened less than a window before the end counts what left since.
+/// Thresholds of the flowing sieve: a silo flows if at least `least` grains left in the last
+/// window. One that was opened less than a window before the end counts what left since.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FlowingSieve {

@@ -284,8 +284,8 @@ mod tests {
         assert_eq!(verdict.values, [None; 14]);
     }
 
-    /// Symptom: a door that opened while grains came in gave a mass per second far too small. Cause:
-    /// the mass that is in was taken to fall by what leaves alone.
+    /// Symptom: a door that opened while grains came in gave a mass per second far too small.
+    /// Cause: the mass that is in was taken to fall by what leaves alone.
     #[test]
     fn the_mass_rate_is_not_known_while_grains_come_in() {
         let mut record = draining(GRAINS, 1.0);

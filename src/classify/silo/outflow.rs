@@ -13,8 +13,8 @@ pub(super) struct Outflow<'a> {
     pub(super) grains: f64,
     /// Time at which all grains counted as at rest behind the closed door (s).
     pub(super) rest: Option<f64>,
-    /// Time from which grains can leave while none comes in (s): that at which the door opened, in a
-    /// scene without a door that at which the last grain came in.
+    /// Time from which grains can leave while none comes in (s): that at which the door opened, in
+    /// a scene without a door that at which the last grain came in.
     pub(super) opened: Option<f64>,
     /// Whether the run ended because all grains in the open silo were at rest.
     pub(super) stopped: bool,

@@ -15,8 +15,8 @@ pub(super) const DURATION: f64 = 30.0;
 /// Time between frames (s).
 pub(super) const INTERVAL: f64 = 0.05;
 
-/// A silo that this many grains leave, at equal intervals from the opening of the door on, the last of
-/// them this long (s) before the run ends at its duration.
+/// A silo that this many grains leave, at equal intervals from the opening of the door on, the last
+/// of them this long (s) before the run ends at its duration.
 pub(super) fn draining(grains: usize, pause: f64) -> RunRecord {
     draining_until(DURATION, grains, pause)
 }
@@ -76,7 +76,14 @@ fn scene() -> crate::scene::Scene {
     toml::from_str(
         r#"
         spheres = { count = 200, radius = 1.0, density = 1.0, shape = "disc" }
-        geometry = { kind = "hopper", half_width = 60.0, top = 90.0, foot = -40.0, slope = 0.0, opening = 4.0, spacing = 1.0, radius = 1.0 }
+        geometry.kind = "hopper"
+        geometry.half_width = 60.0
+        geometry.top = 90.0
+        geometry.foot = -40.0
+        geometry.slope = 0.0
+        geometry.opening = 4.0
+        geometry.spacing = 1.0
+        geometry.radius = 1.0
         start = { kind = "feed", position = [0.0, 0.0, 80.0], interval = 0.04 }
         gravity = { acceleration = 9.8 }
         rest = { kinetic_energy = 1e-4 }

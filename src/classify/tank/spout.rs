@@ -108,7 +108,8 @@ impl SpoutSieve {
         ))
     }
 
-    /// Looks for the earliest window with a spout from frame `start` on: its label, if there is one.
+    /// Looks for the earliest window with a spout from frame `start` on: its label, if there is
+    /// one.
     pub(super) fn sift(&self, run: &Run<'_>, start: usize) -> (Option<Label>, SpoutEvidence) {
         let window = window::frames(self.window, run.interval);
         let count = run.count as f64;

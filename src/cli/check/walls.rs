@@ -40,8 +40,8 @@ impl Walls<'_> {
         } = self.wall;
         let at = describe(axes, &self.job.values, self.job.seed);
         let mut text = format!(
-            "hold spheres of radius {radius} m up to {speed:.3} m/s; they may come with {:.3} m/s at \
-             {at}",
+            "hold spheres of radius {radius} m up to {speed:.3} m/s; they may come with {:.3} m/s \
+             at {at}",
             self.impact
         );
         if self.margin() < 1.0 {
@@ -61,8 +61,8 @@ impl Walls<'_> {
             };
             let indent = "";
             text += &format!(
-                "\n{indent:14}WARNING: {warning};\n{indent:14}raise the stiffness, or make the spheres \
-                 lighter or slower"
+                "\n{indent:14}WARNING: {warning};\n{indent:14}raise the stiffness, or make the \
+                 spheres lighter or slower"
             );
         }
         text

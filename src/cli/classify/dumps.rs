@@ -51,7 +51,8 @@ fn dumps_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 pub(super) fn hint(folder: &Path, error: &FolderError) -> Failure {
     match find_dumps(folder) {
         Ok(dumps) if !dumps.is_empty() => Failure::refused(format_args!(
-            "{}: holds dumps (.npy) but no sweep.json; say with --scene FILE of which scene they are",
+            "{}: holds dumps (.npy) but no sweep.json; say with --scene FILE of which scene they \
+             are",
             folder.display()
         )),
         _ => Failure::refused(error),

@@ -89,8 +89,8 @@ pub(super) fn run(
             scene.time.frames()
         )),
         Ending::EarlierKept => console.note(format_args!(
-            "interrupted; nothing was stored. The checkpoint that was there still is: --resume goes on \
-             from it ({path})"
+            "interrupted; nothing was stored. The checkpoint that was there still is: --resume \
+             goes on from it ({path})"
         )),
         Ending::Lost(error) => return Err(Failure::failed(error)),
     }
@@ -108,8 +108,8 @@ fn begin(
     if !resume {
         if checkpoints.path().exists() {
             console.note(format_args!(
-                "{path} is there, the checkpoint of an interrupted run, and --resume would go on from \
-                 it; starting from the beginning, which replaces it"
+                "{path} is there, the checkpoint of an interrupted run, and --resume would go on \
+                 from it; starting from the beginning, which replaces it"
             ));
         }
         return Ok(false);

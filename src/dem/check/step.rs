@@ -57,8 +57,8 @@ impl Scene {
             Problem::new("time.dt", message).help(help)
         };
         let least = timestep::least(self).ok_or_else(|| {
-            let message = "`dt = \"auto\"` has nothing to go by: no contact at which spheres meet, no \
-                           drag, no spin damping";
+            let message = "`dt = \"auto\"` has nothing to go by: no contact at which spheres meet, \
+                           no drag, no spin damping";
             Problem::new("time.dt", message).help("give `dt` as a number")
         })?;
         let frame = self.time.frame_interval;
@@ -79,7 +79,8 @@ impl Scene {
         }
         if steps > MOST_STEPS {
             let message = format!(
-                "`dt = \"auto\"` would make {steps:.0e} steps per frame for the {} limit of {:.3e} s",
+                "`dt = \"auto\"` would make {steps:.0e} steps per frame for the {} limit of \
+                 {:.3e} s",
                 least.name, least.seconds
             );
             return Err(refuse(message, "use a shorter `frame_interval`"));

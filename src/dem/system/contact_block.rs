@@ -181,15 +181,7 @@ impl<H: History> ContactBlock<H> {
             }
         }
         if !self.alike {
-            self.properties[0].take::<N, T>(partners, |k| pairs.pairs[k].i());
-            self.properties[1].take::<N, T>(partners, |k| pairs.pairs[k].j());
-            let [one, other] = &self.properties;
-            for (k, inverse) in self.inverse_sum.iter_mut().enumerate() {
-                *inverse = 1.0 / (one.radius[k] + other.radius[k]);
-            }
-            for (k, effective) in self.effective_mass.iter_mut().enumerate() {
-                *effective = Laws::<N, T>::effective_mass([one.at(k), other.at(k)]);
-            }
+            self.gather_properties::<N, T>(pairs, partners);
         }
         match pairs.entries {
             Entries::Listed(entries) => self.gather_springs(
@@ -207,25 +199,54 @@ impl<H: History> ContactBlock<H> {
             }
         }
         if Self::HAS_HISTORY && !partners.earlier.is_empty() {
-            let earlier = partners.earlier;
-            self.earlier_velocity.fill::<S>(
-                #[inline(always)]
-                |k| {
-                    let one = earlier[pairs.pairs[k].i() as usize][0];
-                    let other = earlier[pairs.pairs[k].j() as usize][0];
-                    f64x4::simd_from(simd, one) - f64x4::simd_from(simd, other)
-                },
-            );
-            let [one, other] = &mut self.earlier_spin;
-            one.fill::<S>(
-                #[inline(always)]
-                |k| f64x4::simd_from(simd, earlier[pairs.pairs[k].i() as usize][1]),
-            );
-            other.fill::<S>(
-                #[inline(always)]
-                |k| f64x4::simd_from(simd, earlier[pairs.pairs[k].j() as usize][1]),
-            );
+            self.gather_earlier_motion(simd, pairs, partners);
         }
+    }
+
+    /// Gathers what spheres are like, of spheres that are not alike.
+    #[inline(always)]
+    fn gather_properties<N: NormalLaw, T: TangentialLaw<History = H>>(
+        &mut self,
+        pairs: &Lanes<'_>,
+        partners: &Partners<'_>,
+    ) {
+        self.properties[0].take::<N, T>(partners, |k| pairs.pairs[k].i());
+        self.properties[1].take::<N, T>(partners, |k| pairs.pairs[k].j());
+        let [one, other] = &self.properties;
+        for (k, inverse) in self.inverse_sum.iter_mut().enumerate() {
+            *inverse = 1.0 / (one.radius[k] + other.radius[k]);
+        }
+        for (k, effective) in self.effective_mass.iter_mut().enumerate() {
+            *effective = Laws::<N, T>::effective_mass([one.at(k), other.at(k)]);
+        }
+    }
+
+    /// Gathers velocities and spins as they were before.
+    #[inline(always)]
+    fn gather_earlier_motion<S: Simd>(
+        &mut self,
+        simd: S,
+        pairs: &Lanes<'_>,
+        partners: &Partners<'_>,
+    ) {
+        let earlier = partners.earlier;
+        self.earlier_velocity.fill::<S>(
+            #[inline(always)]
+            |k| {
+                let one = earlier[pairs.pairs[k].i() as usize][0];
+                let other = earlier[pairs.pairs[k].j() as usize][0];
+                f64x4::simd_from(simd, one) - f64x4::simd_from(simd, other)
+            },
+        );
+        let [one, other] = &mut self.earlier_spin;
+        one.fill::<S>(
+            #[inline(always)]
+            |k| f64x4::simd_from(simd, earlier[pairs.pairs[k].i() as usize][1]),
+        );
+        other.fill::<S>(
+            #[inline(always)]
+            |k| f64x4::simd_from(simd, earlier[pairs.pairs[k].j() as usize][1]),
+        );
     }
 
     /// Copies the offsets, if they are known. Returns whether they are.

@@ -265,14 +265,16 @@ mod tests {
             let mut own = 0;
             for (k, region) in division.regions.iter().enumerate() {
                 let Range { start, end } = region.spheres;
-                prop_assert_eq!(start, if k == 0 { 0 } else { division.regions[k - 1].spheres.end });
+                let before = k.checked_sub(1).map(|before| &division.regions[before]);
+                prop_assert_eq!(start, before.map_or(0, |before| before.spheres.end));
                 prop_assert!(start.is_multiple_of(BLOCK) || start == spheres);
                 let before = k.checked_sub(1).map_or(&nobody, |k| &division.boundaries[k]);
                 let expected = pairs.iter().filter(|it| (it.i() as usize) < start);
                 let expected = expected.filter(|it| region.spheres.contains(&(it.j() as usize)));
                 prop_assert!(region.crossing.iter().eq(expected));
                 prop_assert!(region.crossing.iter().all(|&it| inside(it, &before.spheres)));
-                let tail = division.boundaries.get(k).map_or(spheres..spheres, |it| it.spheres.clone());
+                let tail = division.boundaries.get(k);
+                let tail = tail.map_or(spheres..spheres, |it| it.spheres.clone());
                 let moved_at_once = start..tail.start.clamp(start, end);
                 for &pair in &pairs[region.pairs.clone()] {
                     prop_assert!(region.spheres.contains(&(pair.i() as usize)));

@@ -194,7 +194,8 @@ mod tests {
             let number = |&(i, j): &(u32, u32)| f64::from(100 + 18 * i + j);
             let mut histories = springs(&before.iter().map(number).collect::<Vec<_>>());
             carry_over(&sorted(&before), &sorted(&now), &mut histories);
-            let expected = now.iter().map(|pair| if before.contains(pair) { number(pair) } else { 0.0 });
+            let kept = |pair| if before.contains(pair) { number(pair) } else { 0.0 };
+            let expected = now.iter().map(kept);
             let found = histories.iter().map(|it| it.force.x);
             prop_assert!(found.eq(expected));
         }

@@ -103,7 +103,9 @@ impl Moves<'_> {
                 fearless_simd::dispatch!(level, simd => accelerate(simd, &mut some, acceleration));
                 profile::mark(profile, part);
             } else if !self.effects.is_empty() {
-                fearless_simd::dispatch!(level, simd => self.act(simd, &mut some, bodies, asked, level, profile));
+                fearless_simd::dispatch!(level, simd => {
+                    self.act(simd, &mut some, bodies, asked, level, profile);
+                });
             }
             for (&kick, too_fast) in self.kicks.iter().zip(&mut found.too_fast) {
                 let slow = self.limits.slow;

@@ -28,8 +28,8 @@ use crate::particles::block::BLOCK;
 use crate::particles::bodies::Bodies;
 use fearless_simd::Level;
 
-/// Spheres are moved after this many near pairs: few enough that these are still in a near cache, so
-/// many that few lanes of blocks are left over.
+/// Spheres are moved after this many near pairs: few enough that these are still in a near cache,
+/// so many that few lanes of blocks are left over.
 const SPAN: usize = 16 * LOOK;
 
 /// What one thread does: forces and moves of its spheres.

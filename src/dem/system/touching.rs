@@ -258,14 +258,21 @@ mod tests {
     proptest! {
         /// The same pairs as one by one, in their order, with their histories; the others forget.
         #[test]
-        fn whoever_touches_is_found(gaps in prop::collection::vec(0.1..1.5, 1..120), from in 0..3_usize) {
+        fn whoever_touches_is_found(
+            gaps in prop::collection::vec(0.1..1.5, 1..120),
+            from in 0..3_usize,
+        ) {
             let particles = spheres(&gaps);
-            let near: Vec<NearPair> = (1..gaps.len() as u32).map(|j| NearPair::new(j - 1, j)).collect();
+            let last = gaps.len() as u32;
+            let near: Vec<NearPair> = (1..last).map(|j| NearPair::new(j - 1, j)).collect();
             let mut histories: Vec<u32> = (0..(from + near.len()) as u32).map(|k| k + 1).collect();
             let mut touching = Touching::new();
             let sort_out = |touching: &mut Touching, histories: &mut Vec<u32>| {
                 fearless_simd::dispatch!(Level::new(), simd => {
-                    touching.find(simd, &near, from, histories, &Partners::all(&particles, &[]), None)
+                    {
+                        let all = Partners::all(&particles, &[]);
+                        touching.find(simd, &near, from, histories, &all, None)
+                    }
                 })
             };
             let found = sort_out(&mut touching, &mut histories);
@@ -308,7 +315,8 @@ mod tests {
                 prop_assert_eq!(lanes.count, (found - at).min(BLOCK));
                 for k in lanes.count..BLOCK {
                     prop_assert_eq!(lanes.pairs[k], lanes.pairs[lanes.count - 1]);
-                    prop_assert_eq!(lanes.offset.map(|it| it[0][k]), lanes.offset.map(|it| it[0][lanes.count - 1]));
+                    let of_lane = |k: usize| lanes.offset.map(|it| it[0][k]);
+                    prop_assert_eq!(of_lane(k), of_lane(lanes.count - 1));
                 }
             }
         }

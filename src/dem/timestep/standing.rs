@@ -56,8 +56,8 @@ impl Standing {
                 Some("sliding that should stop may change sign from step to step")
             }
             _ if self.limit.decisive => Some(
-                "stable for a pair, but coarse: with few steps per contact restitutions are off, and \
-                 several contacts at once may gain energy",
+                "stable for a pair, but coarse: with few steps per contact restitutions are off, \
+                 and several contacts at once may gain energy",
             ),
             _ => None,
         }

@@ -147,7 +147,8 @@ fn spheres_that_overlap_at_the_start_limit_the_step() {
         let text = format!(
             "{law}{tables}
             spheres = {{ count = 2, radius = 0.004, density = 1e4 }}
-            start = {{ kind = 'list', spheres = [{{ position = [0, 0, 1] }}, {{ position = {second} }}] }}
+            start.kind = 'list'
+            start.spheres = [{{ position = [0, 0, 1] }}, {{ position = {second} }}]
             time = {{ dt = 1e-7, duration = 1, frame_interval = 1e-3 }}"
         );
         Scene::from_toml(&text, Path::new("pair.toml")).unwrap_or_else(|error| panic!("{error}"))
@@ -171,7 +172,8 @@ fn spheres_that_overlap_at_the_start_limit_the_step() {
 fn the_smallest_sphere_decides() {
     let scene = |radius: &str| {
         let text = format!(
-            "contact = {{ law = 'hertz', young_modulus = 2e5, poisson_ratio = 0.3, dissipation_time = 0 }}
+            "contact = {{ law = 'hertz', young_modulus = 2e5, poisson_ratio = 0.3, \
+             dissipation_time = 0 }}
             spheres = {{ count = 2, density = 1e4, radius = {radius} }}
             tank = {{ radius = 0.06, floor = 0.0 }}
             start = {{ kind = 'random', z_min = 0.1, z_max = 0.2 }}

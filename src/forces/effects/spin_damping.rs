@@ -30,7 +30,8 @@ impl EffectKeys for SpinDamping {
             name: "spin damping",
             seconds: regime.scheme.oscillator(0.0, rate),
             decisive: true,
-            explanation: "2 I / (q c) of the smallest sphere; q = 2 for synchronised-verlet, else 1",
+            explanation: "2 I / (q c) of the smallest sphere; q = 2 for synchronised-verlet, else \
+                          1",
         })
     }
 

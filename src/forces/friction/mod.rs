@@ -1,4 +1,5 @@
-//! Tangential contact laws, one file each: keys, formula, limit of the time step. Pairs and walls go through the same code.
+//! Tangential contact laws, one file each: keys, formula, limit of the time step. Pairs and walls
+//! go through the same code.
 
 mod coulomb;
 mod cundall_strack;

@@ -20,8 +20,8 @@ pub(super) fn read_geometry(path: &Path, unit: LengthUnit) -> Result<FixedSphere
     let wrong = |line, reason: String| FileError::line(path, line, reason);
     let mut lines = text::lines(&content);
     let Some((first, header)) = lines.next() else {
-        let reason = "the file is empty; its first line holds the numbers of wall and door spheres, \
-                      such as `183 5`";
+        let reason = "the file is empty; its first line holds the numbers of wall and door \
+                      spheres, such as `183 5`";
         return Err(wrong(1, reason.to_owned()));
     };
     let [walls, door] = counts(header).map_err(|reason| wrong(first, reason))?;
@@ -139,13 +139,13 @@ mod tests {
             ),
             (
                 "three 5\n",
-                "silo.dat:1: `three` is not a whole number; the first line holds two whole numbers, \
-                 of wall and of door spheres",
+                "silo.dat:1: `three` is not a whole number; the first line holds two whole \
+                 numbers, of wall and of door spheres",
             ),
             (
                 "-1 5\n",
-                "silo.dat:1: `-1` is not a whole number; the first line holds two whole numbers, of \
-                 wall and of door spheres",
+                "silo.dat:1: `-1` is not a whole number; the first line holds two whole numbers, \
+                 of wall and of door spheres",
             ),
             (
                 "1\n0 0 1\n",
@@ -184,11 +184,15 @@ mod tests {
 
     proptest! {
         #[test]
-        fn every_sphere_is_read(values in prop::collection::vec((-9.0..9.0f64, 0.0..9.0f64, 1e-3..1.0f64), 1..20), door in 0usize..4) {
+        fn every_sphere_is_read(
+            values in prop::collection::vec((-9.0..9.0f64, 0.0..9.0f64, 1e-3..1.0f64), 1..20),
+            door in 0usize..4,
+        ) {
             let door = door.min(values.len());
             let walls = values.len() - door;
             let rows: Vec<String> = values.iter().map(|(x, z, r)| format!("{x} {z} {r}")).collect();
-            let silo = read(&format!("{walls} {door}\n{}\n", rows.join("\n")), LengthUnit::Metre).unwrap();
+            let text = format!("{walls} {door}\n{}\n", rows.join("\n"));
+            let silo = read(&text, LengthUnit::Metre).unwrap();
             prop_assert_eq!((silo.walls.len(), silo.door.len()), (walls, door));
             for (sphere, (x, z, radius)) in silo.walls.iter().chain(&silo.door).zip(values) {
                 prop_assert_eq!(sphere.position, [x, 0.0, z]);

@@ -25,8 +25,8 @@ impl Scene {
         }
         if self.tank.as_ref().and_then(Tank::area).is_none() {
             let message = "a random start needs a tank with walls all around to be in";
-            let help = "add `radius`, or `width` and `depth`, to [tank], or list the spheres with `kind = \
-                        \"list\"`";
+            let help = "add `radius`, or `width` and `depth`, to [tank], or list the spheres with \
+                        `kind = \"list\"`";
             problems.push(Problem::new("start.kind", message).help(help));
             return;
         }

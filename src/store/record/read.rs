@@ -312,7 +312,8 @@ fn mismatch(record: &RunRecord) -> Option<String> {
             let mut of_state = of_state.into_iter().chain(spin);
             if let Some((name, array)) = of_state.find(|(_, it)| it.dim() != (spheres, 3)) {
                 return Some(format!(
-                    "`{group}/{name}` has the shape {:?} at t = {} s, but ({spheres}, 3) is expected",
+                    "`{group}/{name}` has the shape {:?} at t = {} s, but ({spheres}, 3) is \
+                     expected",
                     array.dim(),
                     state.time
                 ));

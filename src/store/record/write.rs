@@ -283,7 +283,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn chunks_are_neither_too_large_nor_too_wide(shape in prop::collection::vec(1_u64..3_000_000, 1..4)) {
+        fn chunks_are_neither_too_large_nor_too_wide(
+            shape in prop::collection::vec(1_u64..3_000_000, 1..4),
+        ) {
             let chunk = chunk(&shape, 8);
             prop_assert!(chunk.iter().product::<u64>() * 8 <= CHUNK as u64);
             for (extent, all) in chunk.iter().zip(&shape) {

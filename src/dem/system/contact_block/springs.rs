@@ -20,8 +20,8 @@ impl<H: History> ContactBlock<H> {
         }
     }
 
-    /// Adds friction to the forces: the springs, up to the limit of friction; with `FIRST_ONLY`, the first torque alone,
-    /// where both are the same or the other is not needed.
+    /// Adds friction to the forces: the springs, up to the limit of friction; with `FIRST_ONLY`,
+    /// the first torque alone, where both are the same or the other is not needed.
     #[inline(always)]
     pub(super) fn add_friction_to_all<T: TangentialLaw<History = H>, const FIRST_ONLY: bool>(
         &mut self,
