@@ -98,8 +98,8 @@ fn extent(spheres: &[StartSphere]) -> (f64, f64, f64) {
 
 /// Duration (s) of the shortest contact the scene lets expect, if there is any.
 pub fn shortest_contact(scene: &Scene) -> Option<f64> {
-    let meetings = scene.dem.contact.as_ref()?.meetings(&regime(scene));
-    meetings.first().map(|meeting| meeting.contact_time)
+    let collisions = scene.dem.contact.as_ref()?.collisions(&regime(scene));
+    collisions.first().map(|collision| collision.contact_time)
 }
 
 /// What the limits of effects and laws depend on.
@@ -160,10 +160,10 @@ pub fn limits(scene: &Scene) -> Vec<Limit> {
     let regime = regime(scene);
     let mut limits = Vec::new();
     if let Some(contact) = &scene.dem.contact {
-        let meetings = contact.meetings(&regime);
-        limits.extend(contact.limits(&meetings, &regime));
+        let collisions = contact.collisions(&regime);
+        limits.extend(contact.limits(&collisions, &regime));
         let friction = scene.dem.friction.as_ref();
-        limits.extend(friction.and_then(|it| it.limit(contact, &meetings, &regime)));
+        limits.extend(friction.and_then(|it| it.limit(contact, &collisions, &regime)));
     }
     if scene.time.integrator == Integrator::AdaptiveVerlet {
         limits.retain(|limit| limit.name == DISPLACEMENT);

@@ -1,7 +1,7 @@
 //! Viscoelastic Hertz contact.
 
 use super::restitution::dissipation_time_from_restitution;
-use super::{ContactKeys, Impact, Meeting, NormalLaw, contact_radius};
+use super::{Collision, ContactKeys, Impact, NormalLaw, contact_radius};
 use crate::document::{Problem, quantity};
 use crate::forces::limit::{Limit, Regime};
 use crate::forces::one;
@@ -86,7 +86,7 @@ impl ContactKeys for Hertz {
     /// The impact of the two smallest spheres at the fastest speed, or from the deepest overlap at
     /// the start. A wall or a larger partner is softer: w^2 falls with the effective mass faster
     /// than it grows with the effective radius.
-    fn meetings(&self, regime: &Regime<'_>) -> Vec<Meeting> {
+    fn collisions(&self, regime: &Regime<'_>) -> Vec<Collision> {
         let (radius, mass) = (regime.smallest_radius, regime.smallest_mass);
         let impact = self.impact(radius, mass, regime.fastest_impact);
         let fastest = impact.or_release_from(*regime.deepest_at_start);
@@ -97,7 +97,7 @@ impl ContactKeys for Hertz {
         // The law's damping at overlap xi: g = K c A sqrt(xi) / m_eff.
         let time = self.dissipation_time(regime.mean_radius, regime.mean_mass);
         let rate = 2.0 / 3.0 * self.dissipation_factor * time * frequency * frequency;
-        vec![Meeting::of_impact(&fastest, 0.5 * radius, rate)]
+        vec![Collision::of_impact(&fastest, 0.5 * radius, rate)]
     }
 
     fn other_limits(&self, regime: &Regime<'_>) -> Vec<Limit> {

@@ -48,9 +48,9 @@ pub(crate) trait ContactKeys {
     fn law(&self, mean_radius: f64, mean_mass: f64) -> Self::Law;
 
     /// The impacts that may limit the time step, the stiffest one first; none if nothing moves.
-    fn meetings(&self, regime: &Regime<'_>) -> Vec<Meeting>;
+    fn collisions(&self, regime: &Regime<'_>) -> Vec<Collision>;
 
-    /// Limits besides those that follow from the meetings.
+    /// Limits besides those that follow from the collisions.
     fn other_limits(&self, _regime: &Regime<'_>) -> Vec<Limit> {
         Vec::new()
     }
@@ -62,7 +62,7 @@ pub(crate) trait ContactKeys {
 }
 
 /// An impact of two partners, as it limits the time step.
-pub(crate) struct Meeting {
+pub(crate) struct Collision {
     /// Effective mass m1 m2 / (m1 + m2) (kg).
     pub(crate) effective_mass: f64,
     /// Relative speed (m/s).
@@ -79,7 +79,7 @@ pub(crate) struct Meeting {
     pub(crate) contact_radius: f64,
 }
 
-impl Meeting {
+impl Collision {
     /// Of an impact of an effective radius (m), with a damping rate (1/s).
     pub(super) fn of_impact(impact: &Impact, effective_radius: f64, rate: f64) -> Self {
         Self {
@@ -109,9 +109,9 @@ impl Contact {
         with_keys!(self, keys => keys.law(1.0, 1.0).elastic_energy(overlap, effective_radius))
     }
 
-    /// As [`ContactKeys::meetings`].
-    pub(crate) fn meetings(&self, regime: &Regime<'_>) -> Vec<Meeting> {
-        with_keys!(self, keys => keys.meetings(regime))
+    /// As [`ContactKeys::collisions`].
+    pub(crate) fn collisions(&self, regime: &Regime<'_>) -> Vec<Collision> {
+        with_keys!(self, keys => keys.collisions(regime))
     }
 
     /// As [`ContactKeys::problems`].
@@ -119,19 +119,19 @@ impl Contact {
         with_keys!(self, keys => keys.problems())
     }
 
-    /// The limits of the time step that follow from its meetings, without those of friction.
-    pub(crate) fn limits(&self, meetings: &[Meeting], regime: &Regime<'_>) -> Vec<Limit> {
-        with_keys!(self, keys => limits(keys, meetings, regime))
+    /// The limits of the time step that follow from its collisions, without those of friction.
+    pub(crate) fn limits(&self, collisions: &[Collision], regime: &Regime<'_>) -> Vec<Limit> {
+        with_keys!(self, keys => limits(keys, collisions, regime))
     }
 }
 
-fn limits<K: ContactKeys>(keys: &K, meetings: &[Meeting], regime: &Regime<'_>) -> Vec<Limit> {
-    let Some(stiffest) = meetings.first() else {
+fn limits<K: ContactKeys>(keys: &K, collisions: &[Collision], regime: &Regime<'_>) -> Vec<Limit> {
+    let Some(stiffest) = collisions.first() else {
         return Vec::new();
     };
     let least = |frequency: f64, rate: f64| {
-        let seconds = meetings.iter().map(|meeting| {
-            let (frequency, rate) = (frequency * meeting.frequency, rate * meeting.rate);
+        let seconds = collisions.iter().map(|collision| {
+            let (frequency, rate) = (frequency * collision.frequency, rate * collision.rate);
             regime.scheme.oscillator(frequency, rate)
         });
         seconds.fold(f64::INFINITY, f64::min)

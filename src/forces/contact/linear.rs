@@ -1,6 +1,6 @@
 //! Linear spring and dashpot.
 
-use super::{ContactKeys, LinearImpact, Meeting, NormalLaw};
+use super::{Collision, ContactKeys, LinearImpact, NormalLaw};
 use crate::document::quantity;
 use crate::forces::limit::Regime;
 use schemars::JsonSchema;
@@ -48,14 +48,14 @@ impl ContactKeys for Linear {
 
     /// The impact of the two smallest spheres; all others have larger effective masses, and are
     /// softer.
-    fn meetings(&self, regime: &Regime<'_>) -> Vec<Meeting> {
+    fn collisions(&self, regime: &Regime<'_>) -> Vec<Collision> {
         let impact = LinearImpact {
             effective_mass: 0.5 * regime.smallest_mass,
             stiffness: self.stiffness,
             damping: self.damping,
         };
         let (frequency, speed) = (impact.angular_frequency(), regime.fastest_impact);
-        vec![Meeting {
+        vec![Collision {
             effective_mass: impact.effective_mass,
             speed,
             frequency,

@@ -10,7 +10,7 @@ mod silbert;
 pub use hertz::{Hertz, HertzLaw, rayleigh_time};
 pub use impact::{Impact, LinearImpact};
 pub use keys::Contact;
-pub(crate) use keys::{ContactKeys, Meeting, with_keys};
+pub(crate) use keys::{Collision, ContactKeys, with_keys};
 pub use linear::{ContactDrag, Linear, LinearLaw};
 pub use silbert::{Silbert, SilbertLaw};
 

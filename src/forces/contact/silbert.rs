@@ -1,6 +1,6 @@
 //! The Hertz contact of Silbert et al.
 
-use super::{ContactKeys, HertzLaw, Impact, Meeting, NormalLaw, contact_radius};
+use super::{Collision, ContactKeys, HertzLaw, Impact, NormalLaw, contact_radius};
 use crate::document::quantity;
 use crate::forces::limit::Regime;
 use schemars::JsonSchema;
@@ -41,8 +41,8 @@ impl ContactKeys for Silbert {
     /// damping rate gamma_n sqrt(R_eff xi) grows with the radius and is largest for the largest
     /// sphere at a wall. In between the limit has no minimum: the sum of rate and frequency is
     /// convex in the radius.
-    fn meetings(&self, regime: &Regime<'_>) -> Vec<Meeting> {
-        let meeting = |effective_radius: f64, effective_mass: f64| {
+    fn collisions(&self, regime: &Regime<'_>) -> Vec<Collision> {
+        let collision = |effective_radius: f64, effective_mass: f64| {
             let impact = Impact {
                 effective_mass,
                 stiffness: self.stiffness * effective_radius.sqrt(),
@@ -50,19 +50,19 @@ impl ContactKeys for Silbert {
             };
             let impact = impact.or_release_from(*regime.deepest_at_start);
             let root = (effective_radius * impact.deepest_overlap()).sqrt();
-            Meeting::of_impact(&impact, effective_radius, self.damping * root)
+            Collision::of_impact(&impact, effective_radius, self.damping * root)
         };
         let sizes = [
             (regime.smallest_radius, regime.smallest_mass),
             (regime.largest_radius, regime.largest_mass),
         ];
-        let pairs = sizes.map(|(radius, mass)| meeting(0.5 * radius, 0.5 * mass));
-        let walls = sizes.map(|(radius, mass)| meeting(radius, mass));
+        let pairs = sizes.map(|(radius, mass)| collision(0.5 * radius, 0.5 * mass));
+        let walls = sizes.map(|(radius, mass)| collision(radius, mass));
         // A small sphere meets a much larger one like a wall.
         let has_walls = regime.has_walls || regime.smallest_radius < regime.largest_radius;
         let walls = walls.into_iter().filter(|_| has_walls);
         let all = pairs.into_iter().chain(walls);
-        all.filter(|meeting| meeting.speed > 0.0).collect()
+        all.filter(|collision| collision.speed > 0.0).collect()
     }
 }
 

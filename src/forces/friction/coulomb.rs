@@ -3,7 +3,7 @@
 use super::FrictionKeys;
 use super::{Grip, Spring, TangentialLaw, Touch, Traction};
 use crate::document::quantity;
-use crate::forces::contact::Meeting;
+use crate::forces::contact::Collision;
 use crate::forces::limit::{Limit, Regime};
 use crate::particles::math::inverse_square_root;
 use schemars::JsonSchema;
@@ -33,8 +33,8 @@ impl<C> FrictionKeys<C> for Coulomb {
         CoulombLaw::new(self.coefficient, self.regularisation)
     }
 
-    fn limit(&self, _: &C, meetings: &[Meeting], regime: &Regime<'_>) -> Option<Limit> {
-        let stiffest = meetings.first()?;
+    fn limit(&self, _: &C, collisions: &[Collision], regime: &Regime<'_>) -> Option<Limit> {
+        let stiffest = collisions.first()?;
         let rate = regime.surface_factor() * self.coefficient * stiffest.largest_force
             / (self.regularisation * stiffest.effective_mass);
         Some(Limit {

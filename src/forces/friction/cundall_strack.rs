@@ -3,7 +3,7 @@
 use super::FrictionKeys;
 use super::{Grip, LoadedSpring, Spring, TangentialLaw, Touch};
 use crate::document::quantity;
-use crate::forces::contact::{Linear, Meeting};
+use crate::forces::contact::{Collision, Linear};
 use crate::forces::limit::{Limit, Regime};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -37,8 +37,8 @@ impl FrictionKeys<Linear> for CundallStrack {
         CundallStrackLaw::new(self.coefficient, self.stiffness, self.damping)
     }
 
-    fn limit(&self, _: &Linear, meetings: &[Meeting], regime: &Regime<'_>) -> Option<Limit> {
-        let moved = regime.surface_factor() / meetings.first()?.effective_mass;
+    fn limit(&self, _: &Linear, collisions: &[Collision], regime: &Regime<'_>) -> Option<Limit> {
+        let moved = regime.surface_factor() / collisions.first()?.effective_mass;
         let (frequency, rate) = ((self.stiffness * moved).sqrt(), self.damping * moved);
         Some(Limit {
             name: "sticking contact",

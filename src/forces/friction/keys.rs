@@ -1,7 +1,7 @@
 //! The table of a friction law in a scene, and which contact laws it goes with.
 
 use super::{Coulomb, CundallStrack, Mindlin, SilbertFriction, Spin, TangentialLaw};
-use crate::forces::contact::{Contact, ContactKeys, Hertz, Linear, Meeting, Silbert};
+use crate::forces::contact::{Collision, Contact, ContactKeys, Hertz, Linear, Silbert};
 use crate::forces::limit::{Limit, Regime};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -27,9 +27,9 @@ pub(crate) trait FrictionKeys<C> {
     /// The law for time steps of `dt` (s).
     fn law(&self, contact: &C, dt: f64) -> Self::Law;
 
-    /// Its limit of the time step, if it has one, by the [meetings](ContactKeys::meetings) of the
+    /// Its limit of the time step, if it has one, by the [collisions](ContactKeys::collisions) of the
     /// contact law.
-    fn limit(&self, _contact: &C, _meetings: &[Meeting], _regime: &Regime<'_>) -> Option<Limit> {
+    fn limit(&self, _contact: &C, _meetings: &[Collision], _regime: &Regime<'_>) -> Option<Limit> {
         None
     }
 }
@@ -94,14 +94,14 @@ impl Friction {
     pub(crate) fn limit(
         &self,
         contact: &Contact,
-        meetings: &[Meeting],
+        collisions: &[Collision],
         regime: &Regime<'_>,
     ) -> Option<Limit> {
         macro_rules! of_pair {
             ($(($contact:ident, $friction:ident),)+) => {
                 match (contact, self) {
                     $((Contact::$contact(contact), Self::$friction(friction)) => {
-                        friction.limit(contact, meetings, regime)
+                        friction.limit(contact, collisions, regime)
                     })+
                     _ => None,
                 }

@@ -4,7 +4,7 @@ use super::FrictionKeys;
 use super::{LoadedSpring, Spring, TangentialLaw, Touch};
 use crate::document::quantity;
 use crate::forces::contact::contact_radius;
-use crate::forces::contact::{Hertz, Meeting};
+use crate::forces::contact::{Collision, Hertz};
 use crate::forces::limit::{Limit, Regime};
 use crate::particles::vector::Vector;
 use schemars::JsonSchema;
@@ -35,13 +35,18 @@ impl FrictionKeys<Hertz> for Mindlin {
         )
     }
 
-    fn limit(&self, contact: &Hertz, meetings: &[Meeting], regime: &Regime<'_>) -> Option<Limit> {
+    fn limit(
+        &self,
+        contact: &Hertz,
+        collisions: &[Collision],
+        regime: &Regime<'_>,
+    ) -> Option<Limit> {
         let nu = contact.poisson_ratio;
         let stiffness_ratio = 2.0 * (1.0 - nu) / (2.0 - nu);
         let factor = (regime.surface_factor() * stiffness_ratio).sqrt();
         Some(Limit {
             name: "sticking contact",
-            seconds: (regime.scheme).oscillator(factor * meetings.first()?.frequency, 0.0),
+            seconds: (regime.scheme).oscillator(factor * collisions.first()?.frequency, 0.0),
             decisive: true,
             explanation: "2/w of the tangential spring, w^2 = (1 + m r^2 / I) k_t / m_eff with \
                           k_t / k_n = 2 (1 - nu) / (2 - nu)",

@@ -4,7 +4,7 @@ use super::FrictionKeys;
 use super::{Grip, LoadedSpring, Spring, TangentialLaw, Touch};
 use crate::document::quantity;
 use crate::forces::contact::contact_radius;
-use crate::forces::contact::{Meeting, Silbert};
+use crate::forces::contact::{Collision, Silbert};
 use crate::forces::limit::{Limit, Regime};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -41,17 +41,17 @@ impl FrictionKeys<Silbert> for SilbertFriction {
         SilbertFrictionLaw::new(self.coefficient, self.stiffness, self.damping)
     }
 
-    fn limit(&self, _: &Silbert, meetings: &[Meeting], regime: &Regime<'_>) -> Option<Limit> {
-        let of_meeting = |meeting: &Meeting| {
-            let root = regime.surface_factor() * meeting.contact_radius;
-            let squared = self.stiffness * root / meeting.effective_mass;
+    fn limit(&self, _: &Silbert, collisions: &[Collision], regime: &Regime<'_>) -> Option<Limit> {
+        let of_collision = |collision: &Collision| {
+            let root = regime.surface_factor() * collision.contact_radius;
+            let squared = self.stiffness * root / collision.effective_mass;
             regime
                 .scheme
                 .oscillator(squared.sqrt(), self.damping * root)
         };
         Some(Limit {
             name: "sticking contact",
-            seconds: meetings.iter().map(of_meeting).reduce(f64::min)?,
+            seconds: collisions.iter().map(of_collision).reduce(f64::min)?,
             decisive: true,
             explanation: "(w dt)^2 + 2 q g dt < 4 with w^2 = f k_t sqrt(R_eff xi) / m_eff and \
                           g = f gamma_t sqrt(R_eff xi), f = 1 + m r^2 / I, of pairs and at walls; \
