@@ -186,6 +186,7 @@ fn describe_limit(tightest: &Tightest<'_>, axes: &[Axis], explain: bool) -> Stri
         seconds,
         decisive,
         explanation,
+        ..
     } = limit;
     let kind = if decisive { "limit" } else { "advised limit" };
     let at = describe(axes, &tightest.job.values, tightest.job.seed);

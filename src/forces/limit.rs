@@ -17,6 +17,20 @@ pub struct Limit {
     pub decisive: bool,
     /// Formula and meaning, in one line.
     pub explanation: &'static str,
+    /// What may happen near it or, of mere advice, above it, if that deserves a warning.
+    pub consequence: Option<&'static str>,
+}
+
+impl Limit {
+    /// The consequence of coarse steps for what relaxes, such as a velocity toward the air's.
+    pub(crate) const PASSES_ITS_END: Option<&str> =
+        Some("stable, but what relaxes passes its end and returns, step by step");
+
+    /// The consequence of coarse steps for a contact.
+    pub(crate) const COARSE: Option<&str> = Some(
+        "stable for a pair, but coarse: with few steps per contact restitutions are off, and \
+         several contacts at once may gain energy",
+    );
 }
 
 /// What the limits of effects and laws depend on.
@@ -74,6 +88,9 @@ impl Regime<'_> {
             explanation: "the fastest sphere stays below the displacement guard: the smallest at \
                           the speed of the fastest impact, times 2 M / (M + m), at which the \
                           largest knocks it on",
+            consequence: Some(
+                "the fastest sphere may pass the displacement guard, which ends the run",
+            ),
         }
     }
 }

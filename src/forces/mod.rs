@@ -1,7 +1,7 @@
 //! What acts on spheres, one file each: effects on single spheres, laws of contact and friction.
 
 pub mod contact;
-pub(crate) mod effects;
+pub mod effects;
 pub mod friction;
 pub(crate) mod limit;
 

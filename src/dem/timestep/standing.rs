@@ -41,26 +41,8 @@ impl Standing {
         } else {
             1.0
         };
-        if self.ratio <= threshold {
-            return None;
-        }
-        match self.limit.name {
-            "drag" | "spin damping" => {
-                Some("stable, but what relaxes passes its end and returns, step by step")
-            }
-            "twelve contacts" => Some("a sphere that many others squeeze may gain energy"),
-            "displacement" => {
-                Some("the fastest sphere may pass the displacement guard, which ends the run")
-            }
-            "regularised friction" => {
-                Some("sliding that should stop may change sign from step to step")
-            }
-            _ if self.limit.decisive => Some(
-                "stable for a pair, but coarse: with few steps per contact restitutions are off, \
-                 and several contacts at once may gain energy",
-            ),
-            _ => None,
-        }
+        let consequence = self.limit.consequence;
+        consequence.filter(|_| self.ratio > threshold)
     }
 }
 
@@ -70,35 +52,24 @@ mod tests {
     use crate::scene::Scene;
     use std::path::Path;
 
-    fn limit(name: &'static str, decisive: bool) -> Limit {
-        Limit {
-            name,
-            seconds: 1.0,
-            decisive,
-            explanation: "",
-        }
-    }
-
-    fn warns(name: &'static str, decisive: bool, ratio: f64) -> bool {
-        let limit = limit(name, decisive);
+    fn warns(limit: Limit, ratio: f64) -> bool {
         Standing { limit, ratio }.consequence().is_some()
     }
 
     #[test]
     fn warnings_begin_at_their_thresholds() {
-        for name in ["contact", "damped contact", "sticking contact", "drag"] {
-            assert!(
-                !warns(name, true, 0.5) && warns(name, true, 0.501),
-                "{name}"
-            );
-        }
-        for name in ["twelve contacts", "displacement", "regularised friction"] {
-            assert!(
-                !warns(name, false, 1.0) && warns(name, false, 1.001),
-                "{name}"
-            );
-        }
-        assert!(!warns("Rayleigh time", false, 1.5));
+        let limit = |decisive: bool, consequence| Limit {
+            name: "some",
+            seconds: 1.0,
+            decisive,
+            explanation: "",
+            consequence,
+        };
+        let decisive = limit(true, Some("coarse"));
+        assert!(!warns(decisive, 0.5) && warns(decisive, 0.501));
+        let advised = limit(false, Some("coarse"));
+        assert!(!warns(advised, 1.0) && warns(advised, 1.001));
+        assert!(!warns(limit(false, None), 1.5));
     }
 
     /// A scene in the air with every limit that goes with the contact and friction.
@@ -140,13 +111,14 @@ mod tests {
     fn every_limit_has_words_but_the_rayleigh_time() {
         let mut seen = std::collections::BTreeSet::new();
         for (contact, friction) in LAWS {
-            for Limit { name, decisive, .. } in limits(&scene(contact, friction, 1e-5)) {
+            for limit in limits(&scene(contact, friction, 1e-5)) {
                 assert_eq!(
-                    warns(name, decisive, 2.0),
-                    name != "Rayleigh time",
-                    "{name}"
+                    warns(limit, 2.0),
+                    limit.name != "Rayleigh time",
+                    "{}",
+                    limit.name
                 );
-                seen.insert(name);
+                seen.insert(limit.name);
             }
         }
         assert_eq!(seen.len(), 9, "{seen:?}");

@@ -109,6 +109,7 @@ impl ContactKeys for Hertz {
             decisive: false,
             explanation: "pi r sqrt(rho/G) / (0.1631 nu + 0.8766) of the smallest sphere; a \
                           fifth of it is customary",
+            consequence: None,
         }]
     }
 

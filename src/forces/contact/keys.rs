@@ -142,6 +142,7 @@ fn limits<K: ContactKeys>(keys: &K, collisions: &[Collision], regime: &Regime<'_
             seconds: 2.0 / stiffest.frequency,
             decisive: true,
             explanation: K::CONTACT_LIMIT,
+            consequence: Limit::COARSE,
         },
         Limit {
             name: "twelve contacts",
@@ -150,6 +151,7 @@ fn limits<K: ContactKeys>(keys: &K, collisions: &[Collision], regime: &Regime<'_
             explanation: "(w dt)^2 + 2 g dt < 4 of a sphere with twelve such contacts, w and \
                           g^(1/2) sqrt(6) times those of a pair: all of them are taken to act \
                           along one line",
+            consequence: Some("a sphere that many others squeeze may gain energy"),
         },
         regime.displacement(stiffest.speed),
     ];
@@ -159,6 +161,7 @@ fn limits<K: ContactKeys>(keys: &K, collisions: &[Collision], regime: &Regime<'_
             seconds: least(1.0, 1.0),
             decisive: true,
             explanation: K::DAMPED_LIMIT,
+            consequence: Limit::COARSE,
         });
     }
     limits.extend(keys.other_limits(regime));

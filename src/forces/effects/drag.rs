@@ -109,6 +109,7 @@ impl EffectKeys for Drag {
             explanation: "2 m / (q (c1 + 2 c2 u)) of the smallest sphere, times the factors of \
                           swirl and updraught at the lowest height; q = 2 for \
                           synchronised-verlet, else 1",
+            consequence: Limit::PASSES_ITS_END,
         })
     }
 

@@ -32,6 +32,7 @@ impl EffectKeys for SpinDamping {
             decisive: true,
             explanation: "2 I / (q c) of the smallest sphere; q = 2 for synchronised-verlet, else \
                           1",
+            consequence: Limit::PASSES_ITS_END,
         })
     }
 

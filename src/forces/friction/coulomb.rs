@@ -44,6 +44,7 @@ impl<C> FrictionKeys<C> for Coulomb {
             explanation: "2 u_0 m_eff / ((1 + m r^2 / I) q mu F) at the largest force; above it \
                           sliding that should stop changes sign from step to step; q = 2 for \
                           synchronised-verlet, else 1",
+            consequence: Some("sliding that should stop may change sign from step to step"),
         })
     }
 }

@@ -46,6 +46,7 @@ impl FrictionKeys<Linear> for CundallStrack {
             decisive: true,
             explanation: "(w dt)^2 + 2 q g dt < 4 with w^2 = k_t / m_t and g = b_t / m_t, \
                           m_t = m_eff / (1 + m r^2 / I); q = 2 for synchronised-verlet, else 1",
+            consequence: Limit::COARSE,
         })
     }
 }

@@ -50,6 +50,7 @@ impl FrictionKeys<Hertz> for Mindlin {
             decisive: true,
             explanation: "2/w of the tangential spring, w^2 = (1 + m r^2 / I) k_t / m_eff with \
                           k_t / k_n = 2 (1 - nu) / (2 - nu)",
+            consequence: Limit::COARSE,
         })
     }
 }

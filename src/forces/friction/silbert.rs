@@ -56,6 +56,7 @@ impl FrictionKeys<Silbert> for SilbertFriction {
             explanation: "(w dt)^2 + 2 q g dt < 4 with w^2 = f k_t sqrt(R_eff xi) / m_eff and \
                           g = f gamma_t sqrt(R_eff xi), f = 1 + m r^2 / I, of pairs and at walls; \
                           q = 2 for synchronised-verlet, else 1",
+            consequence: Limit::COARSE,
         })
     }
 }
