@@ -59,9 +59,7 @@ pub fn fastest_impact(scene: &Scene) -> f64 {
     };
     let reach = tank.and_then(farthest_wall).unwrap_or(widest);
     let of_effects = scene.dem.effects.fastest(reach);
-    [free_fall, of_effects]
-        .into_iter()
-        .fold(start_speed, f64::max)
+    start_speed.max(free_fall).max(of_effects)
 }
 
 /// How far from the axis a sphere may get (m), if there are walls all around it.

@@ -16,7 +16,7 @@ pub enum Contact {
     Silbert(Silbert),
 }
 
-/// Does the same with the keys of any contact law.
+/// Evaluates an expression with the keys of a contact law, whichever law it is.
 macro_rules! with_keys {
     ($contact:expr, $keys:ident => $do:expr) => {
         match $contact {
@@ -105,7 +105,7 @@ impl Contact {
 
     /// As [`NormalLaw::elastic_energy`].
     pub(crate) fn elastic_energy(&self, overlap: f64, effective_radius: f64) -> f64 {
-        // Of no law does it depend on the dissipation.
+        // The mean sphere is for the dissipation, on which the elastic energy does not depend.
         with_keys!(self, keys => keys.law(1.0, 1.0).elastic_energy(overlap, effective_radius))
     }
 

@@ -22,8 +22,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Declares all effects, in the order in which they are applied, those with a potential energy
-/// first: the table of a scene file, what its
-/// keys are read into, and what it is called in profiles (nothing if it acts through others).
+/// first: the table of a scene file, what its keys are read into, and what it is called in profiles
+/// (nothing if it acts through others).
 macro_rules! effects {
     ($($(#[doc = $description:literal])+ $table:ident: $keys:ident = $name:literal,)+) => {
         /// The effects on single spheres. One that is absent does not exist in the simulation.

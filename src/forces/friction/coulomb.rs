@@ -1,7 +1,6 @@
 //! Coulomb friction, regularised at rest.
 
-use super::FrictionKeys;
-use super::{Grip, Spring, TangentialLaw, Touch, Traction};
+use super::{FrictionKeys, Grip, Spring, TangentialLaw, Touch, Traction};
 use crate::document::quantity;
 use crate::forces::contact::Collision;
 use crate::forces::limit::{Limit, Regime};

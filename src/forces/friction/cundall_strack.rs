@@ -1,7 +1,6 @@
 //! Friction by a tangential spring and dashpot.
 
-use super::FrictionKeys;
-use super::{Grip, LoadedSpring, Spring, TangentialLaw, Touch};
+use super::{FrictionKeys, Grip, LoadedSpring, Spring, TangentialLaw, Touch};
 use crate::document::quantity;
 use crate::forces::contact::{Collision, Linear};
 use crate::forces::limit::{Limit, Regime};

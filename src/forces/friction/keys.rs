@@ -27,8 +27,8 @@ pub(crate) trait FrictionKeys<C> {
     /// The law for time steps of `dt` (s).
     fn law(&self, contact: &C, dt: f64) -> Self::Law;
 
-    /// Its limit of the time step, if it has one, by the [collisions](ContactKeys::collisions) of the
-    /// contact law.
+    /// Its limit of the time step, if it has one, by the [collisions](ContactKeys::collisions) of
+    /// the contact law.
     fn limit(&self, _contact: &C, _meetings: &[Collision], _regime: &Regime<'_>) -> Option<Limit> {
         None
     }

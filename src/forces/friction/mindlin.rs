@@ -1,7 +1,6 @@
 //! Mindlin friction by increments.
 
-use super::FrictionKeys;
-use super::{LoadedSpring, Spring, TangentialLaw, Touch};
+use super::{FrictionKeys, LoadedSpring, Spring, TangentialLaw, Touch};
 use crate::document::quantity;
 use crate::forces::contact::contact_radius;
 use crate::forces::contact::{Collision, Hertz};

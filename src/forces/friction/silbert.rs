@@ -1,7 +1,6 @@
 //! The friction of Silbert et al.
 
-use super::FrictionKeys;
-use super::{Grip, LoadedSpring, Spring, TangentialLaw, Touch};
+use super::{FrictionKeys, Grip, LoadedSpring, Spring, TangentialLaw, Touch};
 use crate::document::quantity;
 use crate::forces::contact::contact_radius;
 use crate::forces::contact::{Collision, Silbert};

@@ -1,7 +1,6 @@
 //! The thesis's friction, from spins alone.
 
-use super::FrictionKeys;
-use super::{Spring, TangentialLaw, Touch, Traction};
+use super::{FrictionKeys, Spring, TangentialLaw, Touch, Traction};
 use crate::document::quantities::fraction;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
