@@ -14,10 +14,10 @@ use std::time::Duration;
 
 /// Measure what each effect and each part of the engine costs in a scene or sweep.
 ///
-/// The file is run, without leaving a record, for some seconds of processor time; what a run costs
-/// beyond these is told from them. In one step of 16 to 256 the clock is read between the parts. Of
-/// a sweep the jobs at the corners and in the middle of the grid are run, one after the other, and
-/// each stands for the jobs nearest to it.
+/// The file is run for some seconds of processor time and leaves no record. The cost of the whole
+/// run is extrapolated. The clock is read between the parts in one step out of 16 to 256. In a
+/// sweep the jobs at the corners and in the middle of the grid are run, one after the other; each
+/// stands for the jobs nearest to it.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: where the time goes in the realistic tank

@@ -64,8 +64,8 @@ pub(crate) struct Arguments {
     /// Store position, velocity and spin of every sphere at every frame.
     #[arg(short, long)]
     trajectory: bool,
-    /// Keep the books of energy: what damping and friction dissipate, the work of the air, what the
-    /// integrator gets wrong (the residual). Slower; never changes the motion.
+    /// Compute the energy balance: dissipation by damping and friction, work of the air, and the
+    /// residual (the integrator's error). Slower; never changes the motion.
     #[arg(short, long)]
     ledger: bool,
     /// Time between snapshots of all spheres (s); 0 for none but the last.
@@ -329,8 +329,8 @@ fn unmet(record: &RunRecord) -> Vec<String> {
     let mut unmet = Vec::new();
     if matches!(scene.start, Start::Feed { .. }) && !happened(MilestoneKind::Filled) {
         unmet.push(format!(
-            "NOT FILLED: {} of {all} spheres came in; the others found their place taken, or the \
-             time was up",
+            "NOT FILLED: {} of {all} spheres entered; for the others the inlet was blocked, or \
+             the run ended first",
             last(&observations.released)
         ));
     }

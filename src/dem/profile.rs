@@ -24,7 +24,7 @@ pub enum Part {
     Shield,
     /// An effect on single spheres, by its place among [`Effects::all_names`].
     Effect(usize),
-    /// The books of energy.
+    /// The energy balance.
     Ledger,
     /// Changing velocities and spins by forces and torques.
     Kick,

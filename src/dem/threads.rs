@@ -3,8 +3,8 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-/// How long a thread that is done looks whether the others are: about what it takes to wake one
-/// that went to sleep instead, of which a step of a few thousand spheres would have several.
+/// How long an idle thread spins before it sleeps: about the time to wake it. A step of a few
+/// thousand spheres would otherwise wake threads several times.
 const PATIENCE: Duration = Duration::from_micros(200);
 
 /// Does the work of each item, on the threads of the pool that runs this, if one does.

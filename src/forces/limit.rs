@@ -24,7 +24,7 @@ pub struct Limit {
 impl Limit {
     /// The consequence of coarse steps for what relaxes, such as a velocity toward the air's.
     pub(crate) const PASSES_ITS_END: Option<&str> =
-        Some("stable, but what relaxes passes its end and returns, step by step");
+        Some("stable, but relaxing velocities overshoot and oscillate from step to step");
 
     /// The consequence of coarse steps for a contact.
     pub(crate) const COARSE: Option<&str> = Some(
@@ -95,8 +95,8 @@ impl Regime<'_> {
     }
 }
 
-/// What an integrator makes of an oscillator: it stays bounded as one would of which symplectic
-/// Euler makes the same, with another damping.
+/// How stable an integrator keeps an oscillator: by the criterion of symplectic Euler, with the
+/// damping rate times a factor.
 #[derive(Clone, Copy)]
 pub(crate) struct Scheme {
     /// Factor on damping rates.

@@ -29,8 +29,8 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// The share of the run that is done: of its frames or, if that is more, of the ways of its
-    /// spheres in and out.
+    /// The completed fraction of the run: of its frames or, if larger, of the entries and exits of
+    /// its spheres.
     pub fn share(&self) -> f64 {
         let frames = self.frame as f64 / self.frames.max(1) as f64;
         self.counts

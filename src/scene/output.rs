@@ -14,7 +14,7 @@ pub struct Output {
     pub snapshot_interval: f64,
     /// Store position, velocity and spin of every sphere at every frame.
     pub trajectory: bool,
-    /// Keep the books of energy: what damping and friction dissipate, what the air does, and what
+    /// Balance the energy: what damping and friction dissipate, what the air does, and what
     /// the integrator gets wrong.
     #[serde(skip_serializing_if = "is_default")]
     pub ledger: bool,

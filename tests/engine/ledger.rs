@@ -1,4 +1,4 @@
-//! The books of energy: they close, they name what is dissipated, and they change nothing.
+//! The energy balance: it closes, it names what is dissipated, and it changes nothing.
 
 use crate::scenes::{INTEGRATORS, frictions, tank};
 use crate::support::Workplace;
@@ -77,7 +77,7 @@ fn asking_for_the_books_changes_no_bit() {
     }
 }
 
-/// What an impact loses is in the books: kinetic energy before less that after.
+/// What an impact loses is in the balance: kinetic energy before less that after.
 #[test]
 fn damping_and_friction_are_told_apart() {
     let laws = [
@@ -260,7 +260,7 @@ fn the_residual_has_the_order_of_the_integrator() {
     }
 }
 
-/// In a tank with every effect the books close: the residual is a small part of what was
+/// In a tank with every effect the balance closes: the residual is a small part of what was
 /// dissipated.
 #[test]
 fn the_books_of_a_tank_close() {
@@ -290,7 +290,7 @@ fn the_books_of_a_tank_close() {
     }
 }
 
-/// Where spheres come and go, what they bring and take is in the books.
+/// Where spheres come and go, what they bring and take is in the balance.
 #[test]
 fn the_books_of_a_silo_close() {
     for integrator in INTEGRATORS {

@@ -311,6 +311,18 @@ fn every_numeric_key_is_part_of_the_identity() {
     assert_ne!(reseeded.identity(), scene.identity());
 }
 
+/// The tests of identity look at every effect only if the file has every effect.
+#[test]
+fn the_file_of_everything_has_every_effect() {
+    let names: Vec<_> = load_scene("tests/good/everything.toml")
+        .dem
+        .effects
+        .names()
+        .collect();
+    let all: Vec<_> = phase::scene::Effects::all_names().collect();
+    assert_eq!(names, all);
+}
+
 #[test]
 fn title_and_output_are_no_part_of_the_identity() {
     let scene = load_scene("tests/good/everything.toml");

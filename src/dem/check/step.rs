@@ -57,8 +57,8 @@ impl Scene {
             Problem::new("time.dt", message).help(help)
         };
         let least = timestep::least(self).ok_or_else(|| {
-            let message = "`dt = \"auto\"` has nothing to go by: no contact at which spheres meet, \
-                           no drag, no spin damping";
+            let message =
+                "`dt = \"auto\"` finds no limit of the time step: nothing in the scene sets one";
             Problem::new("time.dt", message).help("give `dt` as a number")
         })?;
         let frame = self.time.frame_interval;
@@ -88,8 +88,8 @@ impl Scene {
         Ok(frame / steps)
     }
 
-    /// The least number of equal parts of a frame of which everything that must be a whole number
-    /// of steps is a whole number.
+    /// The least number of equal parts of a frame such that every interval that must be a whole
+    /// number of steps is a whole number of parts.
     fn parts_of_a_frame(&self) -> Option<f64> {
         let frame = self.time.frame_interval;
         let is_whole = |parts: f64| {

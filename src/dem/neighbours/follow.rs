@@ -91,8 +91,8 @@ impl VerletList {
         self.holds(particles, time, margin)
     }
 
-    /// Whether strays can be followed: of a shielding box the size follows from all spheres, and
-    /// the order of sorted ones from their cells.
+    /// Whether the list can be updated for a few strays. Not with a shield, whose box depends on
+    /// all spheres; not with sorted spheres, whose order depends on their cells.
     fn can_follow(&self) -> bool {
         self.reach == Reach::Contact && !self.sorted && self.search.may_be_replaced()
     }
@@ -101,7 +101,7 @@ impl VerletList {
     fn anchored_partners(&self, particles: &Particles, stray: usize, mut visit: impl FnMut(usize)) {
         let references = self.anchor.position();
         let (centre, radius) = (references[stray].place(), particles.radius[stray]);
-        // References are rounded, which their allowance counts for the way of a sphere alone.
+        // Both references are rounded; the allowance covers the displacement of one sphere only.
         let reach = radius + self.skin + 2.0 * self.anchor.rounding();
         let spheres = references.iter().zip(&particles.radius).enumerate();
         for (i, (reference, radius)) in spheres {

@@ -112,9 +112,9 @@ impl Glance {
     }
 }
 
-/// Bits of the spheres of radius `r` that shield partners which are so far away across and above,
-/// with a margin (m). Not a closure: those are not always inlined, and then compiled without the
-/// instruction set.
+/// Bit mask of the pairs within the shielding box of spheres of radius `r`: both horizontal
+/// distances below 2 `r` + `margin`, and `up` above -`margin` (m). Not a closure: one that is not
+/// inlined is compiled without the wide instruction set.
 #[inline(always)]
 fn within<S: Simd>(across: [f64x8<S>; 2], up: f64x8<S>, r: f64x8<S>, margin: f64) -> u64 {
     let reach = r * 2.0 + margin;

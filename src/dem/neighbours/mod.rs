@@ -308,8 +308,9 @@ impl VerletList {
     }
 }
 
-/// Calls `visit` with both spheres of every pair that may touch, and of others. Without a list of
-/// them: of a scene that nobody has looked at yet, all spheres may lie in one place, or anywhere.
+/// Calls `visit` with both spheres of every pair that may touch, and of others. Stores no list of
+/// pairs: in a scene that is not checked yet all spheres may lie in one place, and the list would
+/// be too long.
 pub fn visit_pairs(particles: &Particles, mut visit: impl FnMut(usize, usize)) {
     let length = 2.0 * particles.largest_radius();
     let mut search = Search::new(Neighbours::HashedCells { length });

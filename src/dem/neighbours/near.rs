@@ -93,8 +93,8 @@ impl Near {
         self.margin
     }
 
-    /// How far outside (m) those pairs are that a new list must know nothing of: farther than the
-    /// margin where spheres are turned first.
+    /// The distance (m) beyond which a new list may leave pairs out: more than the margin where
+    /// spheres are turned first.
     pub fn reach(&self) -> f64 {
         match self.shield {
             true => (1.0 + TURN) * self.margin,
@@ -222,7 +222,7 @@ impl Near {
         if self.shield {
             // A pair inside the box, or that comes inside, is no longer than this.
             self.half_diagonal = SQRT_2 * 2.0 * particles.largest_radius() + self.margin;
-            // Who asks for a margin asks for all of it from the beginning.
+            // A margin that is asked for must hold in full from the start.
             let life = if self.least > 0.0 { 0.0 } else { self.life };
             self.turned = self
                 .anchor

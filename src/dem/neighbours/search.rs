@@ -1,4 +1,4 @@
-//! Who may be near whom, before anybody looks at distances.
+//! The search for candidate pairs, before distances are computed.
 
 use super::cells::Cells;
 use super::hash::HashedCells;

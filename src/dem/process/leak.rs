@@ -157,9 +157,9 @@ impl Barrier {
     }
 }
 
-/// Neighbours among fixed discs whose surfaces are less than `narrow` (m) apart: by twos they make
-/// a wall. Neighbours have no other centre in the circle that their two span (Gabriel and Sokal,
-/// 1969), so that lines between them do not cut corners, and do not cross.
+/// Pairs of neighbouring fixed discs whose surfaces are less than `narrow` (m) apart: each is a
+/// segment of a wall. Two discs are neighbours if the circle whose diameter joins their centres
+/// holds no other centre (Gabriel and Sokal, 1969). So segments cut no corners and do not cross.
 pub(in crate::dem) fn wall_pairs(fixed: &[FixedSphere], narrow: f64) -> Vec<[FixedSphere; 2]> {
     let mut sorted = fixed.to_vec();
     sorted.sort_by(|a, b| a.position[0].total_cmp(&b.position[0]));

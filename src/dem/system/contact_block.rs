@@ -441,8 +441,8 @@ fn store(columns: &mut Columns, k: usize, touches: bool, vector: Vector) {
     z[k] = if_touching(touches, vector.z);
 }
 
-/// That number, or zero. A branch would be made of a plain `if`, and stores under a mask of that,
-/// which take a processor without AVX-512 some 20 cycles each.
+/// `value`, or zero. The compiler turns a plain `if` into masked stores, which take some 20 cycles
+/// each without AVX-512.
 #[inline(always)]
 fn if_touching(touches: bool, value: f64) -> f64 {
     std::hint::select_unpredictable(touches, value, 0.0)

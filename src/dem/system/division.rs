@@ -54,7 +54,7 @@ pub(super) struct ThreadContacts<'a, H> {
 }
 
 impl<H: History> Division<H> {
-    /// Candidates that many threads.
+    /// An empty division among this number of threads.
     pub(super) fn new(threads: usize) -> Self {
         let region = || Region {
             spheres: 0..0,
@@ -211,14 +211,13 @@ impl<H: History> Division<H> {
     }
 }
 
-/// The last sphere before which there are whole blocks: effects expect these wherever spheres are
-/// moved.
+/// Rounds an index down to a multiple of [`BLOCK`]: effects work on whole blocks.
 fn whole_blocks(sphere: usize) -> usize {
     sphere / BLOCK * BLOCK
 }
 
-/// Of threads, in the order of their spheres: the first contact that is too deep as one thread
-/// would find it, pairs before walls.
+/// The first contact of all threads that is too deep, in the order of a single thread: pairs before
+/// walls.
 pub(super) fn first_too_deep(
     of: impl Iterator<Item = [TooDeep; 1 + TankWall::MOST]> + Clone,
 ) -> TooDeep {

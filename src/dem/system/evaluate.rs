@@ -55,7 +55,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Evaluates all forces, kicks for these times (s), and drifts for a time (s), if one is given;
-    /// forgets the forces if they are to be cleared. Says who was too fast.
+    /// clears the forces if asked. Returns the first sphere beyond its speed limit.
     ///
     /// Where an overlap is too deep in a large scene, its spheres are moved all the same, on
     /// however many threads.

@@ -43,10 +43,10 @@ impl Before {
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Applies some effects, kicks for these times (s) and drifts for a time (s), what of these is
-    /// asked for, and forgets forces if they are to be cleared. Notes whether a sphere went farther
-    /// than the near pairs allow. Says who was too fast. Not inlined: all schemes do so several
-    /// times, and are compiled for all laws.
+    /// Applies `effects`, kicks for these times (s), drifts for a time (s), and clears the forces,
+    /// as far as each is asked for. Notes whether a sphere went farther than the near pairs allow.
+    /// Returns the first sphere beyond its speed limit. Not inlined: all schemes call it several
+    /// times, and each is compiled for all laws.
     #[inline(never)]
     pub(super) fn move_all(
         &mut self,
@@ -97,7 +97,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         found.too_fast
     }
 
-    /// v += a dt for a time (s), and the same for spins. Says who was too fast.
+    /// v += a dt for a time (s), and the same for spins. Returns the first sphere beyond its speed limit.
     pub(super) fn kick(&mut self, dt: f64) -> FirstTooFast {
         self.move_all(0..0, &[dt], None, false)
     }
@@ -107,13 +107,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.move_all(0..0, &[], Some(dt), false);
     }
 
-    /// Reports who was too fast in this step, or else in the next one, where that has begun.
+    /// Reports a sphere beyond its speed limit in this step, or else in the next one if it has begun.
     pub(super) fn check_speeds(&mut self, too_fast: FirstTooFast) -> Result<(), Instability> {
         let mut steps = (self.step.number..).zip(too_fast);
         let Some((step, it)) = steps.find_map(|(step, it)| Some((step, it?))) else {
             return Ok(());
         };
-        // What is there is of no moment before it broke.
+        // The state belongs to no whole step: the guard was broken part-way.
         (self.step.number, self.step.first_half_done) = (step, false);
         let Setup { limits, dt, .. } = &self.setup;
         Err(limits.speed_broken(step, *dt, it))
@@ -160,7 +160,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.begin_step();
         let dt = self.setup.dt;
         let too_fast = if self.ledger.is_some() {
-            // The books look at the spheres between one and the other.
+            // The energy balance looks at the spheres in between.
             self.evaluate()?;
             let too_fast = self.kick(dt);
             self.note_kick(dt);

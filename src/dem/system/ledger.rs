@@ -1,8 +1,8 @@
 //! Where the energy goes: the work of damping, of tangential forces and of the air.
 //!
 //! A kick by a force F turns v into v' and adds F (v + v') / 2 dt to the kinetic energy, exactly.
-//! So work is summed up kick by kick, from the forces that the kicks use: what the books then miss
-//! is what the scheme makes of conservative forces, not an error of the bookkeeping.
+//! So work is summed up kick by kick, from the forces that the kicks use. What the balance then
+//! misses is what the scheme makes of conservative forces, not an error of the sum.
 
 use super::candidates::Candidates;
 use super::contact_laws::ContactForce;
@@ -145,7 +145,7 @@ impl Books {
     }
 }
 
-/// The books of a system.
+/// The energy balance of a system.
 #[derive(Default)]
 pub(super) struct Ledger {
     pub(super) books: Books,

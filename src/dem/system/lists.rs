@@ -115,9 +115,9 @@ fn find_at_walls<H: History>(walls: &mut [WallContacts<H>], particles: &Particle
     }
 }
 
-/// Puts the histories of near pairs into the order of those that are near now; who is no longer
-/// near is forgotten. Both lists are sorted, so one pass over each suffices; histories move within
-/// their array, of which a second one would be most of what a large scene takes.
+/// Puts the histories of near pairs into the order of the pairs that are near now. Histories of
+/// pairs that are no longer near are dropped. Both lists are sorted, so one pass over each
+/// suffices. Histories move in place: a second array would dominate the memory of a large scene.
 fn carry_over<H: History>(before: &[NearPair], now: &[NearPair], histories: &mut Vec<H>) {
     const GONE: u32 = u32::MAX;
     let mut rest = now.iter().zip(0..).peekable();
@@ -129,8 +129,8 @@ fn carry_over<H: History>(before: &[NearPair], now: &[NearPair], histories: &mut
     let places: Vec<u32> = before.iter().map(&mut place_of).collect();
     let places = || places.iter().map(|&place| place as usize).enumerate();
     histories.resize(before.len().max(now.len()), H::default());
-    // Places grow. So those that move down, from the front, come to none that is still to move; nor
-    // then do those that move up, from the back.
+    // New places are in ascending order. Moving entries down from the front, then up from the back,
+    // overwrites no entry that has still to move.
     for (at, place) in places().filter(|(at, place)| place < at) {
         histories[place] = histories[at];
     }

@@ -61,7 +61,7 @@ pub(in crate::dem) trait Engine: Send {
     /// Divides the work of a sorted scene among this number of threads, of the pool that the engine
     /// then runs in. Returns whether it does.
     fn use_threads(&mut self, threads: usize) -> bool;
-    /// Begins to keep the books of energy; never changes the motion.
+    /// Begins to balance the energy; never changes the motion.
     fn keep_ledger(&mut self);
     /// Begins to measure what the parts of a step take; never changes the motion.
     fn keep_profile(&mut self, profile: Profile);

@@ -26,7 +26,7 @@ pub(in crate::dem) struct EngineState<'a> {
     particles: Cow<'a, Particles>,
     /// [`Histories`] of the tangential law, in bytes, as their type is that of the law.
     histories: Vec<u8>,
-    /// The books of energy, if any are kept.
+    /// The energy balance, if one is kept.
     books: Option<Cow<'a, Books>>,
 }
 
@@ -126,7 +126,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 ledger.books = books.into_owned();
             }
             (None, None) => {}
-            _ => return Err(StateError("its books of energy are others")),
+            _ => return Err(StateError("its energy balance is another")),
         }
 
         self.step.number = step;

@@ -1,14 +1,14 @@
 //! Forces and moves of a large scene in one pass through its spheres, or through those of each
 //! thread.
 //!
-//! Pairs stand in the order of their first spheres. So when those of a sphere are done, all pairs
-//! are that act on it, and no later one asks where it is: it can be moved while it is at hand. What
-//! is done to a sphere, and in which order, is the same as if all forces came first.
+//! Pairs are sorted by their first spheres. Once the pairs of a sphere are done, no later pair
+//! reads its position: it can be moved while it is in the cache. What is done to a sphere, and in
+//! which order, is the same as if all forces came first.
 //!
-//! Threads do not ask where spheres of the others are, which have been moved or not: pairs across a
-//! boundary are computed of copies of the spheres around it, and so are all pairs of a thread's
-//! spheres from the first one on that has such a pair with a later one, as a block of pairs reads
-//! its partners in one place.
+//! A thread never reads the spheres of another thread, which may have moved already. Pairs across a
+//! boundary read copies of the spheres around it. So do all pairs of a thread from the first sphere
+//! on that has a partner in a later thread, because a block of pairs reads its partners from one
+//! array.
 
 use super::System;
 use super::contact_task::{ContactSettings, ContactSlice, ContactTask, TooDeep};
@@ -60,8 +60,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Adds up all forces, with near pairs that hold, then kicks for these times (s), drifts for a
-    /// time (s), and forgets the forces. Says who was too fast, and notes whether a contact is too
-    /// deep.
+    /// time (s), and clears the forces. Returns the first sphere beyond its speed limit, and notes
+    /// whether a contact is too deep.
     pub(super) fn stream(&mut self, kicks: &[f64], drift: f64) -> FirstTooFast {
         if !std::mem::replace(&mut self.step.forces_are_zero, true) {
             self.particles.clear_forces();

@@ -20,7 +20,7 @@ pub(super) fn come_from_far<H>(histories: &[H]) -> bool {
     size_of_val(histories) > CACHES
 }
 
-/// As lanes are written whole, some are written in vain.
+/// Results are written eight at a time, so the last group needs extra room.
 const ROOM: usize = LOOK + ROWS;
 
 /// Contacts that touch, in the order of their list; or all, where few do not.
@@ -218,7 +218,7 @@ fn send_for<H>(histories: &[H], first: usize) {
     }
 }
 
-/// Writes down the entries of those pairs that are to be kept, of which the first has that one.
+/// Writes the entries of the pairs that `which` selects; `first` is the entry of the first pair.
 #[inline(always)]
 fn keep_entries<S: Simd>(simd: S, first: usize, which: u64, list: &mut [u32]) {
     let mut entries = [0; ROWS];

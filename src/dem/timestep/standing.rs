@@ -15,7 +15,7 @@ pub struct Standing {
 impl Standing {
     /// Above this share of a decisive limit there is a warning. A spring then has w dt > 1 and
     /// swings 5 % too fast, 2 asin(w dt / 2) > pi/3 instead of 1; a relaxation at the rate g has
-    /// g dt > 1 and passes its end.
+    /// g dt > 1 and overshoots.
     pub const CAUTION: f64 = 0.5;
 
     /// How a scene's step stands to each of its limits, in the order of [`limits`].

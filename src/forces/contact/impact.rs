@@ -39,8 +39,8 @@ impl Impact {
         time_scale(self.effective_mass, self.stiffness, self.speed)
     }
 
-    /// The impact that ends like the release of such a pair at rest from an overlap (m): that is
-    /// where it is deepest.
+    /// The impact whose deepest overlap is `overlap` (m). It rebounds like a pair that is released
+    /// at rest from there.
     pub fn from_overlap(self, overlap: f64) -> Self {
         let speed_squared = 0.8 * self.stiffness * overlap * overlap * overlap.sqrt();
         Self {

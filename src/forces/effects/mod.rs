@@ -22,8 +22,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Declares all effects, in the order in which they are applied, those with a potential energy
-/// first: the table of a scene file, what its keys are read into, and what it is called in profiles
-/// (nothing if it acts through others).
+/// first: the table of a scene file, the type of its keys, and its name in profiles (empty if only
+/// other effects use it, as they use the drag law).
 macro_rules! effects {
     ($($(#[doc = $description:literal])+ $table:ident: $keys:ident = $name:literal,)+) => {
         /// The effects on single spheres. One that is absent does not exist in the simulation.
@@ -37,7 +37,7 @@ macro_rules! effects {
         }
 
         impl Effects {
-            /// What they are called; nothing if they act through others.
+            /// Their names in profiles; empty for tables that only other effects use.
             const NAMES: &[&str] = &[$($name),+];
 
             /// Their keys in the same order.
@@ -66,10 +66,11 @@ pub(crate) type PlacedEffect = (usize, Box<dyn Effect>);
 
 /// The table of an effect in a scene.
 pub(crate) trait EffectKeys {
-    /// The effect on spheres of these radii (m); none of a table that acts through `all` others.
+    /// The effect on spheres of these radii (m); none if only others of `all` effects use the table.
     fn effect(&self, all: &Effects, radii: &[f64]) -> Option<Box<dyn Effect>>;
 
-    /// Its limit of the time step, if it has one.
+    /// Its limit of the time step, if it has one. Limits are not summed: an effect that relaxes what
+    /// another relaxes too must count the other's rate in.
     fn limit(&self, _all: &Effects, _regime: &Regime<'_>) -> Option<Limit> {
         None
     }

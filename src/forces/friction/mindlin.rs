@@ -54,9 +54,9 @@ impl FrictionKeys<Hertz> for Mindlin {
     }
 }
 
-/// MindlinLaw's tangential stiffness k_t = 8 G* sqrt(R_eff xi) on a contact that sticks, loaded and
+/// Mindlin's tangential stiffness k_t = 8 G* sqrt(R_eff xi) on a contact that sticks, loaded and
 /// unloaded by increments of the sliding displacement, df = -k_t du, and capped at mu F_n; G* = G /
-/// (2 (2 - nu)) for equal materials (MindlinLaw, J. Appl. Mech. 16, 259 (1949); Chung and Ooi,
+/// (2 (2 - nu)) for equal materials (Mindlin, J. Appl. Mech. 16, 259 (1949); Chung and Ooi,
 /// Granular Matter 13, 643 (2011)).
 ///
 /// The force of a spring that holds still stays when the normal force falls, although its

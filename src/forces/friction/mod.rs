@@ -131,8 +131,8 @@ pub trait History: Copy + Default + Send + Sync + Serialize + DeserializeOwned {
         Self::of_spring(Spring { force })
     }
 
-    /// Whether it is that of a new contact, by its bits: to whom zero and minus zero are equal may
-    /// not be for the motion.
+    /// Whether the contact is new. Compares bits: 0 and -0 are equal numbers, but may lead to
+    /// different motions.
     fn is_new(self) -> bool {
         let Vector { x, y, z, .. } = self.spring().force;
         [x, y, z].iter().all(|value| value.to_bits() == 0)

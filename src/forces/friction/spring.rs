@@ -12,7 +12,7 @@ pub struct Spring {
     pub(crate) force: Vector,
 }
 
-/// Of the squares of two forces (N4): those of a spring of 1e-70 N.
+/// The least product of two squared forces (N4) that counts: that of two forces of 1e-70 N.
 const LEAST_PRODUCT: f64 = 1e-280;
 
 impl Spring {

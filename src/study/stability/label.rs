@@ -50,16 +50,16 @@ impl Label {
     }
 }
 
-/// The largest energy that came out of nothing until a frame, over what there was to come from: the
-/// residual of the books over the larger of two energies.
+/// The largest spurious gain of energy up to a frame, relative: the residual of the energy balance
+/// over the larger of two reference energies.
 ///
 /// The first is the largest sum of the kinetic, rotational and elastic energies and of the
 /// tangential springs of the frames so far. An instability cannot hide behind its own growth: the
 /// sum then grows with the residual, and their ratio tends to 1. The second is the sum of m g r,
-/// what lifts each sphere by its radius: spheres at rest hold next to no energy, of which errors
-/// that nobody sees would be many times as much.
+/// what lifts each sphere by its radius: spheres at rest have almost no energy, and negligible
+/// errors would exceed it many times.
 ///
-/// Zero if energy was only lost. Needs a record with the books of energy.
+/// Zero if energy was only lost. Needs a record with the energy balance.
 pub fn energy_gain(record: &RunRecord) -> f64 {
     let gravity = record.scene.dem.effects.gravity.as_ref();
     let acceleration = gravity.map_or(0.0, |gravity| gravity.acceleration);

@@ -160,10 +160,7 @@ fn check_study(file: &StudyFile, axes: &[Axis], problems: &mut Vec<Problem>) {
             problems.push(problem.help("choose another `name`"));
         }
         if ["time.frame_interval", "time.duration"].contains(&axis.key.as_str()) {
-            let message = format!(
-                "`{}` follows from the study, and is no axis of it",
-                axis.key
-            );
+            let message = format!("the study sets `{}`, so it cannot be an axis", axis.key);
             let problem = Problem::new(format!("{path}.key"), message);
             problems.push(problem.help("choose another key, such as `time.dt`"));
         }

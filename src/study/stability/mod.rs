@@ -60,7 +60,7 @@ impl Study {
     }
 
     /// The scene that is run at a point with an integrator. It lasts the duration of the study's
-    /// scene but for rounding to whole steps and frames, keeps the books of energy, and stores
+    /// scene but for rounding to whole steps and frames, balances the energy, and stores
     /// nothing else.
     ///
     /// # Errors
@@ -91,7 +91,7 @@ impl Study {
     }
 }
 
-/// What a run of a study stores: the books of energy and nothing else.
+/// What a run of a study stores: the energy balance and nothing else.
 fn output() -> Output {
     Output {
         snapshot_interval: 0.0,

@@ -27,9 +27,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// group of touching spheres by itself: the others move in one go. What acts besides contacts
     /// is taken from the middle of the whole step.
     ///
-    /// A sphere belongs to a group if it touches another one or might within the step, as far as it
-    /// may get. One that gets farther, because another one knocked it or its contacts threw it, has
-    /// the step done again with as much room as it takes. So no contact begins unseen.
+    /// A sphere belongs to a group if it touches another one or might within the step, by its
+    /// predicted displacement. If contacts move a sphere farther, the step is repeated with twice
+    /// that distance. So no contact is missed.
     pub(super) fn adaptive_verlet(&mut self) -> Result<(), Instability> {
         let mut work = std::mem::take(&mut self.workspace);
         let result = self.adaptive_step(&mut work);

@@ -9,8 +9,8 @@ use crate::particles::vector::Vector;
 /// and damping rate g: an impact then lasts 27 sub-steps or more.
 const RESOLUTION: f64 = 0.15;
 
-/// What a sphere may get farther than its speed and the slow forces take it before its step is done
-/// again, in radii: what contacts move it by where the step resolves them.
+/// Tolerance on a sphere's displacement beyond the prediction from its speed and the slow forces,
+/// in radii. Beyond it the step is repeated; contacts that the step resolves stay within it.
 const LEEWAY: f64 = 1e-4;
 
 /// What a step of the scheme works with; nothing of it is needed from step to step.
