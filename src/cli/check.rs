@@ -1,16 +1,17 @@
 //! `phase check`: validates a file and says what would run.
 
+mod accuracy;
 mod study;
 mod walls;
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::time_step::{self, Tightest, tightest_limits};
-use super::{classify, format, job, kind};
+use super::{classify, format, job};
 use phase::cost::{Forecast, Leaves, forecast};
 use phase::dem::timestep::{Limit, Standing};
 use phase::scene::{FileKind, Scene, Start, Tank};
-use phase::study::AnyFile;
+use phase::study::{AnyFile, AnyStudy};
 use phase::sweep::{Axis, Job, Sweep, describe, work};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -45,9 +46,14 @@ pub(crate) struct Arguments {
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
     let (sweep, kind) = match AnyFile::load(&arguments.file).map_err(Failure::refused)? {
-        AnyFile::Scene(scene) => (kind::sweep_of_one(*scene), FileKind::Scene),
+        AnyFile::Scene(scene) => (Sweep::of_scene(*scene), FileKind::Scene),
         AnyFile::Sweep(sweep) => (*sweep, FileKind::Sweep),
-        AnyFile::Study(study) => return study::main(&study, arguments, workers, console),
+        AnyFile::Study(AnyStudy::Stability(study)) => {
+            return study::main(&study, arguments, workers, console);
+        }
+        AnyFile::Study(AnyStudy::Accuracy(study)) => {
+            return accuracy::main(&study, arguments, workers, console);
+        }
     };
     let jobs = sweep.jobs().map_err(Failure::refused)?;
     if kind == FileKind::Sweep {

@@ -37,7 +37,7 @@ pub(crate) fn rate(value: f64) -> String {
 }
 
 /// A number to three digits, with a decimal prefix before the unit.
-fn with_prefix(value: f64, unit: &str) -> String {
+pub(crate) fn with_prefix(value: f64, unit: &str) -> String {
     let prefixes = [(1e12, "T"), (1e9, "G"), (1e6, "M"), (1e3, "k")];
     let Some((scale, prefix)) = prefixes.into_iter().find(|(scale, _)| value >= *scale) else {
         return format!("{value:.0} {}", unit.trim_start());

@@ -1,33 +1,20 @@
 //! Files of a kind, as the subcommands ask for them.
 
 use super::exit::Failure;
-use phase::classify::Sieves;
-use phase::scene::{FileKind, Scene};
+use phase::scene::FileKind;
 use phase::study::AnyFile;
-use phase::sweep::{PlotSettings, Sweep};
+use phase::sweep::Sweep;
 use std::path::Path;
 
 /// Reads a scene or a sweep, a scene as the sweep of just one; and which it is.
 pub(super) fn load_scene_or_sweep(file: &Path) -> Result<(Sweep, FileKind), Failure> {
     match AnyFile::load(file).map_err(Failure::refused)? {
-        AnyFile::Scene(scene) => Ok((sweep_of_one(*scene), FileKind::Scene)),
+        AnyFile::Scene(scene) => Ok((Sweep::of_scene(*scene), FileKind::Scene)),
         AnyFile::Sweep(sweep) => Ok((*sweep, FileKind::Sweep)),
         AnyFile::Study(_) => Err(Failure::refused(format_args!(
             "{}: this is a study, neither a scene nor a sweep; `phase check {0}` says what it \
              costs",
             file.display()
         ))),
-    }
-}
-
-/// The sweep of just one scene.
-pub(super) fn sweep_of_one(scene: Scene) -> Sweep {
-    Sweep {
-        title: None,
-        axes: Vec::new(),
-        seeds: vec![scene.seed],
-        scene,
-        sieves: Sieves::default(),
-        plot: PlotSettings::default(),
     }
 }

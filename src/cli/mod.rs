@@ -1,5 +1,7 @@
 //! The command line: one file per subcommand.
 
+mod ablate;
+mod accuracy;
 mod builds;
 mod check;
 mod classify;
@@ -23,6 +25,7 @@ mod run;
 mod schema;
 mod stability;
 mod status;
+mod study;
 mod sweep;
 mod time_step;
 mod verify;
@@ -86,6 +89,8 @@ enum Command {
     Cost(cost::Arguments),
     Neighbours(neighbours::Arguments),
     Stability(stability::Arguments),
+    Accuracy(accuracy::Arguments),
+    Ablate(ablate::Arguments),
     Status(status::Arguments),
     Verify(verify::Arguments),
     New(new::Arguments),
@@ -108,7 +113,9 @@ impl Command {
             Self::Check(arguments) => arguments.json,
             Self::Cost(arguments) => arguments.json,
             Self::Neighbours(arguments) => arguments.json,
-            Self::Stability(arguments) => arguments.json,
+            Self::Stability(arguments) => arguments.options.json,
+            Self::Accuracy(arguments) => arguments.options.json,
+            Self::Ablate(arguments) => arguments.options.json,
             Self::Status(arguments) => arguments.json,
             Self::Verify(arguments) => arguments.json,
             _ => false,
@@ -157,6 +164,8 @@ pub(crate) fn main() -> ExitCode {
         Command::Cost(arguments) => cost::main(&arguments, &console),
         Command::Neighbours(arguments) => neighbours::main(&arguments, &console),
         Command::Stability(arguments) => stability::main(&arguments, &console),
+        Command::Accuracy(arguments) => accuracy::main(&arguments, &console),
+        Command::Ablate(arguments) => ablate::main(&arguments, &console),
         Command::Status(arguments) => status::main(&arguments, &console),
         Command::Verify(arguments) => verify::main(&arguments, &console),
         Command::New(arguments) => new::main(&arguments, &console),

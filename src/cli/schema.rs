@@ -24,6 +24,8 @@ enum Kind {
     Sweep,
     /// A study of stability: a scene, and the two keys over which integrators are tried.
     Stability,
+    /// A study of accuracy: a scene or sweep, and the settings whose cost and error are measured.
+    Accuracy,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
@@ -31,6 +33,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         Kind::Scene => File::Scene,
         Kind::Sweep => File::Sweep,
         Kind::Stability => File::Stability,
+        Kind::Accuracy => File::Accuracy,
     };
     console.result(format_args!("{:#}", reference::schema(file)));
     Ok(Exit::Done)

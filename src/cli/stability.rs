@@ -1,19 +1,17 @@
 //! `phase stability`: where integrators are stable over two keys of a scene.
 
-use super::console::{Console, name_first};
+use super::console::Console;
 use super::exit::{Exit, Failure};
-use super::progress::{Progress, Work};
-use super::{builds, folders, format, interrupt, job, plot, sweep};
+use super::study::{self, Place, Tally};
+use super::{builds, plot};
 use phase::plot::stability as figure;
 use phase::record::{Program, RunRecord};
 use phase::scene::Integrator;
-use phase::store;
 use phase::study::stability::{self, Label, Report, Row, Study, Trials};
-use phase::sweep::{Event, Folder, FolderError, Job, describe, work};
+use phase::sweep::{Job, describe};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
+use std::path::PathBuf;
 
 /// Try integrators over two keys of a scene, such as time step and stiffness: a phase diagram of
 /// the numerics.
@@ -31,68 +29,49 @@ each row) and the figure as SVG and PNG.")]
 pub(crate) struct Arguments {
     /// The study file (TOML).
     file: PathBuf,
-    /// The results folder [default: results/NAME, the study file's name without .toml].
-    #[arg(short, long, value_name = "DIR")]
-    out: Option<PathBuf>,
-    /// Runs at the same time [default: all cores].
-    #[arg(short, long, value_name = "N", value_parser = sweep::at_least_one)]
-    jobs: Option<usize>,
-    /// Make every run again, whatever the table holds.
-    #[arg(short, long)]
-    force: bool,
-    /// Draw no figure.
-    #[arg(long)]
-    no_plot: bool,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
+    #[command(flatten)]
+    pub(super) options: study::Options,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let study = stability::load(&arguments.file).map_err(Failure::refused)?;
     let jobs = study.jobs().map_err(Failure::refused)?;
-    let root = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| sweep::default_folder(&arguments.file));
-    let stop = interrupt::stop_on_signal(console)?;
-    folders::make(&root)?;
-    let folder = Folder::new(&root);
-    let _lock = folder.lock().map_err(|error| match error {
-        FolderError::Locked(_) => Failure::refused(error),
-        _ => Failure::failed(error),
-    })?;
-    store::remove_leftovers(&root).map_err(Failure::failed)?;
-    let table = root.join("stability.csv");
-    folders::refuse_to_replace(&table, "a table of stability", b"integrator,")?;
-    let known = if arguments.force {
-        Vec::new()
-    } else {
-        stability::read_stability(&study.axes, &table).map_err(Failure::refused)?
+    let options = &arguments.options;
+    let signature = ("stability.csv", "a table of stability", &b"integrator,"[..]);
+    let place = Place::open(&arguments.file, options, signature, console)?;
+    let table = place.file(signature.0);
+    let known = match options.force {
+        true => Vec::new(),
+        false => stability::read_stability(&study.axes, &table).map_err(Failure::refused)?,
     };
     let trials = Trials {
         study: &study,
         jobs: &jobs,
         table: &table,
-        workers: arguments.jobs.unwrap_or_else(work::default_workers),
-        stop,
+        workers: options.workers(),
+        stop: place.stop,
         watch: &|_| {},
     };
     let (report, seconds) = run(&trials, known, console)?;
     let tried = Tried::all(&study, &report.rows);
-    print(&study, &tried, &report, seconds, console)?;
-    let interrupted = stop.load(Ordering::Relaxed) && report.left > 0;
-    console.file(&table);
-    if !interrupted && !arguments.no_plot {
-        draw(&study, &report.rows, &root, console)?;
-    }
-    let exit = match (interrupted, report.failures.is_empty()) {
-        (true, _) => Exit::Interrupted,
-        (false, true) => Exit::Done,
-        (false, false) => Exit::Failed,
+    let tally = Tally {
+        all: report.rows.len() + report.left,
+        made: report.rows.len() - report.known,
+        known: report.known,
+        left: report.left,
+        failures: &report.failures,
+        seconds,
+        cpu_seconds: report.cpu_seconds,
     };
+    tally.print(&study.axes, console);
+    tried.iter().for_each(|tried| console.result(tried.line()));
+    let interrupted = place.is_interrupted(report.left);
+    console.file(&table);
+    if !interrupted && !options.no_plot {
+        draw(&study, &report.rows, &place, console)?;
+    }
     console.answer(&Answer {
-        folder: root,
+        folder: place.folder.root().to_owned(),
         runs: jobs.len(),
         done_before: report.known,
         run_now: report.rows.len() - report.known,
@@ -105,7 +84,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         integrators: tried,
         files: console.files(),
     });
-    Ok(exit)
+    Ok(place.exit(report.left, report.failures.len()))
 }
 
 /// What `--json` prints.
@@ -191,26 +170,10 @@ impl Tried {
 
 /// Runs what is left of a study; and how long that took (s).
 fn run(trials: &Trials<'_>, known: Vec<Row>, console: &Console) -> Result<(Report, f64), Failure> {
-    let is_known = |job: &&Job| known.iter().any(|row| row.id == job.id);
-    let done = trials.jobs.iter().filter(is_known);
-    let (jobs_done, steps_done) =
-        done.fold((0, 0), |(jobs, sum), job| (jobs + 1, sum + job.work()));
-    if jobs_done > 0 {
-        let runs = format::count(trials.jobs.len(), "run");
-        console.note(format_args!("{jobs_done} of {runs} are done already"));
-        let makers = stability::read_makers(trials.table).map_err(Failure::refused)?;
-        let done = trials.jobs.iter().filter(is_known);
-        builds::tell_of_others("row", done.map(|job| makers.get(&job.id)), console);
-    }
-    let progress = Progress::new(
-        console,
-        Work {
-            jobs: trials.jobs.len(),
-            jobs_done,
-            steps: trials.jobs.iter().map(Job::work).sum(),
-            steps_done,
-        },
-    );
+    let is_known = |job: &Job| known.iter().any(|row| row.id == job.id);
+    let makers = stability::read_makers(trials.table).map_err(Failure::refused)?;
+    let done = trials.jobs.iter().filter(|job| is_known(job));
+    builds::tell_of_others("row", done.map(|job| makers.get(&job.id)), console);
     let name = |job: &Job| {
         let point = describe(&trials.study.axes, &job.values, job.seed);
         format!("{}, {point}", job.scene.time.integrator.name())
@@ -219,53 +182,20 @@ fn run(trials: &Trials<'_>, known: Vec<Row>, console: &Console) -> Result<(Repor
         let row = trials.study.row(job, record);
         format!("{}: {}", row.label.name(), name(job))
     };
-    let watch = |event: Event<'_>| job::tell(event, &progress, &name, &ended);
-    let trials = Trials {
-        watch: &watch,
-        ..*trials
-    };
-    let report = trials.run(known);
-    let seconds = progress.finish();
+    let rows = known.clone();
+    let (report, seconds) =
+        study::with_progress(trials.jobs, &is_known, &name, &ended, console, |watch| {
+            let trials = Trials { watch, ..*trials };
+            trials.run(rows)
+        });
     Ok((report.map_err(Failure::failed)?, seconds))
 }
 
-fn print(
-    study: &Study,
-    tried: &[Tried],
-    report: &Report,
-    seconds: f64,
-    console: &Console,
-) -> Result<(), Failure> {
-    console.result(format_args!(
-        "{}: {} made now in {}, {} of CPU time, {} before, {} left",
-        format::count(report.rows.len() + report.left, "run"),
-        report.rows.len() - report.known,
-        format::duration(seconds),
-        format::duration(report.cpu_seconds),
-        report.known,
-        report.left
-    ));
-    for tried in tried {
-        console.result(tried.line());
-    }
-    let failures = report.failures.iter().map(|failure| {
-        let point = describe(&study.axes, &failure.values, failure.seed);
-        format!("{point}: {}", failure.reason)
-    });
-    name_first(&failures.collect::<Vec<_>>(), |name| {
-        console.error(format_args!("failed: {name}"));
-    });
-    if report.left > 0 {
-        console.note("interrupted. Go on with the same command");
-    }
-    Ok(())
-}
-
-fn draw(study: &Study, rows: &[Row], root: &Path, console: &Console) -> Result<(), Failure> {
+fn draw(study: &Study, rows: &[Row], place: &Place, console: &Console) -> Result<(), Failure> {
     let figure = figure::draw(study, rows, &Program::current()).map_err(Failure::failed)?;
     plot::write(
         &figure,
-        |end| root.join(format!("stability.{end}")),
+        |end| place.file(&format!("stability.{end}")),
         console,
     )
 }

@@ -57,6 +57,10 @@ pub(crate) enum Kind {
     Tagged(String, Vec<Variant>),
     /// Any of several kinds, told apart by their TOML type.
     Either(Vec<Kind>),
+    /// Anything: what it must be depends on other keys.
+    Any,
+    /// A table of any keys: what they may be depends on other keys.
+    AnyTable,
 }
 
 /// Which numbers are allowed.
@@ -139,6 +143,8 @@ impl Kind {
                 let kinds: Vec<String> = kinds.iter().map(Self::words).collect();
                 kinds.join(", or ")
             }
+            Self::Any => "any value".to_owned(),
+            Self::AnyTable => "a table".to_owned(),
         }
     }
 
@@ -173,7 +179,8 @@ impl Kind {
                 Some([]) => true,
                 None => false,
             },
-            Self::Table(_) | Self::Tagged(..) => value.is_object(),
+            Self::Table(_) | Self::Tagged(..) | Self::AnyTable => value.is_object(),
+            Self::Any => !value.is_null(),
             Self::Either(kinds) => kinds.iter().any(|kind| kind.fits_type_of(value)),
         }
     }

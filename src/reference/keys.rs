@@ -20,6 +20,7 @@ pub fn keys() -> String {
             File::Scene => "Scene files",
             File::Sweep => "Sweep files",
             File::Stability => "Studies of stability",
+            File::Accuracy => "Studies of accuracy",
         };
         page.0 += &format!("\n## {heading}\n\n");
         page.tables("", &file.schema().kind);
@@ -56,7 +57,9 @@ impl Page {
             | Kind::Number(_)
             | Kind::Whole(_)
             | Kind::Choice(_)
-            | Kind::Vector => {}
+            | Kind::Vector
+            | Kind::Any
+            | Kind::AnyTable => {}
         }
     }
 

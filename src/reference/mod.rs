@@ -9,6 +9,7 @@ pub use notation::notation;
 
 use crate::document::Schema;
 use crate::scene::SCENE;
+use crate::study::accuracy::ACCURACY;
 use crate::study::stability::STUDY;
 use crate::sweep::SWEEP;
 use serde_json::{Value, json};
@@ -22,11 +23,13 @@ pub enum File {
     Sweep,
     /// A scene, and the two keys over which integrators are tried.
     Stability,
+    /// A scene or sweep, and the settings whose cost and error are measured.
+    Accuracy,
 }
 
 impl File {
     /// All kinds of files.
-    pub const ALL: [Self; 3] = [Self::Scene, Self::Sweep, Self::Stability];
+    pub const ALL: [Self; 4] = [Self::Scene, Self::Sweep, Self::Stability, Self::Accuracy];
 
     /// Name, as on the command line and in file names.
     pub fn name(self) -> &'static str {
@@ -34,6 +37,7 @@ impl File {
             Self::Scene => "scene",
             Self::Sweep => "sweep",
             Self::Stability => "stability",
+            Self::Accuracy => "accuracy",
         }
     }
 
@@ -42,6 +46,7 @@ impl File {
             Self::Scene => &SCENE,
             Self::Sweep => &SWEEP,
             Self::Stability => &STUDY,
+            Self::Accuracy => &ACCURACY,
         }
     }
 }
@@ -53,5 +58,31 @@ impl File {
 pub fn schema(file: File) -> Value {
     let mut schema = file.schema().json.clone();
     schema["title"] = json!(format!("phase {} file", file.name()));
+    need_times_without_accuracy(&mut schema);
     schema
+}
+
+/// Keys of `time` that the key `accuracy` of a scene chooses.
+const CHOSEN: [&str; 2] = ["dt", "frame_interval"];
+
+/// Makes keys of `time` needed in scenes without `accuracy` only. The program chooses them before
+/// it checks keys, so that its own table of keys has them as needed.
+fn need_times_without_accuracy(schema: &mut Value) {
+    match schema {
+        Value::Array(entries) => entries.iter_mut().for_each(need_times_without_accuracy),
+        Value::Object(table) => {
+            table.values_mut().for_each(need_times_without_accuracy);
+            let properties = table.get_mut("properties").and_then(Value::as_object_mut);
+            let Some(properties) = properties.filter(|it| it.contains_key("accuracy")) else {
+                return;
+            };
+            let needed = properties["time"]["required"].as_array_mut();
+            let Some(needed) = needed else { return };
+            needed.retain(|key| !CHOSEN.iter().any(|chosen| key == chosen));
+            table.insert("if".to_owned(), json!({ "not": { "required": ["accuracy"] } }));
+            let then = json!({ "properties": { "time": { "required": CHOSEN } } });
+            table.insert("then".to_owned(), then);
+        }
+        _ => {}
+    }
 }

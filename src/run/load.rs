@@ -2,7 +2,7 @@
 
 use crate::dem::SAFETY_FACTOR;
 use crate::document::{Document, LoadError, Problem};
-use crate::scene::{AUTO, FileKind, SCENE, Scene};
+use crate::scene::{AUTO, Accuracy, FileKind, SCENE, Scene};
 use serde_json::Value;
 use std::path::Path;
 
@@ -77,12 +77,12 @@ pub(crate) fn base_of_tree(
     folder: &Path,
     reading: Reading,
 ) -> Result<Scene, Vec<Problem>> {
-    let mut problems = Vec::new();
-    SCENE.kind.check(tree, "", &mut problems);
+    let mut tree = tree.clone();
+    let mut problems = Accuracy::choose_settings(&mut tree);
+    SCENE.kind.check(&tree, "", &mut problems);
     if !problems.is_empty() {
         return Err(problems);
     }
-    let mut tree = tree.clone();
     let is_auto = tree["time"]["dt"] == AUTO;
     if is_auto {
         // Any number, until the scene is there that one follows from.

@@ -54,6 +54,7 @@ impl Scene {
             tank,
             start,
             dem,
+            accuracy: _,
             time,
             output: _,
         } = self;

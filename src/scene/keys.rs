@@ -179,7 +179,7 @@ fn collect(
                 push(format!("{path}[{index}]"), &COMPONENT, None);
             }
         }
-        Kind::Text | Kind::Flag | Kind::Choice(_) => {}
+        Kind::Text | Kind::Flag | Kind::Choice(_) | Kind::Any | Kind::AnyTable => {}
     }
 }
 

@@ -5,6 +5,7 @@
 //! angles in radians, z up; the tank's axis is the z axis. An effect whose table
 //! is absent from the file does not exist in the simulation.
 
+mod accuracy;
 mod dem;
 mod file_kind;
 mod files;
@@ -20,6 +21,7 @@ mod tree;
 mod validate;
 mod vary;
 
+pub use accuracy::Accuracy;
 pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
     Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Drag, DragForm, DragLaw, Effects,
@@ -70,6 +72,11 @@ pub struct Scene {
     /// What the discrete element model needs besides.
     #[serde(flatten)]
     pub dem: DemScene,
+    /// How accurate the numerics are to be: chooses `integrator`, `dt = "auto"` with its
+    /// `safety_factor`, and `frame_interval` of `time`, those of them that the file does not say. A
+    /// scene that runs has what was chosen, and no word here.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
     /// Time step, duration, frames, integrator.
     pub time: Time,
     /// What is stored besides the observables of every frame. Never changes the motion.
@@ -108,6 +115,7 @@ impl Scene {
             tank: None,
             start,
             dem: DemScene::default(),
+            accuracy: None,
             time,
             output: Output::default(),
         }

@@ -1,5 +1,7 @@
 //! A file that may be a scene, a sweep or a study.
 
+use super::StudyName;
+use super::accuracy::{self, AccuracyStudy};
 use super::stability::{self, Study};
 use crate::document::{Document, LoadError};
 use crate::run::{self, Reading};
@@ -14,8 +16,17 @@ pub enum AnyFile {
     Scene(Box<Scene>),
     /// A sweep.
     Sweep(Box<Sweep>),
-    /// A study of stability.
-    Study(Box<Study>),
+    /// A study.
+    Study(AnyStudy),
+}
+
+/// A study of any kind.
+#[derive(Clone, Debug)]
+pub enum AnyStudy {
+    /// Of stability.
+    Stability(Box<Study>),
+    /// Of accuracy.
+    Accuracy(Box<AccuracyStudy>),
 }
 
 impl AnyFile {
@@ -30,7 +41,18 @@ impl AnyFile {
                 Self::Scene(Box::new(run::base_of_document(&document, Reading::RUN)?))
             }
             FileKind::Sweep => Self::Sweep(Box::new(sweep::of_document(&document)?)),
-            FileKind::Study => Self::Study(Box::new(stability::of_document(&document)?)),
+            FileKind::Study => Self::Study(AnyStudy::of_document(&document)?),
+        })
+    }
+}
+
+impl AnyStudy {
+    fn of_document(document: &Document) -> Result<Self, LoadError> {
+        Ok(match StudyName::of(document) {
+            Some(StudyName::Accuracy) => {
+                Self::Accuracy(Box::new(accuracy::of_document(document)?))
+            }
+            _ => Self::Stability(Box::new(stability::of_document(document)?)),
         })
     }
 }

@@ -54,7 +54,7 @@ pub(crate) fn or_path(schema: &mut schemars::Schema) {
 
 /// Seeds as a sweep file writes them: a list, or the first and their number.
 #[derive(Deserialize, JsonSchema)]
-struct SeedsEntry {
+pub(crate) struct SeedsEntry {
     /// The first seed (default 1); the others follow.
     first: Option<u64>,
     /// Number of seeds (default 1).
@@ -162,7 +162,11 @@ pub(crate) fn expand_axes(
     axes
 }
 
-fn expand_seeds(entry: Option<&SeedsEntry>, problems: &mut Vec<Problem>) -> Vec<u64> {
+/// The seeds of a file; seed 1 alone if it says nothing.
+pub(crate) fn expand_seeds(
+    entry: Option<&SeedsEntry>,
+    problems: &mut Vec<Problem>,
+) -> Vec<u64> {
     match entry {
         None => vec![1],
         Some(SeedsEntry {
@@ -208,7 +212,8 @@ fn expand_seeds(entry: Option<&SeedsEntry>, problems: &mut Vec<Problem>) -> Vec<
     }
 }
 
-fn check_number_of_axes(axes: &[Axis], problems: &mut Vec<Problem>) {
+/// A sweep has so many axes at most.
+pub(crate) fn check_number_of_axes(axes: &[Axis], problems: &mut Vec<Problem>) {
     if axes.len() > MOST_AXES {
         let message = format!("{} axes are too many", axes.len());
         let problem = Problem::new(format!("axis[{MOST_AXES}]"), message);

@@ -27,8 +27,8 @@ pub use job::{Job, PointError};
 pub(crate) use job::{PointScenes, grid, points};
 pub use labelling::{Labelled, Labelling, LabellingError, Since, refuse_to_lose_labels};
 pub(crate) use load::{
-    SWEEP, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes, of_document,
-    or_path,
+    SWEEP, SeedsEntry, base_scene, check_axes, check_jobs, check_number_of_axes, check_points,
+    check_steps, expand_axes, expand_seeds, of_document, or_path,
 };
 pub use load::{from_str, load};
 pub use plan::{Done, ForeignRecord, Plan, Standing};
@@ -59,6 +59,20 @@ pub struct Sweep {
     pub sieves: Sieves,
     /// What the phase diagram shows.
     pub plot: PlotSettings,
+}
+
+impl Sweep {
+    /// The sweep of just one scene.
+    pub fn of_scene(scene: Scene) -> Self {
+        Self {
+            title: None,
+            axes: Vec::new(),
+            seeds: vec![scene.seed],
+            scene,
+            sieves: Sieves::default(),
+            plot: PlotSettings::default(),
+        }
+    }
 }
 
 /// What the phase diagram shows.

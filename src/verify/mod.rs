@@ -284,18 +284,28 @@ pub fn cases() -> &'static [Case] {
     })
 }
 
-/// Reads a table of cases.
-///
-/// # Errors
-/// The first place that is no such table.
-pub fn parse(text: &str) -> Result<Vec<Case>, toml::de::Error> {
+/// The row of a case as the table has it, so that some of its keys can be changed.
+pub(crate) fn row(name: &str) -> Option<Value> {
+    let mut rows = TABLES.iter().flat_map(|text| rows(text).unwrap_or_default());
+    rows.find(|row| row["name"] == name)
+}
+
+fn rows(text: &str) -> Result<Vec<Value>, toml::de::Error> {
     #[derive(Deserialize)]
     #[serde(deny_unknown_fields)]
     struct Table {
         case: Vec<Value>,
     }
-    let rows = toml::from_str::<Table>(text)?.case;
-    rows.into_iter()
+    Ok(toml::from_str::<Table>(text)?.case)
+}
+
+/// Reads a table of cases.
+///
+/// # Errors
+/// The first place that is no such table.
+pub fn parse(text: &str) -> Result<Vec<Case>, toml::de::Error> {
+    rows(text)?
+        .into_iter()
         .enumerate()
         .map(|(row, case)| {
             // By way of a tree, as scenes, so that what reads the families is compiled once.

@@ -4,6 +4,7 @@ use super::{Study, fit_frames, output};
 use crate::document::{Document, LoadError, Problem, Schema, unit};
 use crate::run::Reading;
 use crate::scene::{FileKind, Integrator, Scene};
+use crate::study::StudyName;
 use crate::sweep::{
     Axis, AxisEntry, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes,
     grid, or_path, points,
@@ -37,7 +38,7 @@ pub(crate) static STUDY: LazyLock<Schema> = LazyLock::new(Schema::of::<StudyFile
 pub(crate) struct StudyFile {
     /// Which study the file describes.
     #[serde(rename = "study")]
-    _study: StudyName,
+    _study: OwnName,
     /// Free text, the title of the figure.
     title: Option<String>,
     /// The scene that every run starts from: the path of its file, relative to this one, or the
@@ -63,10 +64,10 @@ pub(crate) struct StudyFile {
     energy_gain: f64,
 }
 
-/// The studies that there are.
+/// The name of this study.
 #[derive(Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-enum StudyName {
+enum OwnName {
     /// Where integrators are stable, over two keys of a scene.
     Stability,
 }
@@ -115,6 +116,7 @@ pub fn from_str(text: &str, path: &Path) -> Result<Study, LoadError> {
 
 pub(crate) fn of_document(document: &Document) -> Result<Study, LoadError> {
     FileKind::Study.expect(document)?;
+    StudyName::Stability.expect(document)?;
     let mut problems = Vec::new();
     STUDY.kind.check(document.tree(), "", &mut problems);
     document.accept(&problems)?;

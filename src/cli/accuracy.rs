@@ -1,0 +1,221 @@
+//! `phase accuracy`: what settings of a scene cost, and how wrong they are.
+
+use super::console::Console;
+use super::exit::{Exit, Failure};
+use super::study::{self, Options, Place, Tally};
+use super::{format, plot};
+use phase::plot::accuracy as figures;
+use phase::record::{Program, RunRecord};
+use phase::store;
+use phase::study::accuracy::{self, AccuracyStudy, Evaluation, Subject, write_accuracy};
+use phase::study::comparison::{Comparing, Comparison, Report, RunRow, read_runs};
+use phase::sweep::{Axis, Job, describe};
+use serde::Serialize;
+use std::path::PathBuf;
+
+/// Measure what settings of a scene cost in time, and how wrong they are.
+///
+/// A study climbs ladders of choices: time step, integrator, stiffness, laws, or any other key. It
+/// compares every setting with a reference: the numbers of a verification case, the motion at given
+/// times, or, where runs are chaotic, labels and order parameters beyond what seeds make of them. It
+/// names the cheapest setting that is good enough. Runs whose row is in the table already are not
+/// made again.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example: how large may the time step of a collapse be?
+  phase accuracy sweeps/accuracy/collapse.toml
+
+The results folder holds runs.csv (one row per run), accuracy.csv (one row per setting),
+accuracy.json (all of it, with the sentence) and figures as SVG and PNG.")]
+pub(crate) struct Arguments {
+    /// The study file (TOML).
+    file: PathBuf,
+    #[command(flatten)]
+    pub(super) options: Options,
+}
+
+pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
+    let study = accuracy::load(&arguments.file).map_err(Failure::refused)?;
+    let options = &arguments.options;
+    let signature = ("accuracy.csv", "a table of accuracy", &b"setting,"[..]);
+    let place = Place::open(&arguments.file, options, signature, console)?;
+    match &study.subject {
+        Subject::Scene(comparison) => {
+            of_scene(&study, comparison, options, &place, console)
+        }
+        Subject::Case(settings) => {
+            let evaluation = study.run_cases(options.workers(), place.stop);
+            let Some(evaluation) = evaluation.map_err(Failure::failed)? else {
+                return Ok(place.exit(settings.len(), 0));
+            };
+            let failed = evaluation.outcomes.iter().filter(|it| it.missing > 0).count();
+            conclude(&study, None, &evaluation, options, &place, console)?;
+            console.answer(&Answer {
+                folder: place.folder.root().to_owned(),
+                runs: settings.len(),
+                run_now: settings.len() - failed,
+                failed,
+                workers: options.workers(),
+                evaluation: Some(&evaluation),
+                files: console.files(),
+                ..Answer::default()
+            });
+            Ok(place.exit(0, failed))
+        }
+    }
+}
+
+fn of_scene(
+    study: &AccuracyStudy,
+    comparison: &Comparison,
+    options: &Options,
+    place: &Place,
+    console: &Console,
+) -> Result<Exit, Failure> {
+    let table = Comparing::table(&place.folder);
+    super::folders::refuse_to_replace(&table, "a table of runs", b"setting,")?;
+    let known = match options.force {
+        true => Vec::new(),
+        false => read_runs(comparison, &table).map_err(Failure::refused)?,
+    };
+    let (report, seconds) = run(comparison, options, place, known, console)?;
+    let made = report.rows.iter().flatten().count() - report.known;
+    let tally = Tally {
+        all: report.rows.len(),
+        made,
+        known: report.known,
+        left: report.left,
+        failures: &report.failures,
+        seconds,
+        cpu_seconds: report.cpu_seconds,
+    };
+    tally.print(comparison.axes(), console);
+    console.file(&table);
+    let interrupted = place.is_interrupted(report.left);
+    let evaluation = (!interrupted).then(|| study.evaluate(comparison, &report.rows));
+    if let Some(evaluation) = &evaluation {
+        conclude(study, Some(comparison), evaluation, options, place, console)?;
+    }
+    console.answer(&Answer {
+        folder: place.folder.root().to_owned(),
+        runs: report.rows.len(),
+        done_before: report.known,
+        run_now: made,
+        left: report.left,
+        failed: report.failures.len(),
+        interrupted,
+        workers: options.workers(),
+        seconds,
+        cpu_seconds: report.cpu_seconds,
+        evaluation: evaluation.as_ref(),
+        files: console.files(),
+    });
+    Ok(place.exit(report.left, report.failures.len()))
+}
+
+/// Runs what is left of a comparison; and how long that took (s).
+pub(super) fn run(
+    comparison: &Comparison,
+    options: &Options,
+    place: &Place,
+    known: Vec<RunRow>,
+    console: &Console,
+) -> Result<(Report, f64), Failure> {
+    let ids: std::collections::HashSet<String> = known.iter().map(|row| row.id.clone()).collect();
+    let axes: &[Axis] = comparison.axes();
+    let name = |job: &Job| describe(axes, &job.values, job.seed);
+    let ended = |job: &Job, record: &RunRecord| {
+        let label = comparison.measurement.measure(record).map(|it| it.label.name);
+        format!("{}: {}", label.unwrap_or("not measured"), name(job))
+    };
+    let is_known = |job: &Job| ids.contains(&job.id);
+    study::warn_of_days(comparison, &is_known, options.workers(), console)?;
+    let jobs = &comparison.jobs;
+    let (report, seconds) =
+        study::with_progress(jobs, &is_known, &name, &ended, console, |watch| {
+            let comparing = Comparing {
+                comparison,
+                folder: &place.folder,
+                workers: options.workers(),
+                stop: place.stop,
+                watch,
+            };
+            comparing.run(known)
+        });
+    Ok((report.map_err(Failure::failed)?, seconds))
+}
+
+/// Prints and writes what a study says.
+fn conclude(
+    study: &AccuracyStudy,
+    comparison: Option<&Comparison>,
+    evaluation: &Evaluation,
+    options: &Options,
+    place: &Place,
+    console: &Console,
+) -> Result<(), Failure> {
+    console.result(text(evaluation));
+    let table = place.file("accuracy.csv");
+    write_accuracy(evaluation, &table).map_err(Failure::failed)?;
+    console.file(&table);
+    let json = place.file("accuracy.json");
+    let bytes = serde_json::to_vec_pretty(evaluation).map_err(Failure::failed)?;
+    store::write_atomic(&json, &bytes).map_err(Failure::failed)?;
+    console.file(&json);
+    if options.no_plot {
+        return Ok(());
+    }
+    for (name, figure) in figures::draw_all(study, comparison, evaluation, &Program::current()) {
+        let figure = figure.map_err(Failure::failed)?;
+        plot::write(&figure, |end| place.file(&format!("{name}.{end}")), console)?;
+    }
+    Ok(())
+}
+
+/// A line for every setting, and the sentence.
+fn text(evaluation: &Evaluation) -> String {
+    let longest = evaluation.outcomes.iter().map(|it| it.name.chars().count()).max();
+    let width = longest.unwrap_or(0).max(7);
+    let mut lines = vec![format!("{:<width$}  time a run  evaluations  error", "setting")];
+    for outcome in &evaluation.outcomes {
+        lines.push(format!(
+            "{:<width$}  {:>10}  {:>11}  {}",
+            outcome.name,
+            format::duration(outcome.cost.cpu_seconds),
+            format::with_prefix(outcome.cost.force_evaluations, ""),
+            outcome.in_words(evaluation.counted_time)
+        ));
+        if let Some(note) = &outcome.note {
+            lines.push(format!("{:<width$}  {note}", ""));
+        }
+    }
+    for order in &evaluation.orders {
+        lines.push(format!("order of {} in {}: {:.2}", order.method, order.key, order.order));
+    }
+    for it in &evaluation.majorities {
+        lines.push(format!(
+            "the majority of {} is wrong at {:.1} % of the points",
+            format::count(it.seeds, "seed"),
+            100.0 * it.chance
+        ));
+    }
+    lines.push(evaluation.finding.sentence.clone());
+    lines.join("\n")
+}
+
+/// What `--json` prints.
+#[derive(Default, Serialize)]
+struct Answer<'a> {
+    folder: PathBuf,
+    runs: usize,
+    done_before: usize,
+    run_now: usize,
+    left: usize,
+    failed: usize,
+    interrupted: bool,
+    workers: usize,
+    seconds: f64,
+    cpu_seconds: f64,
+    evaluation: Option<&'a Evaluation>,
+    files: Vec<PathBuf>,
+}

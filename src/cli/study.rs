@@ -1,0 +1,238 @@
+//! What commands of studies share: their folder, their runs with progress, their failures.
+
+use super::console::{Console, name_first};
+use super::exit::{Exit, Failure};
+use super::progress::{Progress, Work};
+use super::{folders, format, interrupt, job, sweep};
+use phase::cost::{Forecast, Leaves, forecast};
+use phase::record::RunRecord;
+use phase::store::{self, Lock};
+use phase::study::comparison::Comparison;
+use phase::sweep::{self as sweeps, Axis, Event, Folder, FolderError, Job, describe, work};
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// Where and how the runs of a study are made.
+#[derive(clap::Args)]
+pub(super) struct Options {
+    /// The results folder [default: results/NAME, the file's name without .toml].
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Runs at the same time [default: all cores].
+    #[arg(short, long, value_name = "N", value_parser = sweep::at_least_one)]
+    pub(super) jobs: Option<usize>,
+    /// Make every run again, whatever the table holds.
+    #[arg(short, long)]
+    pub(super) force: bool,
+    /// Draw no figure.
+    #[arg(long)]
+    pub(super) no_plot: bool,
+    /// Print the result as one JSON object (docs/json.md) instead of text.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+impl Options {
+    /// Number of runs at the same time.
+    pub(super) fn workers(&self) -> usize {
+        self.jobs.unwrap_or_else(work::default_workers)
+    }
+}
+
+/// The folder of a study, which no other process writes to meanwhile.
+pub(super) struct Place {
+    pub(super) folder: Folder,
+    /// Is set when the command is to end.
+    pub(super) stop: &'static AtomicBool,
+    _lock: Lock,
+}
+
+impl Place {
+    /// Makes the folder for the results of a file. `table` is kept in it, and begins with
+    /// `signature`.
+    pub(super) fn open(
+        file: &Path,
+        options: &Options,
+        (table, kind, signature): (&str, &str, &[u8]),
+        console: &Console,
+    ) -> Result<Self, Failure> {
+        let root = options.out.clone().unwrap_or_else(|| sweep::default_folder(file));
+        let stop = interrupt::stop_on_signal(console)?;
+        folders::make(&root)?;
+        let folder = Folder::new(&root);
+        let lock = folder.lock().map_err(|error| match error {
+            FolderError::Locked(_) => Failure::refused(error),
+            _ => Failure::failed(error),
+        })?;
+        store::remove_leftovers(&root).map_err(Failure::failed)?;
+        folders::refuse_to_replace(&root.join(table), kind, signature)?;
+        Ok(Self {
+            folder,
+            stop,
+            _lock: lock,
+        })
+    }
+
+    /// A file of the folder.
+    pub(super) fn file(&self, name: &str) -> PathBuf {
+        self.folder.root().join(name)
+    }
+
+    /// How the command ends, with so many runs left and so many that failed.
+    pub(super) fn exit(&self, left: usize, failed: usize) -> Exit {
+        match (self.is_interrupted(left), failed) {
+            (true, _) => Exit::Interrupted,
+            (false, 0) => Exit::Done,
+            (false, _) => Exit::Failed,
+        }
+    }
+
+    /// Whether runs are left because the command was told to end.
+    pub(super) fn is_interrupted(&self, left: usize) -> bool {
+        self.stop.load(Ordering::Relaxed) && left > 0
+    }
+}
+
+/// Makes the runs of a study with `run`, which is told whom to tell of them, and shows how far they
+/// are; and how long that took (s). Those for which `is_known` says so are done already.
+pub(super) fn with_progress<T>(
+    jobs: &[Job],
+    is_known: &dyn Fn(&Job) -> bool,
+    name: &(dyn Fn(&Job) -> String + Sync),
+    ended: &(dyn Fn(&Job, &RunRecord) -> String + Sync),
+    console: &Console,
+    run: impl FnOnce(&(dyn Fn(Event<'_>) + Sync)) -> T,
+) -> (T, f64) {
+    let done = jobs.iter().filter(|job| is_known(job));
+    let (jobs_done, steps_done) =
+        done.fold((0, 0), |(jobs, sum), job| (jobs + 1, sum + job.work()));
+    if jobs_done > 0 {
+        let runs = format::count(jobs.len(), "run");
+        console.note(format_args!("{jobs_done} of {runs} are done already"));
+    }
+    let progress = Progress::new(
+        console,
+        Work {
+            jobs: jobs.len(),
+            jobs_done,
+            steps: jobs.iter().map(Job::work).sum(),
+            steps_done,
+        },
+    );
+    let watch = |event: Event<'_>| job::tell(event, &progress, name, ended);
+    let result = run(&watch);
+    (result, progress.finish())
+}
+
+/// What the settings of a comparison will cost, each from a short trial of its own.
+pub(super) fn forecast_settings(
+    comparison: &Comparison,
+    workers: usize,
+    budget: Duration,
+) -> Result<Forecast, Failure> {
+    let settings = comparison.settings.len().max(1) as u32;
+    let mut known = HashSet::new();
+    let mut sum: Option<Forecast> = None;
+    for setting in &comparison.settings {
+        let jobs = setting.sweep.jobs().map_err(Failure::refused)?.into_iter();
+        let jobs: Vec<Job> = jobs.filter(|job| known.insert(job.id.clone())).collect();
+        if jobs.is_empty() {
+            continue;
+        }
+        let own = forecast(&jobs, workers, budget / settings, Leaves::Nothing);
+        let own = own.map_err(Failure::failed)?;
+        sum = Some(match sum {
+            None => own,
+            Some(sum) => {
+                let (work, seconds) = (sum.work + own.work, sum.seconds + own.seconds);
+                let spent = sum.work as f64 / sum.rate + own.work as f64 / own.rate;
+                Forecast {
+                    tried: sum.tried + own.tried,
+                    work,
+                    rate: work as f64 / spent,
+                    seconds,
+                    memory: sum.memory.max(own.memory),
+                    disk: None,
+                }
+            }
+        });
+    }
+    sum.ok_or_else(|| Failure::refused("the study has no runs"))
+}
+
+/// A study that takes longer than this says so before it begins (s).
+const LONG: f64 = 86_400.0;
+
+/// Fewest sphere-steps per second of a worker: what takes less than a day with it is not tried.
+const SLOWEST_RATE: f64 = 5e5;
+
+/// Says so if what is left of a comparison will take longer than a day.
+pub(super) fn warn_of_days(
+    comparison: &Comparison,
+    is_known: &dyn Fn(&Job) -> bool,
+    workers: usize,
+    console: &Console,
+) -> Result<(), Failure> {
+    let jobs = comparison.jobs.iter();
+    let all: u64 = comparison.jobs.iter().map(Job::work).sum();
+    let left: u64 = jobs.filter(|job| !is_known(job)).map(Job::work).sum();
+    if (left as f64) < LONG * SLOWEST_RATE * workers as f64 {
+        return Ok(());
+    }
+    let forecast = forecast_settings(comparison, workers, Duration::from_secs(4))?;
+    let seconds = forecast.seconds * left as f64 / all.max(1) as f64;
+    if seconds > LONG {
+        console.warning(format_args!(
+            "this will take about {} with {}; it can be stopped and goes on with the same command, \
+             and fewer seeds, points or settings take less",
+            format::duration(seconds),
+            format::count(workers, "worker")
+        ));
+    }
+    Ok(())
+}
+
+/// What was made, and what failed or is left.
+pub(super) struct Tally<'a> {
+    /// Runs in all.
+    pub(super) all: usize,
+    /// Made now.
+    pub(super) made: usize,
+    /// There before.
+    pub(super) known: usize,
+    /// Still to make.
+    pub(super) left: usize,
+    /// Those that could not be made.
+    pub(super) failures: &'a [sweeps::Failure],
+    /// Time (s).
+    pub(super) seconds: f64,
+    /// Processor time (s).
+    pub(super) cpu_seconds: f64,
+}
+
+impl Tally<'_> {
+    /// Says what was made.
+    pub(super) fn print(&self, axes: &[Axis], console: &Console) {
+        console.result(format_args!(
+            "{}: {} made now in {}, {} of CPU time, {} before, {} left",
+            format::count(self.all, "run"),
+            self.made,
+            format::duration(self.seconds),
+            format::duration(self.cpu_seconds),
+            self.known,
+            self.left
+        ));
+        let failures = self.failures.iter().map(|failure| {
+            let point = describe(axes, &failure.values, failure.seed);
+            format!("{point}: {}", failure.reason)
+        });
+        name_first(&failures.collect::<Vec<_>>(), |name| {
+            console.error(format_args!("failed: {name}"));
+        });
+        if self.left > 0 {
+            console.note("interrupted. Go on with the same command");
+        }
+    }
+}

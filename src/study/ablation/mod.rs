@@ -1,0 +1,187 @@
+//! Which effects a scene needs: each is switched off, or down to a simpler law, and what that
+//! changes is told from what seeds change.
+
+mod finding;
+mod table;
+
+pub use finding::{Finding, Verdict};
+pub use table::write_ablation;
+
+use crate::document::{LoadError, Problem};
+use crate::forces::{Simplification, simplifications};
+use crate::study::comparison::{
+    Base, Change, Comparison, Cost, Measurement, RunRow, Setting, States,
+};
+use crate::sweep::PointError;
+use serde::Serialize;
+use std::path::Path;
+
+/// Fewest seeds of an ablation by default.
+pub const FEWEST_SEEDS: usize = 5;
+
+/// Most effects that are ablated in pairs: those that matter most.
+const MOST_IN_PAIRS: usize = 4;
+
+/// Effects that are ablated, with the scene as it is.
+#[derive(Clone, Debug)]
+pub struct Ablation {
+    /// The scene as it is, then one setting for each simplification.
+    pub comparison: Comparison,
+    /// Simplifications that cannot be run, and why.
+    pub skipped: Vec<Skipped>,
+    base: Base,
+}
+
+/// A simplification that cannot be run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Skipped {
+    /// Its name.
+    pub name: String,
+    /// Why not.
+    pub reason: String,
+}
+
+/// What a simplification does.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Ablated {
+    /// Its name.
+    pub name: String,
+    /// Runs that there are.
+    pub runs: usize,
+    /// Runs that there are not.
+    pub missing: usize,
+    /// What a run costs on average.
+    pub cost: Cost,
+    /// What it changes.
+    pub states: States,
+    /// Whether the scene needs what it takes away.
+    pub verdict: Verdict,
+}
+
+/// Why there is no ablation.
+#[derive(Debug, thiserror::Error)]
+pub enum AblationError {
+    /// The file is wrong.
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    /// A point cannot be run.
+    #[error(transparent)]
+    Point(#[from] PointError),
+    /// The scene has nothing to take away.
+    #[error("{0}: the scene has no effect that can be switched off")]
+    NothingToAblate(String),
+}
+
+impl Ablation {
+    /// The ablation of a scene or sweep with these seeds; by default with those of the sweep, or
+    /// [`FEWEST_SEEDS`] if it has fewer.
+    ///
+    /// # Errors
+    /// All that is wrong with the file, or if the scene has no effect.
+    pub fn load(path: &Path, seeds: Option<usize>) -> Result<Self, AblationError> {
+        let mut base = Base::load(path)?;
+        let first = base.sweep.seeds.first().copied().unwrap_or(1);
+        let count = seeds.unwrap_or(base.sweep.seeds.len().max(FEWEST_SEEDS));
+        if count != base.sweep.seeds.len() {
+            base.sweep.seeds = (0..count as u64).map(|next| first.saturating_add(next)).collect();
+        }
+        let singles = simplifications(&base.sweep.scene).into_iter();
+        let singles = singles.map(|it| (it.name.clone(), change_of(&it)));
+        let mut ablation = Self::new(base, singles.collect())?;
+        if ablation.comparison.settings.len() < 2 && ablation.skipped.is_empty() {
+            return Err(AblationError::NothingToAblate(path.display().to_string()));
+        }
+        ablation.skipped.sort_by(|one, other| one.name.cmp(&other.name));
+        Ok(ablation)
+    }
+
+    fn new(base: Base, changes: Vec<(String, Change)>) -> Result<Self, AblationError> {
+        let as_it_is = ("as it is".to_owned(), Change::default());
+        let (mut settings, mut skipped) = (Vec::new(), Vec::new());
+        for (name, change) in std::iter::once(as_it_is).chain(changes) {
+            match Setting::new(&base, name.clone(), change) {
+                Ok(setting) => settings.push(setting),
+                Err(problems) => {
+                    let reasons: Vec<String> = problems.iter().map(Problem::to_string).collect();
+                    skipped.push(Skipped {
+                        name,
+                        reason: reasons.join("; "),
+                    });
+                }
+            }
+        }
+        let measurement = Measurement::States(Box::new(base.sweep.sieves.clone()));
+        Ok(Self {
+            comparison: Comparison::new(settings, 0, 0, measurement)?,
+            skipped,
+            base,
+        })
+    }
+
+    /// The same with each pair of those that matter: both at once.
+    ///
+    /// # Errors
+    /// If a pair cannot be run at a point.
+    pub fn with_pairs(&self, rows: &[Option<RunRow>], finding: &Finding) -> Result<Self, AblationError> {
+        let ablated = self.evaluate(rows, finding.tolerance);
+        let mut matter: Vec<&Ablated> =
+            ablated.iter().filter(|it| it.verdict == Verdict::Needed).collect();
+        let excess = |it: &Ablated| it.states.disagreement.as_ref().map_or(0.0, |it| it.excess.value);
+        matter.sort_by(|one, other| excess(other).total_cmp(&excess(one)));
+        matter.truncate(MOST_IN_PAIRS);
+        let singles: Vec<(String, Change)> = self.comparison.settings[1..]
+            .iter()
+            .map(|it| (it.name.clone(), it.change.clone()))
+            .collect();
+        let chosen: Vec<&(String, Change)> =
+            singles.iter().filter(|(name, _)| matter.iter().any(|it| it.name == *name)).collect();
+        let mut pairs = Vec::new();
+        for (place, one) in chosen.iter().enumerate() {
+            for other in &chosen[place + 1..] {
+                if !one.1.touches(&other.1) {
+                    pairs.push((format!("{} and {}", one.0, other.0), one.1.then(&other.1)));
+                }
+            }
+        }
+        let mut both = Self::new(self.base.clone(), singles.into_iter().chain(pairs).collect())?;
+        both.skipped.extend(self.skipped.clone());
+        both.skipped.sort_by(|one, other| one.name.cmp(&other.name));
+        both.skipped.dedup();
+        Ok(both)
+    }
+
+    /// What each simplification does, from the rows of all jobs. `tolerance` is the share of labels
+    /// that may change.
+    pub fn evaluate(&self, rows: &[Option<RunRow>], tolerance: f64) -> Vec<Ablated> {
+        let places = 1..self.comparison.settings.len();
+        let of = |place: usize| {
+            let sample = self.comparison.sample(place, rows);
+            let states = States::of(&self.comparison, place, rows);
+            let runs = sample.runs().count();
+            let missing = sample.points.iter().map(Vec::len).sum::<usize>() - runs;
+            Ablated {
+                name: self.comparison.settings[place].name.clone(),
+                runs,
+                missing,
+                cost: sample.cost(),
+                verdict: Verdict::of(&states, missing, tolerance),
+                states,
+            }
+        };
+        places.map(of).collect()
+    }
+
+    /// What a run of the scene as it is costs.
+    pub fn cost(&self, rows: &[Option<RunRow>]) -> Cost {
+        self.comparison.sample(0, rows).cost()
+    }
+}
+
+fn change_of(simplification: &Simplification) -> Change {
+    let set = simplification.set.iter();
+    Change {
+        set: set.map(|(key, value)| ((*key).to_owned(), value.clone())).collect(),
+        remove: simplification.remove.iter().map(|table| (*table).to_owned()).collect(),
+        scale: Vec::new(),
+    }
+}

@@ -1,0 +1,163 @@
+//! What the file of a study of accuracy may say.
+
+use crate::document::{Schema, unit};
+use crate::scene::Scene;
+use crate::study::comparison::Change;
+use crate::sweep::{AxisEntry, SeedsEntry, or_path};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+/// The keys of the file.
+pub(crate) static ACCURACY: LazyLock<Schema> = LazyLock::new(Schema::of::<AccuracyFile>);
+
+/// What the file says.
+#[derive(Deserialize, JsonSchema)]
+pub(crate) struct AccuracyFile {
+    /// Which study the file describes.
+    #[serde(rename = "study")]
+    _study: OwnName,
+    /// Free text, the title of figures.
+    pub(super) title: Option<String>,
+    /// What every setting starts from: the path of a scene or sweep, relative to this file, or a
+    /// scene itself in the tables `[scene.spheres]` and so on.
+    #[schemars(with = "Option<Scene>", transform = or_path)]
+    pub(super) scene: Option<Value>,
+    /// Name of a case of `phase verify`, in place of `scene`: errors are then those of its known
+    /// numbers. Ladders are over its own keys, such as `setup.dt`, and over `integrator`.
+    pub(super) case: Option<String>,
+    /// Axes, in place of those of a sweep that `scene` names.
+    pub(super) axis: Option<Vec<AxisEntry>>,
+    /// Seeds, in place of those of the sweep. Errors of labels and order parameters are told from
+    /// noise by these: five are few, twenty are many.
+    pub(super) seeds: Option<SeedsEntry>,
+    /// Times at which motions are compared (s), in place of labels: for what is not chaotic before
+    /// the last of them.
+    #[schemars(transform = unit("s"))]
+    pub(super) times: Option<Vec<f64>>,
+    /// Ladders of choices: one key each, and the values that it takes.
+    #[serde(default)]
+    pub(super) ladder: Vec<Ladder>,
+    /// Variants: any keys at once, under a name.
+    #[serde(default)]
+    pub(super) variant: Vec<Variant>,
+    /// Whether one ladder is climbed at a time, or all their choices are combined.
+    #[serde(default)]
+    pub(super) combine: Combine,
+    /// The setting that others are compared with. Default: the scene as it is; with `times`, the
+    /// smallest time step of the ladder.
+    pub(super) reference: Option<Changes>,
+    /// How large an error is allowed.
+    #[serde(default)]
+    pub(super) tolerance: Tolerance,
+}
+
+/// The name of this study.
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum OwnName {
+    /// What settings of a scene cost, and how wrong they are.
+    Accuracy,
+}
+
+/// A key and the values that it takes.
+#[derive(Deserialize, JsonSchema)]
+pub(super) struct Ladder {
+    /// Path of the key, such as `time.dt`, `time.integrator` or `drag.form`.
+    pub(super) key: String,
+    /// Its values: numbers or words.
+    pub(super) values: Vec<Value>,
+}
+
+/// A named setting of several keys.
+#[derive(Deserialize, JsonSchema)]
+pub(super) struct Variant {
+    /// Name, as in tables and figures.
+    pub(super) name: String,
+    /// Keys of the scene and their values, such as `"time.dt" = 1e-4`, or whole tables, such as
+    /// `friction = { law = "coulomb", ... }`.
+    #[serde(default)]
+    set: BTreeMap<String, Value>,
+    /// Tables or keys of the scene that are left out, such as `"spin_damping"`.
+    #[serde(default)]
+    remove: Vec<String>,
+    /// Factors on the values of axes, by the names of these: what another size of the scene calls
+    /// for.
+    #[serde(default)]
+    scale: BTreeMap<String, f64>,
+}
+
+/// Keys of the scene that are set or left out.
+#[derive(Deserialize, JsonSchema)]
+pub(super) struct Changes {
+    /// As of a variant.
+    #[serde(default)]
+    set: BTreeMap<String, Value>,
+    /// As of a variant.
+    #[serde(default)]
+    remove: Vec<String>,
+}
+
+/// How ladders go together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Combine {
+    /// One ladder at a time, the other keys as in the scene.
+    #[default]
+    Each,
+    /// Every choice of one ladder with every choice of the others.
+    All,
+}
+
+/// How large an error is allowed.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Tolerance {
+    /// Share of the labels that may change, beyond what seeds change by themselves.
+    #[schemars(transform = unit("").above(0.0).at_most(1.0))]
+    pub labels: f64,
+    /// Shift of order parameters, in units of their spread over seeds (root mean square over the
+    /// points). Absent: any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = unit("").above(0.0))]
+    pub shift: Option<f64>,
+    /// Relative error of the motion at given times, or of the numbers of a case.
+    #[schemars(transform = unit("").above(0.0))]
+    pub error: f64,
+}
+
+impl Default for Tolerance {
+    fn default() -> Self {
+        Self {
+            labels: 0.02,
+            shift: None,
+            error: 1e-3,
+        }
+    }
+}
+
+impl Variant {
+    pub(super) fn change(&self) -> Change {
+        Change {
+            set: pairs(&self.set),
+            remove: self.remove.clone(),
+            scale: pairs(&self.scale),
+        }
+    }
+}
+
+impl Changes {
+    pub(super) fn change(&self) -> Change {
+        Change {
+            set: pairs(&self.set),
+            remove: self.remove.clone(),
+            scale: Vec::new(),
+        }
+    }
+}
+
+fn pairs<T: Clone>(map: &BTreeMap<String, T>) -> Vec<(String, T)> {
+    map.iter().map(|(key, value)| (key.clone(), value.clone())).collect()
+}

@@ -1,0 +1,220 @@
+//! The one sentence of a study: the cheapest setting that is good enough, and what it saves.
+
+use super::evaluate::{Errors, Evaluation, Outcome};
+use crate::study::comparison::States;
+use serde::Serialize;
+
+/// What a study finds.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Finding {
+    /// Name of the cheapest setting within the tolerance; none if no setting is.
+    pub cheapest: Option<String>,
+    /// Processor time of it over that of the scene as it is.
+    pub time_ratio: Option<f64>,
+    /// The same of force evaluations.
+    pub work_ratio: Option<f64>,
+    /// The sentence.
+    pub sentence: String,
+}
+
+/// Settings that cost nearly the same are told apart by their error: a ratio of processor times
+/// below this is noise of the machine.
+const SAME_COST: f64 = 1.03;
+
+impl Finding {
+    pub(super) fn of(evaluation: &Evaluation) -> Self {
+        let base = &evaluation.outcomes[evaluation.as_it_is];
+        if evaluation.counted_time.is_none() && !evaluation.times.is_empty() {
+            let sentence = format!(
+                "The motion is chaotic before {} s: no setting is near the reference there. Compare \
+                 earlier times, or labels and order parameters over [seeds].",
+                evaluation.times[0]
+            );
+            return Self {
+                sentence,
+                ..Self::default()
+            };
+        }
+        let Some(cheapest) = cheapest(evaluation) else {
+            return Self {
+                sentence: nothing_is_within(evaluation),
+                ..Self::default()
+            };
+        };
+        let ratio = |of: fn(&Outcome) -> f64| {
+            let (own, base) = (of(cheapest), of(base));
+            (base > 0.0).then(|| own / base)
+        };
+        let time_ratio = ratio(|it| it.cost.cpu_seconds);
+        let work_ratio = ratio(|it| it.cost.force_evaluations);
+        Self {
+            cheapest: Some(cheapest.name.clone()),
+            time_ratio,
+            work_ratio,
+            sentence: sentence(evaluation, cheapest, time_ratio, work_ratio),
+        }
+    }
+}
+
+/// The cheapest setting within the tolerance. The reference is right by definition, and counts if
+/// it is a setting of its own.
+fn cheapest(evaluation: &Evaluation) -> Option<&Outcome> {
+    let outcomes = evaluation.outcomes.iter().enumerate();
+    let within = outcomes.filter(|(place, outcome)| {
+        let is_right = Some(*place) == evaluation.reference && outcome.missing == 0;
+        is_right || outcome.is_within(&evaluation.tolerance, evaluation.counted_time)
+    });
+    let within: Vec<&Outcome> = within.map(|(_, outcome)| outcome).collect();
+    let seconds = |it: &&Outcome| it.cost.cpu_seconds;
+    let least = within.iter().map(seconds).fold(f64::INFINITY, f64::min);
+    let near = within.into_iter().filter(|it| it.cost.cpu_seconds <= SAME_COST * least);
+    let error = |it: &Outcome| it.error(evaluation.counted_time).unwrap_or(0.0);
+    near.min_by(|one, other| error(one).total_cmp(&error(other)))
+}
+
+fn sentence(
+    evaluation: &Evaluation,
+    cheapest: &Outcome,
+    time_ratio: Option<f64>,
+    work_ratio: Option<f64>,
+) -> String {
+    let wanted = wanted(evaluation);
+    let how_wrong = how_wrong(evaluation, cheapest);
+    let base = &evaluation.outcomes[evaluation.as_it_is];
+    if cheapest.name == base.name {
+        return format!("The scene as it is is the cheapest setting {wanted}: {how_wrong}.");
+    }
+    let percent = |ratio: Option<f64>| {
+        ratio.map_or_else(|| "?".to_owned(), |ratio| format!("{:.0} %", 100.0 * (1.0 - ratio)))
+    };
+    let saved = match time_ratio {
+        Some(ratio) if ratio <= 1.0 => format!(
+            "It saves {} of the processor time of the scene as it is ({} of its force evaluations)",
+            percent(time_ratio),
+            percent(work_ratio)
+        ),
+        ratio => format!(
+            "It takes {:.2} times the processor time of the scene as it is, which is not {wanted}",
+            ratio.unwrap_or(f64::NAN)
+        ),
+    };
+    format!("The cheapest setting {wanted} is {}: {how_wrong}. {saved}.", cheapest.name)
+}
+
+/// What is asked for.
+fn wanted(evaluation: &Evaluation) -> String {
+    let tolerance = &evaluation.tolerance;
+    match &evaluation.outcomes[evaluation.as_it_is].errors {
+        Errors::States(_) => {
+            let labels = format!(
+                "that changes at most {} of the labels",
+                percent(tolerance.labels)
+            );
+            match tolerance.shift {
+                None => labels,
+                Some(shift) => format!("{labels} and shifts order parameters by at most {shift} of \
+                                        their spread"),
+            }
+        }
+        Errors::Motion(_) => {
+            let at = evaluation.counted_time.map_or(0.0, |time| evaluation.times[time]);
+            format!("with an error of at most {} at {at} s", short(tolerance.error))
+        }
+        Errors::Case(_) => format!("with errors of at most {}", short(tolerance.error)),
+    }
+}
+
+/// How wrong a setting is.
+fn how_wrong(evaluation: &Evaluation, outcome: &Outcome) -> String {
+    match &outcome.errors {
+        Errors::States(_) if Some(&outcome.name) == reference(evaluation) => {
+            "it is what others are compared with".to_owned()
+        }
+        Errors::States(States {
+            disagreement: Some(it),
+            ..
+        }) => match it.excess.is_clear() {
+            true => format!(
+                "it changes {} ({} to {})",
+                percent(it.excess.value),
+                percent(it.excess.low),
+                percent(it.excess.high)
+            ),
+            false => format!(
+                "no difference is seen beyond that of seeds ({}), and one of more than {} could not \
+                 have hidden",
+                percent(it.floor.value),
+                percent(it.excess.high)
+            ),
+        },
+        Errors::States(_) => "nothing is known of its labels".to_owned(),
+        Errors::Motion(_) | Errors::Case(_) => match outcome.error(evaluation.counted_time) {
+            Some(0.0) => "it is what others are compared with".to_owned(),
+            error => format!("its error is {}", short(error.unwrap_or(f64::NAN))),
+        },
+    }
+}
+
+fn reference(evaluation: &Evaluation) -> Option<&String> {
+    Some(&evaluation.outcomes.get(evaluation.reference?)?.name)
+}
+
+fn nothing_is_within(evaluation: &Evaluation) -> String {
+    let wanted = wanted(evaluation);
+    let outcomes = evaluation.outcomes.iter().enumerate();
+    let others = outcomes.filter(|(place, _)| Some(*place) != evaluation.reference);
+    let best = others.map(|(_, it)| it).min_by(|one, other| {
+        let bound = |it: &Outcome| match &it.errors {
+            Errors::States(states) => {
+                let known = states.disagreement.as_ref();
+                known.map_or(f64::INFINITY, |it| it.excess.high)
+            }
+            _ => it.error(evaluation.counted_time).unwrap_or(f64::INFINITY),
+        };
+        bound(one).total_cmp(&bound(other))
+    });
+    match best {
+        Some(best) => format!(
+            "There is no setting {wanted}; the nearest is {}: {}.",
+            best.name,
+            how_wrong(evaluation, best)
+        ),
+        None => format!("There is no setting {wanted}."),
+    }
+}
+
+impl Outcome {
+    /// Its error in a few words, the motion's at the time of that place.
+    pub fn in_words(&self, time: Option<usize>) -> String {
+        let unstable = match self.unstable {
+            0 => String::new(),
+            count => format!(", {count} of {} runs unstable", self.runs),
+        };
+        let text = match &self.errors {
+            Errors::States(States {
+                disagreement: Some(it),
+                ..
+            }) => format!(
+                "{} of labels changed ({} to {})",
+                percent(it.excess.value),
+                percent(it.excess.low),
+                percent(it.excess.high)
+            ),
+            _ => self.error(time).map_or_else(|| "unknown".to_owned(), short),
+        };
+        text + &unstable
+    }
+}
+
+/// A share in percent.
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// A number to two digits.
+fn short(value: f64) -> String {
+    match value.abs() {
+        size if size != 0.0 && !(0.01..100.0).contains(&size) => format!("{value:.1e}"),
+        _ => format!("{value:.3}"),
+    }
+}

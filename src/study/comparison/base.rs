@@ -1,0 +1,214 @@
+//! What a comparison starts from: a scene, or a sweep over one, whose keys settings change.
+
+use super::Change;
+use super::change::is_within;
+use crate::classify::Family;
+use crate::document::{Document, LoadError, Problem, number};
+use crate::run::{self, Reading};
+use crate::scene::{FileKind, Friction, Scene};
+use crate::sweep::{self, PointScenes, Sweep};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+
+/// A scene or a sweep, and its scene as the file has it.
+#[derive(Clone, Debug)]
+pub(crate) struct Base {
+    /// The sweep; of a scene that of its own seed alone.
+    pub(crate) sweep: Sweep,
+    tree: Value,
+    /// What files that the scene names are relative to.
+    folder: PathBuf,
+}
+
+/// The sweep of a setting.
+pub(super) struct Changed {
+    pub(super) sweep: Sweep,
+    /// What was changed besides what the setting says, and why.
+    pub(super) note: Option<String>,
+}
+
+impl Base {
+    /// Reads a scene or a sweep.
+    ///
+    /// # Errors
+    /// All that is wrong with the file, each with line, column and the fix.
+    pub(crate) fn load(path: &Path) -> Result<Self, LoadError> {
+        Self::of_document(&Document::read(path)?)
+    }
+
+    /// What the key `scene` of a study says: the path of a scene or sweep, or a scene itself.
+    pub(crate) fn of_entry(entry: &Value, document: &Document) -> Result<Self, LoadError> {
+        let Some(path) = entry.as_str() else {
+            let sweep = sweep::base_scene(entry, document, Reading::RUN)?;
+            return Ok(Self {
+                sweep: Sweep::of_scene(sweep),
+                tree: entry.clone(),
+                folder: document.folder().to_owned(),
+            });
+        };
+        match Self::load(&document.folder().join(path)) {
+            Err(error @ LoadError::Read { .. }) => {
+                let help = "the path is relative to the folder of this file";
+                Err(document.refuse(&[Problem::new("scene", error.to_string()).help(help)]))
+            }
+            other => other,
+        }
+    }
+
+    fn of_document(document: &Document) -> Result<Self, LoadError> {
+        if FileKind::of(document).0 != FileKind::Sweep {
+            // Also what is neither, which is refused with all that is wrong with it.
+            return Ok(Self {
+                sweep: Sweep::of_scene(run::base_of_document(document, Reading::RUN)?),
+                tree: document.tree().clone(),
+                folder: document.folder().to_owned(),
+            });
+        }
+        let sweep = sweep::of_document(document)?;
+        let entry = &document.tree()["scene"];
+        let (tree, folder) = match entry.as_str() {
+            Some(path) => {
+                let scene = Document::read(&document.folder().join(path))?;
+                (scene.tree().clone(), scene.folder().to_owned())
+            }
+            None => (entry.clone(), document.folder().to_owned()),
+        };
+        Ok(Self {
+            sweep,
+            tree,
+            folder,
+        })
+    }
+
+    /// The sweep with a change. Problems have paths of the scene.
+    pub(super) fn with(&self, change: &Change) -> Result<Changed, Vec<Problem>> {
+        self.check_axes(change)?;
+        let mut tree = self.tree.clone();
+        let held = self.hold_impulse(change);
+        for change in [Some(change), held.as_ref()].into_iter().flatten() {
+            change.apply(&mut tree).map_err(|path| {
+                vec![Problem::new(path.clone(), format!("`{path}` is not in a table"))]
+            })?;
+        }
+        let mut sweep = self.sweep.clone();
+        sweep.scene = run::base_of_tree(&tree, &self.folder, Reading::RUN)?;
+        if sweep.axes.iter().any(|axis| axis.key == "time.dt") {
+            sweep.scene.time.safety_factor = None;
+        }
+        for (name, factor) in &change.scale {
+            for axis in sweep.axes.iter_mut().filter(|axis| axis.name == *name) {
+                axis.values.iter_mut().for_each(|value| *value *= factor);
+            }
+        }
+        self.check(&sweep, held.is_some())?;
+        // Studies keep rows, not records.
+        sweep.scene.output.snapshot_interval = 0.0;
+        sweep.scene.output.trajectory = false;
+        let note = held.and_then(|held| {
+            let coefficient = held.value("friction.coefficient")?.as_f64()?;
+            Some(format!(
+                "mu/dt of \"spin\" friction is held: friction.coefficient = {}",
+                number(coefficient)
+            ))
+        });
+        Ok(Changed { sweep, note })
+    }
+
+    /// No setting may change what an axis varies.
+    fn check_axes(&self, change: &Change) -> Result<(), Vec<Problem>> {
+        let axes = &self.sweep.axes;
+        let taken = change.paths().into_iter().chain(change.remove.clone());
+        for path in taken {
+            if let Some(axis) = axes.iter().find(|axis| is_within(&axis.key, &path)) {
+                let message = format!("`{path}` is changed, but the axis `{}` varies it", axis.name);
+                let help = "leave the axis out, or do not change the key";
+                return Err(vec![Problem::new(path, message).help(help)]);
+            }
+        }
+        for (name, factor) in &change.scale {
+            if !axes.iter().any(|axis| axis.name == *name) {
+                let names: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
+                let message = format!("there is no axis \"{name}\" to scale");
+                let help = format!("the axes are {}", names.join(", "));
+                return Err(vec![Problem::new("", message).help(help)]);
+            }
+            if !(*factor > 0.0 && factor.is_finite()) {
+                let message = format!("the axis \"{name}\" cannot be scaled by {factor}");
+                return Err(vec![Problem::new("", message).help("use a factor above 0")]);
+            }
+        }
+        Ok(())
+    }
+
+    /// What holds mu/dt of "spin" friction where a change gives another time step: the law is an
+    /// impulse mu per step, so that the step alone would change the friction.
+    fn hold_impulse(&self, change: &Change) -> Option<Change> {
+        let coefficient = spin_coefficient(&self.sweep.scene)?;
+        let is_changed = |key: &str| change.value(key).is_some();
+        if is_changed("friction.law") || is_changed("friction.coefficient") {
+            return None;
+        }
+        let is_removed = change.remove.iter().any(|it| is_within("friction", it));
+        let dt = change.value("time.dt")?.as_f64()?;
+        let before = self.tree["time"]["dt"].as_f64()?;
+        let held = coefficient * dt / before;
+        (!is_removed && held != coefficient)
+            .then(|| Change::of_key("friction.coefficient", json!(held)))
+    }
+
+    /// Whether the sweep of a setting can be run and compared.
+    fn check(&self, sweep: &Sweep, is_held: bool) -> Result<(), Vec<Problem>> {
+        let refuse = |problem| Err(vec![problem]);
+        let (before, after) = (&self.sweep.scene, &sweep.scene);
+        let both_spin = spin_coefficient(before).zip(spin_coefficient(after));
+        let is_same_step = before.time.dt == after.time.dt;
+        if let Some((old, new)) = both_spin {
+            let is_axis = |key: &str| self.sweep.axes.iter().any(|axis| axis.key == key);
+            if !is_same_step && is_axis("friction.coefficient") {
+                let message = "\"spin\" friction is an impulse mu per step, and an axis varies mu, \
+                               so another step is another friction";
+                let help = "leave the step as it is, or use a friction law without the step";
+                return refuse(Problem::new("time.dt", message).help(help));
+            }
+            if !is_same_step && !is_held && old == new {
+                let message = "\"spin\" friction is an impulse mu per step, so another step is \
+                               another friction";
+                let help = "give `time.dt` as a number in the scene and in the study, and mu/dt is \
+                            held; or set `friction.coefficient` with it";
+                return refuse(Problem::new("time.dt", message).help(help));
+            }
+        }
+        let (of_base, own) = (Family::of(before), Family::of(after));
+        if of_base != own {
+            let message = format!(
+                "with it the scene is a {}, and no label of it can be compared with those of a {}",
+                own.name, of_base.name
+            );
+            return refuse(Problem::new("", message).help("do not change what makes it one"));
+        }
+        if let Err(error) = sweep.sieves.check(after) {
+            return refuse(Problem::new("", error.to_string()));
+        }
+        let mut scenes =
+            PointScenes::new(&sweep.scene, &sweep.axes).map_err(|error| error.problems)?;
+        for values in sweep::grid(&sweep.axes) {
+            scenes.checked(&values).map_err(|error| {
+                let at = error.point;
+                let mut problems = error.problems;
+                for problem in problems.iter_mut().filter(|_| !at.is_empty()) {
+                    problem.message = format!("at {at}: {}", problem.message);
+                }
+                problems
+            })?;
+        }
+        Ok(())
+    }
+}
+
+/// The coefficient of "spin" friction, if that is the law.
+fn spin_coefficient(scene: &Scene) -> Option<f64> {
+    match &scene.dem.friction {
+        Some(Friction::Spin(spin)) => Some(spin.coefficient),
+        _ => None,
+    }
+}

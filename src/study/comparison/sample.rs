@@ -1,0 +1,71 @@
+//! The runs of one setting, by point and seed.
+
+use super::RunRow;
+use crate::classify::Label;
+use serde::Serialize;
+
+/// The runs of one setting.
+#[derive(Clone, Debug, Default)]
+pub struct Sample<'a> {
+    /// One list for each point, with the run of each seed; none where a run failed.
+    pub points: Vec<Vec<Option<&'a RunRow>>>,
+}
+
+/// What a run of a setting costs on average.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Cost {
+    /// Processor time (s).
+    pub cpu_seconds: f64,
+    /// Spheres times steps.
+    pub sphere_steps: f64,
+    /// Evaluations of the force on a sphere: those of sub-steps too.
+    pub force_evaluations: f64,
+}
+
+impl<'a> Sample<'a> {
+    /// All runs that there are.
+    pub fn runs(&self) -> impl Iterator<Item = &'a RunRow> + '_ {
+        self.points.iter().flatten().copied().flatten()
+    }
+
+    /// What a run costs on average.
+    pub fn cost(&self) -> Cost {
+        let count = self.runs().count().max(1) as f64;
+        let mean = |value: fn(&RunRow) -> f64| self.runs().map(value).sum::<f64>() / count;
+        Cost {
+            cpu_seconds: mean(|run| run.cpu_seconds),
+            sphere_steps: mean(|run| run.sphere_steps as f64),
+            force_evaluations: mean(|run| run.force_evaluations as f64),
+        }
+    }
+
+    /// Labels of the seeds of which both samples have a run, point by point: those of this one and
+    /// of the other.
+    pub(super) fn labels_with(&self, other: &Self) -> Vec<[Vec<Label>; 2]> {
+        let of_point = |(own, other): (&Vec<Option<&RunRow>>, &Vec<Option<&RunRow>>)| {
+            let pairs = own.iter().zip(other);
+            let pairs = pairs.filter_map(|(own, other)| Some((own.as_ref()?, other.as_ref()?)));
+            let (own, other) = pairs.map(|(own, other)| (own.label, other.label)).unzip();
+            [own, other]
+        };
+        self.points.iter().zip(&other.points).map(of_point).collect()
+    }
+
+    /// The same for the values of a quantity: seeds count of which both runs have one.
+    pub(super) fn values_with(&self, other: &Self, quantity: usize) -> Vec<[Vec<f64>; 2]> {
+        let value = |run: &Option<&RunRow>| *run.as_ref()?.values.get(quantity)?;
+        let of_point = |(own, other): (&Vec<Option<&RunRow>>, &Vec<Option<&RunRow>>)| {
+            let pairs = own.iter().zip(other);
+            let pairs = pairs.filter_map(|(own, other)| Some((value(own)?, value(other)?)));
+            let (own, other) = pairs.unzip();
+            [own, other]
+        };
+        self.points.iter().zip(&other.points).map(of_point).collect()
+    }
+
+    /// The value of a quantity in the first run that has it.
+    pub fn first_value(&self, quantity: usize) -> Option<f64> {
+        self.runs().find_map(|run| *run.values.get(quantity)?)
+    }
+}
+

@@ -1,0 +1,145 @@
+//! `runs.csv`: what was measured of the runs of a comparison, one row per run.
+//!
+//! Columns: `setting`, the axes by their names, `seed`, `label`, the measured quantities by their
+//! names (empty where one is undefined), `sphere_steps`, `force_evaluations`, `cpu_seconds`,
+//! `measured` (which thresholds or times the row was measured with), `id`. A run that several
+//! settings share has a row for each.
+
+use super::{Comparison, Quantity};
+use crate::classify::{FAMILIES, Label};
+use crate::store::{StoreError, write_atomic};
+use crate::sweep::Axis;
+use std::collections::HashSet;
+use std::path::Path;
+
+/// What was measured of one run, and what it cost.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunRow {
+    /// Identity of the run.
+    pub id: String,
+    /// Its label.
+    pub label: Label,
+    /// Values of the quantities, in their order; none where one is undefined.
+    pub values: Vec<Option<f64>>,
+    /// Spheres times steps, of the whole run.
+    pub sphere_steps: u64,
+    /// Evaluations of the force on a sphere, those of sub-steps too.
+    pub force_evaluations: u64,
+    /// Processor time (s).
+    pub cpu_seconds: f64,
+}
+
+/// Columns after the axes and before the quantities.
+const BEFORE: [&str; 2] = ["seed", "label"];
+
+/// Columns after the quantities.
+const AFTER: [&str; 5] = [
+    "sphere_steps",
+    "force_evaluations",
+    "cpu_seconds",
+    "measured",
+    "id",
+];
+
+fn columns(axes: &[Axis], quantities: &[Quantity]) -> Vec<String> {
+    let mut columns = vec!["setting".to_owned()];
+    columns.extend(axes.iter().map(|axis| axis.name.clone()));
+    columns.extend(BEFORE.map(str::to_owned));
+    columns.extend(quantities.iter().map(|it| it.name.clone()));
+    columns.extend(AFTER.map(str::to_owned));
+    columns
+}
+
+/// Writes the rows that there are of the jobs of a comparison.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_runs(
+    comparison: &Comparison,
+    rows: &[Option<RunRow>],
+    path: &Path,
+) -> Result<(), StoreError> {
+    let content = |error: &dyn std::fmt::Display| StoreError::content(path, error);
+    let mut table = csv::Writer::from_writer(Vec::new());
+    let axes = comparison.axes();
+    let quantities = comparison.quantities();
+    table
+        .write_record(columns(axes, &quantities))
+        .map_err(|error| content(&error))?;
+    let measured = comparison.measurement.digest();
+    for (setting, places) in comparison.settings.iter().zip(&comparison.runs) {
+        for &place in places {
+            let (job, Some(Some(run))) = (&comparison.jobs[place], rows.get(place)) else {
+                continue;
+            };
+            let cells = (
+                (&setting.name, &job.values, job.seed, run.label.name),
+                &run.values,
+                (run.sphere_steps, run.force_evaluations, run.cpu_seconds),
+                (&measured, &run.id),
+            );
+            table.serialize(cells).map_err(|error| content(&error))?;
+        }
+    }
+    let bytes = table.into_inner().map_err(|error| content(&error))?;
+    write_atomic(path, &bytes)
+}
+
+/// Reads the rows of a table that can be used again: of the same axes, quantities and measurement.
+/// There are none where there is no file.
+///
+/// # Errors
+/// If the file cannot be read or is no such table.
+pub fn read_runs(comparison: &Comparison, path: &Path) -> Result<Vec<RunRow>, StoreError> {
+    if !path.exists() {
+        return Ok(Vec::new());
+    }
+    let fail = |error: csv::Error| StoreError::reading(path, error.into());
+    let mut table = csv::Reader::from_path(path).map_err(fail)?;
+    let axes = comparison.axes();
+    let quantities = comparison.quantities();
+    if table.headers().map_err(fail)?.iter().ne(columns(axes, &quantities)) {
+        return Ok(Vec::new());
+    }
+    let measured = comparison.measurement.digest();
+    let (mut rows, mut known) = (Vec::new(), HashSet::new());
+    for row in table.records() {
+        let row = row.map_err(fail)?;
+        let line = row.position().map_or(1, csv::Position::line);
+        let parsed = parse(&row, axes.len(), quantities.len(), &measured).ok_or_else(|| {
+            StoreError::text(path, line, "this is no row of a comparison; delete the file")
+        })?;
+        rows.extend(parsed.filter(|row| known.insert(row.id.clone())));
+    }
+    Ok(rows)
+}
+
+/// The row of a line, if it was measured in the same way; none if it is no row.
+fn parse(
+    line: &csv::StringRecord,
+    axes: usize,
+    quantities: usize,
+    measured: &str,
+) -> Option<Option<RunRow>> {
+    let cells: Vec<&str> = line.iter().skip(1 + axes).collect();
+    let (_seed, label) = (cells.first()?.parse::<u64>().ok()?, cells.get(1)?);
+    let mut labels = FAMILIES.into_iter();
+    let label = labels.find_map(|family| family.label(label))?;
+    let values = cells.get(2..2 + quantities)?.iter().map(|cell| match *cell {
+        "" => Some(None),
+        text => Some(Some(text.parse().ok()?)),
+    });
+    let values = values.collect::<Option<Vec<_>>>()?;
+    let [steps, evaluations, cpu_seconds, how, id] = cells.get(2 + quantities..)? else {
+        return None;
+    };
+    let row = RunRow {
+        id: (*id).to_owned(),
+        label,
+        values,
+        sphere_steps: steps.parse().ok()?,
+        force_evaluations: evaluations.parse().ok()?,
+        cpu_seconds: cpu_seconds.parse().ok()?,
+    };
+    Some((*how == measured).then_some(row))
+}

@@ -1,0 +1,187 @@
+//! `phase accuracy`: ladders of settings, their costs and errors, and the sentence.
+
+use crate::support::Workplace;
+use serde_json::Value;
+
+/// Eight soft spheres in a small tank: a run takes a few milliseconds.
+const SCENE: &str = r#"
+[scene.spheres]
+count = 8
+radius = 0.004
+density = 1000.0
+
+[scene.contact]
+law = "hertz"
+young_modulus = 1e5
+poisson_ratio = 0.3
+dissipation_time = 1e-3
+
+[scene.tank]
+radius = 0.02
+floor = 0.0
+
+[scene.start]
+kind = "random"
+z_min = 0.01
+z_max = 0.06
+speed = 0.05
+
+[scene.gravity]
+acceleration = 9.8
+
+[scene.time]
+dt = 2e-4
+duration = 0.04
+frame_interval = 4e-3
+"#;
+
+const MOTION: &str = r#"
+study = "accuracy"
+times = [0.02, 0.04]
+
+[[ladder]]
+key = "time.dt"
+values = [4e-4, 2e-4, 1e-4, 5e-5]
+
+[reference]
+set = { "time.dt" = 6.25e-6 }
+"#;
+
+fn evaluation(place: &Workplace, file: &str) -> Value {
+    let printed = place.phase(&["accuracy", file, "--no-plot", "--json"]).code(0).stdout;
+    let answer: Value = serde_json::from_slice(&printed).unwrap();
+    answer["evaluation"].clone()
+}
+
+#[test]
+fn the_cheapest_setting_of_a_motion_is_the_largest_step_within_the_tolerance() {
+    let place = Workplace::new();
+    let study = format!("{MOTION}\n[tolerance]\nerror = ERROR\n{SCENE}");
+    place.write("study.toml", &study.replace("ERROR", "1e-2"));
+    let found = evaluation(&place, "study.toml");
+    let outcomes = found["outcomes"].as_array().unwrap();
+    let error = |outcome: &Value| outcome["errors"]["motion"]["times"][1].as_f64().unwrap();
+    // As it is, the reference, then the ladder: errors fall with the step.
+    let ladder: Vec<f64> = outcomes[2..].iter().map(error).collect();
+    assert!(ladder.windows(2).all(|two| two[1] < two[0]), "{ladder:?}");
+    // The cheapest by work of those within the tolerance, since times are noise here.
+    let within = |outcome: &&Value| error(outcome) <= 1e-2;
+    let best = outcomes[2..].iter().find(within).unwrap();
+    let work = |outcome: &Value| outcome["cost"]["force_evaluations"].as_f64().unwrap();
+    assert!(work(&outcomes[2]) < work(&outcomes[3]));
+    let sentence = found["finding"]["sentence"].as_str().unwrap();
+    if error(best) > 0.0 {
+        assert!(sentence.contains("within") || sentence.contains("with an error"), "{sentence}");
+    }
+    let order = found["orders"][0]["order"].as_f64().unwrap();
+    assert!((0.7..1.4).contains(&order), "symplectic Euler is of first order, not {order}");
+
+    // Nothing is good enough for a tolerance below all errors.
+    place.write("study.toml", &study.replace("ERROR", "1e-12"));
+    let found = evaluation(&place, "study.toml");
+    let cheapest = found["finding"]["cheapest"].as_str();
+    assert_eq!(cheapest, Some("reference"), "{found:#}");
+}
+
+#[test]
+fn runs_that_are_there_are_not_made_again() {
+    let place = Workplace::new();
+    place.write("study.toml", &format!("{MOTION}{SCENE}"));
+    let first = place.phase(&["accuracy", "study.toml", "--json"]).code(0).stdout;
+    let again = place.phase(&["accuracy", "study.toml", "--json"]).code(0).stdout;
+    let [first, again]: [Value; 2] = [first, again].map(|it| serde_json::from_slice(&it).unwrap());
+    // The step of the scene is on the ladder: one run serves both.
+    assert_eq!((&first["runs"], &first["run_now"]), (&5.into(), &5.into()));
+    assert_eq!((&again["done_before"], &again["run_now"]), (&5.into(), &0.into()));
+    let errors = |it: &Value| it["evaluation"]["outcomes"][2]["errors"].clone();
+    assert_eq!(errors(&first), errors(&again));
+    for file in ["runs.csv", "accuracy.csv", "accuracy.json", "work-precision.svg"] {
+        assert!(place.path(&format!("results/study/{file}")).is_file(), "{file}");
+    }
+}
+
+#[test]
+fn a_case_has_known_numbers() {
+    let place = Workplace::new();
+    place.write(
+        "case.toml",
+        r#"
+        study = "accuracy"
+        case = "soft damped pair, c = 1"
+        combine = "all"
+        ladder = [
+            { key = "setup.steps_per_contact", values = [10, 100, 1000] },
+            { key = "integrator", values = ["symplectic-euler", "synchronised-verlet"] },
+        ]
+        tolerance = { error = 1e-2 }
+        "#,
+    );
+    let found = evaluation(&place, "case.toml");
+    let orders = found["orders"].as_array().unwrap();
+    assert_eq!(orders.len(), 2, "{orders:?}");
+    let sentence = found["finding"]["sentence"].as_str().unwrap();
+    assert!(sentence.starts_with("The cheapest setting with errors of at most 0.010"), "{sentence}");
+}
+
+#[test]
+fn bad_studies_are_refused_with_line_and_fix() {
+    let place = Workplace::new();
+    for (text, message) in [
+        ("study = \"accuracy\"\n", "the study varies nothing"),
+        (
+            "study = \"accuracy\"\n[[variant]]\nname = \"a\"\nset = { seed = 2 }\n",
+            "neither `scene` nor `case`",
+        ),
+        (
+            "study = \"accuracy\"\ncase = \"cradle of thre\"\n[[ladder]]\nkey = \"integrator\"\n\
+             values = [\"velocity-verlet\"]\n",
+            "did you mean \"cradle of three\"",
+        ),
+        (
+            &format!(
+                "study = \"accuracy\"\ntimes = [0.04]\n[[ladder]]\nkey = \"time.tpyo\"\n\
+                 values = [1.0]\n[reference]\n{SCENE}"
+            ),
+            "with tpyo = 1",
+        ),
+        (
+            &format!(
+                "study = \"accuracy\"\ntimes = [0.041]\n[[ladder]]\nkey = \"time.dt\"\n\
+                 values = [1e-4]\n{SCENE}"
+            ),
+            "whole multiples of `time.frame_interval`",
+        ),
+        (
+            &format!(
+                "study = \"accuracy\"\n[[ladder]]\nkey = \"time.dt\"\nvalues = [1e-4]\n{SCENE}"
+            ),
+            "told from noise by seeds",
+        ),
+    ] {
+        place.write("bad.toml", text);
+        for command in ["accuracy", "check"] {
+            let refused = place.phase(&[command, "bad.toml"]).code(2);
+            refused.complains(message).complains("bad.toml");
+        }
+    }
+    place.write("bad.toml", "study = \"stability\"\n");
+    let refused = place.phase(&["accuracy", "bad.toml"]).code(2);
+    refused.complains("`phase stability bad.toml` runs it");
+}
+
+/// "Spin" friction is an impulse mu per step.
+#[test]
+fn the_impulse_of_spin_friction_is_held_and_said() {
+    let place = Workplace::new();
+    let scene = SCENE.replace(
+        "[scene.tank]",
+        "[scene.friction]\nlaw = \"spin\"\ncoefficient = 0.02\n\n[scene.tank]",
+    );
+    let study = format!("{MOTION}{scene}");
+    place.write("spin.toml", &study);
+    let check = place.phase(&["check", "spin.toml", "--no-trial"]).code(0);
+    check.says("mu/dt of \"spin\" friction is held: friction.coefficient = 0.04");
+    place.write("auto.toml", &study.replace("\ndt = 2e-4\n", "\ndt = \"auto\"\n"));
+    let refused = place.phase(&["check", "auto.toml", "--no-trial"]).code(2);
+    refused.complains("another step is another friction");
+}
