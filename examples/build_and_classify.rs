@@ -57,6 +57,8 @@ fn tank(omega: f64) -> Scene {
                 drag: Some(Drag {
                     linear: 100.0,
                     quadratic: 0.0,
+                    viscosity: None,
+                    density: None,
                     law: DragLaw::CrossSection,
                     form: DragForm::Vector,
                 }),

@@ -198,8 +198,13 @@ fn displacements(
 /// Translational and rotational energy of all spheres (J): what is left of a dump's energies
 /// without the gravitational one.
 fn moving_energy(spheres: &ArrayView2<'_, f64>, mass: &[f64], scene: &Scene) -> f64 {
-    let gravity = scene.dem.effects.gravity.as_ref();
+    let gravity = scene.gravity_in_fluid();
     let rows = spheres.rows().into_iter().zip(mass);
-    rows.map(|(row, &mass)| row[3] - gravity.map_or(0.0, |it| it.energy(mass, row[0], row[2])))
-        .sum()
+    rows.map(|(row, &mass)| {
+        row[3]
+            - gravity
+                .as_ref()
+                .map_or(0.0, |it| it.energy(mass, row[0], row[2]))
+    })
+    .sum()
 }

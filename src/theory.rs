@@ -28,17 +28,16 @@ pub fn critical_rotation(count: f64, radius: f64, tank_radius: f64, gravity: f64
 /// Force of the updraught (N) on a resting sphere that none shields: Rice (2012), eq. 24 with n =
 /// 0,
 ///
-/// F_z = s exp(-beta (z - z0)) (c1 v_z + c2 v_z^2).
+/// F_z = s exp(-beta (z - z0)) drag(v_z), with drag(v) = c1 v + c2 v^2 in the thesis.
 ///
-/// * `drag`: where c1 and c2 come from
+/// * `drag`: the drag law
 /// * `radius`: radius of the sphere (m)
 /// * `height`: height z of its centre (m)
 pub fn unshielded_lift(updraught: &Updraught, drag: &Drag, radius: f64, height: f64) -> f64 {
-    let (linear, quadratic) = drag.coefficients(radius);
     let speed = updraught.speed;
     updraught.strength
         * libm::exp(-updraught.decay * (height - updraught.origin))
-        * (linear + quadratic * speed.abs())
+        * drag.coefficient(radius, speed)
         * speed
 }
 
@@ -85,6 +84,8 @@ mod tests {
         let drag = Drag {
             linear: 100.0,
             quadratic: 0.0,
+            viscosity: None,
+            density: None,
             law: DragLaw::CrossSection,
             form: DragForm::Component,
         };

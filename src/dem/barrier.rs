@@ -99,7 +99,7 @@ fn speed_to(scene: &Scene, radius: f64, place: [f64; 3], fixed: &[FixedSphere]) 
         let effective_radius = radius * fixed.radius / (radius + fixed.radius);
         (overlap > 0.0).then(|| elastic_energy(scene, overlap, effective_radius))
     });
-    let mass = scene.spheres.shape.mass(scene.spheres.density, radius);
+    let mass = scene.spheres.shape.mass(scene.spheres.density, radius) * scene.inertial_factor();
     (2.0 * contacts.sum::<f64>() / mass).sqrt()
 }
 

@@ -27,7 +27,7 @@ pub(super) fn engine(
     let dt = scene.time.dt;
     let spheres = (setup, particles);
     let radius = scene.spheres.radius.mean();
-    let mass = scene.spheres.shape.mass(scene.spheres.density, radius);
+    let mass = scene.spheres.shape.mass(scene.spheres.density, radius) * scene.inertial_factor();
     macro_rules! of_pair {
         ($(($contact:ident, $friction:ident),)+) => {
             match (&scene.dem.contact, &scene.dem.friction) {

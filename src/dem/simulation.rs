@@ -10,6 +10,7 @@ use super::start::{self, StartError};
 use super::system::{Engine, Setup};
 use super::walls::TankWall;
 use crate::cpu_time;
+use crate::forces::effects::Targets;
 use crate::particles::vector::Vector;
 use crate::particles::{Particles, Sphere};
 use crate::scene::{Neighbours, Scene, Start};
@@ -114,7 +115,10 @@ impl Simulation {
         let tank = scene.tank.as_ref();
         let setup = Setup {
             walls: tank.map(TankWall::of_tank).unwrap_or_default(),
-            effects: scene.dem.effects.build(&particles.radius),
+            effects: scene.dem.effects.build(&Targets {
+                radii: &particles.radius,
+                density: scene.spheres.density,
+            }),
             shielded: scene.dem.effects.updraught.is_some(),
             limits: Limits::new(scene, &particles),
             dt: scene.time.dt,
@@ -259,12 +263,8 @@ impl Simulation {
 
 /// The spheres of a scene that come in later.
 fn waiting(spheres: &Particles, scene: &Scene) -> Vec<Sphere> {
-    let gravity = scene
-        .dem
-        .effects
-        .gravity
-        .as_ref()
-        .map_or([0.0; 2], |it| it.components());
+    let gravity = scene.gravity_in_fluid();
+    let gravity = gravity.map_or([0.0; 2], |it| it.components());
     let sphere = |i: usize| Sphere {
         number: i as u32,
         position: spheres.position[i],

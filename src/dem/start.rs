@@ -143,7 +143,10 @@ fn give_mass(particles: &mut Particles, scene: &Scene) {
         .iter()
         .map(|radius| shape.mass(density, *radius))
         .collect();
-    particles.inverse_mass = particles.mass.iter().map(|mass| 1.0 / mass).collect();
+    particles.inertial_factor = scene.inertial_factor();
+    particles.inverse_mass = (0..particles.len())
+        .map(|i| 1.0 / particles.inertial_mass(i))
+        .collect();
     particles.force = vec![Vector::ZERO; particles.len()];
 }
 

@@ -27,3 +27,10 @@ pub(crate) fn seconds(symbol: &str, name: &str) -> Attribute {
 pub(crate) fn fraction(symbol: &str, name: &str) -> Attribute {
     quantity(symbol, "", name).at_least(0.0).at_most(1.0)
 }
+
+/// Density of a fluid (kg/m3).
+pub(crate) fn fluid_density() -> Attribute {
+    quantity("ρ_{fluid}", "kg/m³", "density of the fluid")
+        .at_least(0.0)
+        .at_most(1e15)
+}

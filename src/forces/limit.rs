@@ -43,12 +43,14 @@ pub(crate) struct Regime<'a> {
     pub(crate) largest_radius: f64,
     /// Mean radius (m).
     pub(crate) mean_radius: f64,
-    /// Mass of the smallest sphere (kg).
+    /// Inertial mass of the smallest sphere (kg).
     pub(crate) smallest_mass: f64,
-    /// Mass of the largest sphere (kg).
+    /// Inertial mass of the largest sphere (kg).
     pub(crate) largest_mass: f64,
-    /// Mass of a sphere of the mean radius (kg).
+    /// Inertial mass of a sphere of the mean radius (kg).
     pub(crate) mean_mass: f64,
+    /// Inertial mass over mass.
+    pub(crate) inertial_factor: f64,
     /// Density (kg/m3).
     pub(crate) density: f64,
     /// I / (m r^2).
@@ -57,6 +59,8 @@ pub(crate) struct Regime<'a> {
     pub(crate) has_walls: bool,
     /// The fastest relative speed (m/s) to expect.
     pub(crate) fastest_impact: f64,
+    /// The fastest spin (rad/s) to expect.
+    pub(crate) fastest_spin: f64,
     /// The lowest height (m) of a centre.
     pub(crate) lowest_height: f64,
     /// The guard on displacements in a step, in radii.
@@ -68,12 +72,14 @@ pub(crate) struct Regime<'a> {
 impl Regime<'_> {
     /// Moment of inertia of the smallest sphere (kg m2).
     pub(crate) fn smallest_inertia(&self) -> f64 {
-        self.inertia_factor * self.smallest_mass * self.smallest_radius * self.smallest_radius
+        let mass = self.smallest_mass / self.inertial_factor;
+        self.inertia_factor * mass * self.smallest_radius * self.smallest_radius
     }
 
-    /// 1 + m r^2 / I: a force at the surface moves it as if the mass were that much less.
+    /// 1 + m r^2 / I, with the inertial mass m: a force at the surface moves it as if the mass were
+    /// that much less.
     pub(crate) fn surface_factor(&self) -> f64 {
-        1.0 + 1.0 / self.inertia_factor
+        1.0 + self.inertial_factor / self.inertia_factor
     }
 
     /// The limit at which the fastest sphere reaches the displacement guard: the smallest one, that

@@ -4,6 +4,7 @@ pub mod contact;
 pub mod effects;
 pub mod friction;
 pub(crate) mod limit;
+pub mod simplification;
 
 /// For serde: the default of a factor.
 pub(crate) fn one() -> f64 {

@@ -110,9 +110,9 @@ macro_rules! scalars {
 }
 
 scalars! {
-    kinetic "J" "Translational kinetic energy of all spheres";
+    kinetic "J" "Translational kinetic energy of all spheres and their added mass";
     rotational "J" "Rotational kinetic energy of all spheres";
-    gravitational "J" "Gravitational energy m g z of all spheres";
+    gravitational "J" "Gravitational energy m g z of all spheres, less buoyancy";
     elastic "J" "Elastic energy of all contacts, that of tangential springs left out";
     height_mean "m" "Mean height z of the centres";
     height_max "m" "Height z of the highest centre";

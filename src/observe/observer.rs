@@ -2,7 +2,7 @@
 
 use super::Observations;
 use super::reduce::{Sum, largest, least};
-use crate::scene::{Gravity, Scene};
+use crate::scene::Scene;
 use crate::simulation::{Column, Flow, Frame, FrameView, Ledger};
 use ndarray::{Array2, Array3};
 use serde::{Deserialize, Serialize};
@@ -15,8 +15,10 @@ use serde::{Deserialize, Serialize};
 /// their indices, so equal states give equal bits.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Observer {
-    /// Components of gravity along x and z, 0 without it (m/s2).
+    /// Components of gravity, less the buoyancy, along x and z, 0 without it (m/s2).
     gravity: [f64; 2],
+    /// Inertial mass over mass.
+    inertial_factor: f64,
     /// |Omega| of the swirling air, 0 without swirl (rad/s).
     air_rotation: f64,
     /// Whether the scene has an axis that spheres may turn about.
@@ -75,11 +77,9 @@ impl Observer {
         let per_frame = |speed: &f64| speed * scene.time.frame_interval;
         Self {
             gravity: scene
-                .dem
-                .effects
-                .gravity
-                .as_ref()
-                .map_or([0.0; 2], Gravity::components),
+                .gravity_in_fluid()
+                .map_or([0.0; 2], |it| it.components()),
+            inertial_factor: scene.inertial_factor(),
             has_axis: !scene.has_flow()
                 && (tank_radius.is_some() || scene.dem.effects.swirl.is_some()),
             has_air: scene.dem.effects.swirl.is_some(),
@@ -169,7 +169,7 @@ impl Observer {
     }
 
     fn note_energies(&mut self, totals: &Totals) {
-        let kinetic = totals.kinetic.total();
+        let kinetic = totals.kinetic.total() * self.inertial_factor;
         let rotational = totals.rotational.total();
         let gravitational = totals.gravitational.total();
         let observations = &mut self.observations;

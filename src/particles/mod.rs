@@ -12,7 +12,7 @@ use vector::Vector;
 
 /// The spheres. Every array has one entry per sphere, or none at all where the scene has no
 /// use for it: spins, torques and moments of inertia exist only with friction.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Particles {
     /// How many of the spheres, the first ones, never move.
     pub fixed: usize,
@@ -32,9 +32,11 @@ pub struct Particles {
     pub torque: Vec<Vector>,
     /// Radii (m).
     pub radius: Vec<f64>,
-    /// Masses (kg).
+    /// Masses (kg), without that of a fluid.
     pub mass: Vec<f64>,
-    /// Inverse masses (1/kg); zero holds a sphere in place.
+    /// Mass that a force must accelerate over mass: more than 1 where a fluid moves with a sphere.
+    pub inertial_factor: f64,
+    /// Inverse [inertial masses](Self::inertial_mass) (1/kg); zero holds a sphere in place.
     pub inverse_mass: Vec<f64>,
     /// Moments of inertia (kg m2); empty without rotation.
     pub inertia: Vec<f64>,
@@ -42,7 +44,33 @@ pub struct Particles {
     pub inverse_inertia: Vec<f64>,
 }
 
+impl Default for Particles {
+    fn default() -> Self {
+        Self {
+            fixed: 0,
+            number: Vec::new(),
+            position: Vec::new(),
+            velocity: Vec::new(),
+            force: Vec::new(),
+            spin: Vec::new(),
+            torque: Vec::new(),
+            radius: Vec::new(),
+            mass: Vec::new(),
+            inertial_factor: 1.0,
+            inverse_mass: Vec::new(),
+            inertia: Vec::new(),
+            inverse_inertia: Vec::new(),
+        }
+    }
+}
+
 impl Particles {
+    /// Mass of a sphere that a force must accelerate (kg): its own and that of the fluid which
+    /// moves with it.
+    pub fn inertial_mass(&self, sphere: usize) -> f64 {
+        self.mass[sphere] * self.inertial_factor
+    }
+
     /// Forgets the forces and torques of the latest evaluation.
     pub(crate) fn clear_forces(&mut self) {
         self.force.fill(Vector::ZERO);
@@ -99,7 +127,7 @@ impl Particles {
         self.force.push(force);
         self.radius.push(radius);
         self.mass.push(mass);
-        self.inverse_mass.push(1.0 / mass);
+        self.inverse_mass.push(1.0 / (mass * self.inertial_factor));
         if let Some(inertia) = inertia {
             self.spin.push(Vector::ZERO);
             self.torque.push(Vector::ZERO);

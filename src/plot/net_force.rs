@@ -114,5 +114,5 @@ fn net_force(scene: &Scene, radius: f64, share: f64) -> Option<f64> {
     };
     let lift = unshielded_lift(&updraught, scene.dem.effects.drag.as_ref()?, radius, height);
     let mass = scene.spheres.density * volume(radius);
-    Some(share * share * lift - mass * scene.dem.effects.gravity.as_ref()?.acceleration)
+    Some(share * share * lift - mass * scene.gravity_in_fluid()?.acceleration)
 }

@@ -62,7 +62,8 @@ impl Scene {
         keys
     }
 
-    /// The full path of a numeric key: `key` itself, or the one path that ends in it.
+    /// The full path of a numeric key: `key` itself, or the one path that ends in it. Of several,
+    /// one that the scene sets comes before those that it leaves to their defaults.
     pub(crate) fn resolve_key(&self, key: &str) -> Result<String, Problem> {
         let keys = self.for_keys(&[key]).all_numeric_keys();
         if keys.iter().any(|known| known.path == key) {
@@ -70,10 +71,18 @@ impl Scene {
         }
         let paths = self.numeric_keys();
         let ending = format!(".{key}");
-        let matches: Vec<&String> = paths
+        let mut matches: Vec<&String> = paths
             .iter()
             .filter(|path| path.ends_with(&ending))
             .collect();
+        let tree = self.for_keys(&[]).tree();
+        let is_set = |path: &&String| {
+            let place = format!("/{}", path.replace('.', "/"));
+            tree.pointer(&place).is_some()
+        };
+        if matches.iter().any(is_set) {
+            matches.retain(is_set);
+        }
         match matches.as_slice() {
             [path] => Ok((*path).clone()),
             [] => Err(self.unknown_key(key, &paths)),
@@ -262,6 +271,19 @@ mod tests {
         ] {
             assert!(scene.resolve_key(key).is_err(), "{key}");
         }
+    }
+
+    /// Symptom: a sweep over `density` was ambiguous in a scene with [drag]. Cause: the law has a
+    /// density of the fluid, which that scene does not set.
+    #[test]
+    fn a_key_that_is_set_comes_before_one_that_is_not() {
+        let mut scene = scene();
+        let drag = r#"{ "law": "constant", "linear": 1e-6 }"#;
+        scene.dem.effects.drag = Some(serde_json::from_str(drag).unwrap());
+        assert_eq!(scene.resolve_key("density").unwrap(), "spheres.density");
+        assert_eq!(scene.resolve_key("viscosity").unwrap(), "drag.viscosity");
+        scene.dem.effects.drag.as_mut().unwrap().density = Some(1.2);
+        assert!(scene.resolve_key("density").is_err());
     }
 
     #[test]

@@ -9,10 +9,12 @@ mod accuracy;
 mod dem;
 mod file_kind;
 mod files;
+mod fluid;
 mod identity;
 mod keys;
 mod output;
 mod radius;
+mod simplified;
 mod spheres;
 mod start;
 mod tank;
@@ -24,10 +26,10 @@ mod vary;
 pub use accuracy::Accuracy;
 pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
-    Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Drag, DragForm, DragLaw, Effects,
-    FixedSphere, FixedSpheres, Friction, Geometry, Gravity, Guards, Hertz, Hopper, LengthUnit,
-    Linear, Mindlin, Neighbours, Outlet, Rest, Silbert, SilbertFriction, Spin, SpinDamping, Swirl,
-    Updraught,
+    AddedMass, Buoyancy, Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Drag,
+    DragForm, DragLaw, Effects, FixedSphere, FixedSpheres, Friction, Geometry, Gravity, Guards,
+    Hertz, Hopper, LengthUnit, Linear, Magnus, Mindlin, Neighbours, Outlet, Rest, Silbert,
+    SilbertFriction, Spin, SpinDamping, Swirl, Updraught,
 };
 pub use file_kind::FileKind;
 pub use keys::Notation;

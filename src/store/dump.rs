@@ -105,7 +105,8 @@ pub fn write_dump(record: &RunRecord, states: &[&Snapshot], path: &Path) -> Resu
 /// z), without what contacts store.
 fn values(record: &RunRecord, states: &[&Snapshot]) -> Array3<f64> {
     let count = record.radius.len();
-    let gravity = record.scene.dem.effects.gravity.as_ref();
+    let gravity = record.scene.gravity_in_fluid();
+    let inertial_factor = record.scene.inertial_factor();
     let inertia_factor = record.scene.spheres.shape.inertia_factor();
     let whole = record.scene.time.frames() as usize + 1;
     let (rows, broken) = match &record.outcome {
@@ -121,13 +122,15 @@ fn values(record: &RunRecord, states: &[&Snapshot]) -> Array3<f64> {
         for (sphere, mut entry) in spheres.outer_iter_mut().enumerate() {
             let square = |row: ndarray::ArrayView1<'_, f64>| row.dot(&row);
             let (mass, radius) = (record.mass[sphere], record.radius[sphere]);
-            let mut energy = 0.5 * mass * square(state.velocity.row(sphere));
+            let mut energy = 0.5 * mass * inertial_factor * square(state.velocity.row(sphere));
             if state.spin.nrows() > 0 {
                 let inertia = inertia_factor * mass * radius * radius;
                 energy += 0.5 * inertia * square(state.spin.row(sphere));
             }
             let position = state.position.row(sphere);
-            energy += gravity.map_or(0.0, |it| it.energy(mass, position[0], position[2]));
+            energy += gravity
+                .as_ref()
+                .map_or(0.0, |it| it.energy(mass, position[0], position[2]));
             for axis in 0..3 {
                 entry[axis] = position[axis];
             }

@@ -1,12 +1,15 @@
-//! A single sphere in air and gravity.
+//! A single sphere in air, or in a fluid, and gravity.
 
 use super::bench::{Bench, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
-use crate::scene::{DemScene, Drag, Effects, Gravity, Scene, Swirl, Updraught};
+use crate::scene::{
+    AddedMass, Buoyancy, Contact, Coulomb, DemScene, Drag, Effects, Friction, Gravity, Linear,
+    Magnus, Scene, StartSphere, Swirl, Updraught,
+};
 use serde::Deserialize;
 
-/// A single sphere in air and gravity, without walls. Air tables are those of a scene.
+/// A single sphere in air and gravity, without walls. Tables of effects are those of a scene.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Flight {
@@ -20,8 +23,15 @@ pub struct Flight {
     /// Velocity at the start (m/s).
     #[serde(default)]
     velocity: [f64; 3],
+    /// Spin at the start (rad/s), with [`magnus`](Self::magnus) alone.
+    #[serde(default)]
+    spin: [f64; 3],
     #[serde(default)]
     gravity: Option<Gravity>,
+    #[serde(default)]
+    buoyancy: Option<Buoyancy>,
+    #[serde(default)]
+    added_mass: Option<AddedMass>,
     #[serde(default)]
     drag: Option<Drag>,
     /// A swirl with `omega = 0` is drag toward air at rest.
@@ -29,6 +39,8 @@ pub struct Flight {
     swirl: Option<Swirl>,
     #[serde(default)]
     updraught: Option<Updraught>,
+    #[serde(default)]
+    magnus: Option<Magnus>,
     /// Time step (s).
     dt: f64,
     /// Duration (s).
@@ -41,11 +53,21 @@ impl Family for Flight {
     }
 
     fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
-        let sphere = moving(self.position, self.velocity);
+        let sphere = StartSphere {
+            spin: self.spin,
+            ..moving(self.position, self.velocity)
+        };
+        // Spheres have spins with friction alone, which needs a contact that never comes about.
+        let rotates = self.magnus.is_some();
         let scene = Scene {
             dem: DemScene {
+                contact: rotates.then(contact),
+                friction: rotates.then(friction),
                 effects: Effects {
                     gravity: self.gravity.clone(),
+                    buoyancy: self.buoyancy.clone(),
+                    added_mass: self.added_mass.clone(),
+                    magnus: self.magnus.clone(),
                     drag: self.drag.clone(),
                     swirl: self.swirl.clone(),
                     updraught: self.updraught.clone(),
@@ -69,4 +91,19 @@ impl Family for Flight {
             ("speed", velocity.norm()),
         ]))
     }
+}
+
+fn contact() -> Contact {
+    Contact::Linear(Linear {
+        stiffness: 1.0,
+        damping: 0.0,
+        drag: Default::default(),
+    })
+}
+
+fn friction() -> Friction {
+    Friction::Coulomb(Coulomb {
+        coefficient: 0.0,
+        regularisation: 1.0,
+    })
 }

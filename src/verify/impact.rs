@@ -5,7 +5,9 @@ use super::{Family, Measured, VerifyError, named};
 use crate::dem::{Simulation, timestep};
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
-use crate::scene::{Contact, DemScene, Friction, Hertz, Scene, StartSphere, Tank};
+use crate::scene::{
+    AddedMass, Contact, DemScene, Effects, Friction, Hertz, Scene, StartSphere, Tank,
+};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -37,6 +39,8 @@ pub struct Impact {
     restitution: Option<f64>,
     #[serde(default)]
     friction: Option<Friction>,
+    #[serde(default)]
+    added_mass: Option<AddedMass>,
     /// Relative speed (m/s).
     speed: f64,
     /// Angle between velocity and normal (degrees).
@@ -205,7 +209,10 @@ impl Impact {
             ),
             Partner::Floor | Partner::Cylinder => material.mass(self.radius),
         };
-        material.impact(radius, mass, self.normal_speed())
+        let inertial_factor = self.added_mass.as_ref().map_or(1.0, |it| {
+            1.0 + it.coefficient * it.density / material.density
+        });
+        material.impact(radius, mass * inertial_factor, self.normal_speed())
     }
 
     fn partner_radius(&self) -> f64 {
@@ -267,6 +274,10 @@ impl Impact {
             dem: DemScene {
                 contact: Some(self.contact(material)),
                 friction: self.friction.clone(),
+                effects: Effects {
+                    added_mass: self.added_mass.clone(),
+                    ..Effects::default()
+                },
                 ..unguarded()
             },
             ..bench.scene(material.density, self.radius, spheres, dt)

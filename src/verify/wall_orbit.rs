@@ -43,6 +43,8 @@ impl Family for WallOrbit {
                     drag: Some(Drag {
                         linear: self.drag_rate * self.material.mass(self.radius),
                         quadratic: 0.0,
+                        viscosity: None,
+                        density: None,
                         law: DragLaw::Constant,
                         form: DragForm::Vector,
                     }),

@@ -1,6 +1,6 @@
 //! The same input gives the same bits, a broken guard names its place, and nothing panics.
 
-use crate::scenes::{INTEGRATORS, State, cluster, frictions, state, tank};
+use crate::scenes::{INTEGRATORS, State, cluster, frictions, state, tank, water};
 use phase::dem::{Simulation, timestep};
 use phase::record::{Guard, Instability};
 use phase::scene::{Coulomb, Friction, Integrator, Mindlin, Scene, Spin, StartSphere};
@@ -10,7 +10,8 @@ const STEPS: u64 = 2000;
 
 fn tanks() -> impl Iterator<Item = Scene> {
     let laws = frictions().into_iter();
-    laws.flat_map(|law| INTEGRATORS.map(|integrator| tank(law.clone(), integrator)))
+    let air = laws.flat_map(|law| INTEGRATORS.map(|integrator| tank(law.clone(), integrator)));
+    air.chain(INTEGRATORS.map(water))
 }
 
 fn run(scene: &Scene, steps: u64) -> State {

@@ -1,6 +1,6 @@
 //! The energy balance: it closes, it names what is dissipated, and it changes nothing.
 
-use crate::scenes::{INTEGRATORS, frictions, tank};
+use crate::scenes::{INTEGRATORS, frictions, tank, water};
 use crate::support::Workplace;
 use phase::observe::Observations;
 use phase::record::{Outcome, RunRecord};
@@ -220,6 +220,49 @@ fn the_work_of_the_air_is_what_a_sphere_gains() {
             (gained / air - 1.0).abs() < tolerance,
             "{integrator:?} {gained} {air}"
         );
+    }
+}
+
+/// In water the balance closes too: buoyancy has a potential, and the water that moves with spheres
+/// has kinetic energy.
+#[test]
+fn the_books_close_in_water() {
+    for integrator in INTEGRATORS {
+        let mut water = water(integrator);
+        water.time.duration = 0.2;
+        let books = with_ledger(&water);
+        let turnover = last(&books.dissipated_by_damping) + last(&books.work_of_air).abs();
+        let residual = largest(&books.residual);
+        assert!(
+            residual < 5e-3 * turnover && residual > 0.0,
+            "{integrator:?}: {residual} of {turnover}"
+        );
+    }
+}
+
+/// Without drag nothing is lost: what a light sphere gains in speed, its water's included, it gains
+/// from the water that sinks as it rises.
+#[test]
+fn a_light_sphere_rises_on_the_energy_of_its_fluid() {
+    for integrator in INTEGRATORS {
+        let text = r#"
+            spheres = { count = 1, radius = 0.01, density = 50.0 }
+            gravity = { acceleration = 9.81, tilt = 0.2 }
+            buoyancy = { density = 1000.0 }
+            added_mass = { density = 1000.0 }
+            start.kind = "list"
+            start.spheres = [{ position = [0.0, 0.0, 0.0], velocity = [0.3, 0.0, -0.5] }]
+            time = { dt = 1e-5, duration = 0.5, frame_interval = 0.1 }
+        "#;
+        let books = with_ledger(&scene(text, integrator));
+        let mass = 4.0 / 3.0 * std::f64::consts::PI * 1e-6 * 50.0;
+        let expected = 0.5 * (mass * 11.0) * (0.3 * 0.3 + 0.5 * 0.5);
+        assert!((f64::from(books.kinetic[0]) / expected - 1.0).abs() < 1e-6);
+        let change = last(&books.kinetic) - f64::from(books.kinetic[0]);
+        let drop = last(&books.gravitational) - f64::from(books.gravitational[0]);
+        assert!(change > 1.0 * mass && (change / -drop - 1.0).abs() < 1e-3);
+        assert!(largest(&books.residual) < 1e-4 * change, "{integrator:?}");
+        assert_eq!(last(&books.work_of_air), 0.0);
     }
 }
 

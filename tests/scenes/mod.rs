@@ -50,6 +50,13 @@ pub(crate) fn tank(friction: Option<Friction>, integrator: Integrator) -> Scene 
     scene
 }
 
+/// Beads in a tank of turning water: with every effect of a fluid.
+pub(crate) fn water(integrator: Integrator) -> Scene {
+    let mut scene = Scene::load("tests/good/water.toml".as_ref()).unwrap();
+    scene.time.integrator = integrator;
+    scene
+}
+
 /// Spheres in empty space that fly at one another.
 pub(crate) fn cluster(spheres: Vec<StartSphere>, friction: Option<Friction>, dt: f64) -> Scene {
     let mut scene: Scene = toml::from_str(

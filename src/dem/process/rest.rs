@@ -60,7 +60,7 @@ impl RestWatch {
 
 /// Translational and rotational kinetic energy of a sphere (J).
 fn kinetic_energy(particles: &Particles, sphere: usize) -> f64 {
-    let translational = particles.mass[sphere] * particles.velocity[sphere].norm_squared();
+    let translational = particles.inertial_mass(sphere) * particles.velocity[sphere].norm_squared();
     let rotational = match particles.rotate() {
         true => particles.inertia[sphere] * particles.spin[sphere].norm_squared(),
         false => 0.0,

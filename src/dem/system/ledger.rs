@@ -158,8 +158,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.ledger.as_ref()?;
         let contacts = self.contacts();
         let particles = &self.particles;
-        let translation = particles.velocity.iter().zip(&particles.mass);
-        let rotation = particles.spin.iter().zip(&particles.inertia);
+        let translation = particles.velocity.iter().enumerate();
+        let translation = translation.map(|(i, rate)| (rate, particles.inertial_mass(i)));
+        let rotation = particles.spin.iter().zip(particles.inertia.iter().copied());
         let kinetic: f64 = translation
             .chain(rotation)
             .map(|(rate, inertia)| 0.5 * inertia * rate.norm_squared())

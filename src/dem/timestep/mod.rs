@@ -45,10 +45,12 @@ pub fn fastest_impact(scene: &Scene) -> f64 {
         Start::File { .. } => (0.0, 0.0, 0.0),
     };
     let tank = scene.tank.as_ref();
-    let free_fall = match (&scene.dem.effects.gravity, scene.lowest_support()) {
+    let free_fall = match (scene.gravity_in_fluid(), scene.lowest_support()) {
         (Some(gravity), Some(floor)) => {
             let height = (highest - floor).max(scene.smallest_radius());
-            (2.0 * gravity.acceleration * height).sqrt()
+            // What is lighter than its fluid rises as fast.
+            let acceleration = gravity.acceleration.abs() / scene.inertial_factor();
+            (2.0 * acceleration * height).sqrt()
         }
         _ => 0.0,
     };
@@ -110,21 +112,38 @@ fn regime(scene: &Scene) -> Regime<'_> {
     } = &scene.spheres;
     let (smallest_radius, largest_radius) = scene.radius_range();
     let mean_radius = radius.mean();
+    let inertial_factor = scene.inertial_factor();
+    let inertial_mass = |radius: f64| shape.mass(*density, radius) * inertial_factor;
+    let fastest_impact = fastest_impact(scene);
     Regime {
         scheme: scheme_of(scene),
         smallest_radius,
         largest_radius,
         mean_radius,
-        smallest_mass: shape.mass(*density, smallest_radius),
-        largest_mass: shape.mass(*density, largest_radius),
-        mean_mass: shape.mass(*density, mean_radius),
+        smallest_mass: inertial_mass(smallest_radius),
+        largest_mass: inertial_mass(largest_radius),
+        mean_mass: inertial_mass(mean_radius),
+        inertial_factor,
         density: *density,
         inertia_factor: shape.inertia_factor(),
         has_walls: scene.tank.is_some() || scene.dem.geometry.is_some(),
-        fastest_impact: fastest_impact(scene),
+        fastest_impact,
+        fastest_spin: start_spin(scene).max(fastest_impact / smallest_radius),
         lowest_height: lowest_height(scene),
         displacement_guard: scene.dem.guards.displacement,
         deepest_at_start: LazyCell::new(Box::new(|| deepest_at_start(scene))),
+    }
+}
+
+/// A bound on the spins at the start (rad/s).
+fn start_spin(scene: &Scene) -> f64 {
+    match &scene.start {
+        Start::Random { spin, .. } => 3.0_f64.sqrt() * spin,
+        Start::List { spheres } => spheres.iter().fold(0.0, |most: f64, sphere| {
+            let [x, y, z] = sphere.spin;
+            most.max((x * x + y * y + z * z).sqrt())
+        }),
+        Start::Feed { .. } | Start::File { .. } => 0.0,
     }
 }
 

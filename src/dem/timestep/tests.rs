@@ -250,6 +250,60 @@ fn the_damped_limit_is_where_an_oscillator_diverges() {
 }
 
 #[test]
+fn a_fluid_makes_spheres_slower_and_their_contacts_softer() {
+    // Half of the fluid's mass moves with the spheres: half as heavy again.
+    let added = "added_mass = { coefficient = 0.5, density = 1e4 }\n";
+    let law = hertz("dissipation_time = 0");
+    let [plain, water] = [pair(&law), pair(&format!("{law}{added}"))];
+    let seconds = |scene: &Scene| largest_stable(scene).unwrap().seconds;
+    // w^2 = (3/2) K sqrt(xi) / m_eff with xi as m_eff^(2/5).
+    let ratio = libm::pow(1.5, 0.4);
+    close(seconds(&water) / seconds(&plain), ratio, 1e-12);
+    let friction = "friction = { law = 'spin', coefficient = 0.01 }
+        spin_damping = { coefficient = 1e-3 }\n";
+    let damped = pair(&format!("{law}{added}{friction}"));
+    let mass = Shape::Sphere.mass(1e4, 0.004);
+    // The moment of inertia stays.
+    let expected = 2.0 * 0.4 * mass * 0.004 * 0.004 / 1e-3;
+    close(seconds(&damped), expected, 1e-12);
+    let falling = pair(
+        "tank = { floor = -1.2 }
+        gravity = { acceleration = 10.0 }
+        buoyancy = { density = 6e3 }
+        added_mass = { density = 4e3 }\n",
+    );
+    close(
+        fastest_impact(&falling),
+        (2.0_f64 * 10.0 * 0.4 / 1.2 * 1.2).sqrt(),
+        1e-12,
+    );
+}
+
+#[test]
+fn drag_of_schiller_and_naumann_limits_the_step() {
+    let water = "drag = { law = 'schiller-naumann', viscosity = 1e-3, density = 1e3 }
+        swirl = { omega = 0.0 }\n";
+    let mass = Shape::Sphere.mass(1e4, 0.004);
+    let limit = largest_stable(&pair(water)).unwrap();
+    assert_eq!(limit.name, "drag");
+    // At 1 m/s, Re = 8000: dF/du of 0.44 (pi/8) rho D^2 u^2.
+    let slope = 0.44 * std::f64::consts::PI / 4.0 * 1e3 * 0.008 * 0.008;
+    close(limit.seconds, 2.0 * mass / slope, 1e-12);
+}
+
+#[test]
+fn lift_advises_a_step() {
+    let spinning = hertz("dissipation_time = 0")
+        + "friction = { law = 'spin', coefficient = 0.01 }
+           magnus = { coefficient = 0.5, density = 1e3 }\n";
+    let limits = limits(&pair(&spinning));
+    let lift = limits.iter().find(|it| it.name == "Magnus lift").unwrap();
+    assert!(!lift.decisive);
+    // Spheres of 4 mm that roll at 1 m/s: W = 3/4 0.5 (1e3 / 1e4) 250 / s.
+    close(lift.seconds, 0.02 / (0.75 * 0.5 * 0.1 * 250.0), 1e-12);
+}
+
+#[test]
 fn air_and_spins_limit_the_step() {
     let still_air = "drag = { law = 'constant', linear = 0.1, quadratic = 0.2 }
         swirl = { omega = 0.0 }\n";

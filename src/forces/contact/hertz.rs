@@ -1,10 +1,12 @@
 //! Viscoelastic Hertz contact.
 
+use super::keys::elastic;
 use super::restitution::dissipation_time_from_restitution;
 use super::{Collision, ContactKeys, Impact, NormalLaw, contact_radius};
 use crate::document::{Problem, quantity};
 use crate::forces::limit::{Limit, Regime};
 use crate::forces::one;
+use crate::forces::simplification::Simplification;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -111,6 +113,14 @@ impl ContactKeys for Hertz {
                           fifth of it is customary",
             consequence: None,
         }]
+    }
+
+    fn simplifications(&self) -> Vec<Simplification> {
+        match (self.dissipation_time, self.restitution) {
+            (Some(time), _) => elastic(time > 0.0, "contact.dissipation_time", 0.0).collect(),
+            (_, Some(e)) => elastic(e < 1.0, "contact.restitution", 1.0).collect(),
+            _ => Vec::new(),
+        }
     }
 
     fn problems(&self) -> Vec<Problem> {

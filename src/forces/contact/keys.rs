@@ -3,8 +3,10 @@
 use super::{Hertz, Impact, Linear, NormalLaw, Silbert};
 use crate::document::Problem;
 use crate::forces::limit::{Limit, Regime};
+use crate::forces::simplification::Simplification;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 /// Normal contact law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -55,10 +57,25 @@ pub(crate) trait ContactKeys {
         Vec::new()
     }
 
+    /// Simpler stand-ins for this law, each as a change of the scene's keys.
+    fn simplifications(&self) -> Vec<Simplification> {
+        Vec::new()
+    }
+
     /// Keys that do not go together.
     fn problems(&self) -> Vec<Problem> {
         Vec::new()
     }
+}
+
+/// Contacts without losses, if they have any: a value at a key.
+pub(super) fn elastic(
+    dissipates: bool,
+    key: &'static str,
+    value: f64,
+) -> impl Iterator<Item = Simplification> {
+    let elastic = Simplification::setting("restitution to elastic", [(key, json!(value))]);
+    dissipates.then_some(elastic).into_iter()
 }
 
 /// An impact of two partners, as it limits the time step.
@@ -112,6 +129,11 @@ impl Contact {
     /// As [`ContactKeys::collisions`].
     pub(crate) fn collisions(&self, regime: &Regime<'_>) -> Vec<Collision> {
         with_keys!(self, keys => keys.collisions(regime))
+    }
+
+    /// As [`ContactKeys::simplifications`].
+    pub(crate) fn simplifications(&self) -> Vec<Simplification> {
+        with_keys!(self, keys => keys.simplifications())
     }
 
     /// As [`ContactKeys::problems`].

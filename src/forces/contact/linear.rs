@@ -1,10 +1,13 @@
 //! Linear spring and dashpot.
 
+use super::keys::elastic;
 use super::{Collision, ContactKeys, LinearImpact, NormalLaw};
 use crate::document::quantity;
 use crate::forces::limit::Regime;
+use crate::forces::simplification::Simplification;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 /// Spring and dashpot, both linear (Cundall and Strack, 1979; Remmers, 2009): F = k delta + b
 /// times the rate of the overlap. Attractive at the end of a contact.
@@ -64,6 +67,14 @@ impl ContactKeys for Linear {
             contact_time: impact.contact_time(),
             contact_radius: 0.0,
         }]
+    }
+
+    fn simplifications(&self) -> Vec<Simplification> {
+        let along = [("contact.drag", json!(ContactDrag::Normal))];
+        let along = Simplification::setting("contact drag sideways off", along);
+        let sideways = self.drag == ContactDrag::Whole && self.damping > 0.0;
+        let elastic = elastic(self.damping > 0.0, "contact.damping", 0.0);
+        elastic.chain(sideways.then_some(along)).collect()
     }
 }
 

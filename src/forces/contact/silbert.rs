@@ -1,8 +1,10 @@
 //! The Hertz contact of Silbert et al.
 
+use super::keys::elastic;
 use super::{Collision, ContactKeys, HertzLaw, Impact, NormalLaw, contact_radius};
 use crate::document::quantity;
 use crate::forces::limit::Regime;
+use crate::forces::simplification::Simplification;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -63,6 +65,10 @@ impl ContactKeys for Silbert {
         let walls = walls.into_iter().filter(|_| has_walls);
         let all = pairs.into_iter().chain(walls);
         all.filter(|collision| collision.speed > 0.0).collect()
+    }
+
+    fn simplifications(&self) -> Vec<Simplification> {
+        elastic(self.damping > 0.0, "contact.damping", 0.0).collect()
     }
 }
 

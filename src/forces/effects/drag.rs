@@ -1,14 +1,18 @@
 //! The drag law that swirl and updraught share: force from the difference of two velocities.
 
-use super::{Effect, EffectKeys, Effects};
+use super::schiller_naumann::{self, SchillerNaumann};
+use super::{Effect, EffectKeys, Effects, Targets};
+use crate::document::quantities::fluid_density;
 use crate::document::{Problem, quantity};
 use crate::forces::limit::{Limit, Regime};
+use crate::forces::simplification::{MeanSphere, Simplification};
 use crate::particles::block::BLOCK;
 use crate::particles::bodies::Bodies;
 use crate::particles::reorder::reorder;
 use crate::particles::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 /// Drag law and the form of its quadratic part.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -31,6 +35,18 @@ pub struct Drag {
             .unit_where("law", "constant", "kg/m")
     )]
     pub quadratic: f64,
+    /// Viscosity mu of the fluid (Pa s), which the law `schiller-naumann` needs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(
+        transform = quantity("μ_{fluid}", "Pa s", "viscosity of the fluid")
+            .at_least(1e-12)
+            .at_most(1e12)
+    )]
+    pub viscosity: Option<f64>,
+    /// Density rho of the fluid (kg/m3), which the law `schiller-naumann` needs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = fluid_density())]
+    pub density: Option<f64>,
     /// How the coefficients scale with the sphere.
     pub law: DragLaw,
     /// Whether the quadratic part is a vector law or acts component by component.
@@ -50,6 +66,10 @@ pub enum DragLaw {
     Diameter,
     /// The same force on every sphere: c1 = linear in kg/s, c2 = quadratic in kg/m.
     Constant,
+    /// From creeping to fast flow, by `viscosity` mu and `density` rho of the fluid (Schiller and
+    /// Naumann, 1933): F = pi/8 C_d rho D^2 |dv| dv with C_d = max(24/Re (1 + 0.15 Re^0.687), 0.44)
+    /// and Re = rho D |dv| / mu.
+    SchillerNaumann,
 }
 
 /// Form of the quadratic drag.
@@ -64,8 +84,9 @@ pub enum DragForm {
 }
 
 impl Drag {
-    /// Coefficients (c1 in kg/s, c2 in kg/m) for a sphere of radius `radius` (m).
-    pub fn coefficients(&self, radius: f64) -> (f64, f64) {
+    /// What the kernel needs of a sphere of that radius (m): c1 (kg/s) and c2 (kg/m), or those of
+    /// [`SchillerNaumann`].
+    fn coefficients(&self, radius: f64) -> (f64, f64) {
         let diameter = 2.0 * radius;
         match self.law {
             DragLaw::CrossSection => {
@@ -74,12 +95,37 @@ impl Drag {
             }
             DragLaw::Diameter => (self.linear * diameter, self.quadratic * diameter * diameter),
             DragLaw::Constant => (self.linear, self.quadratic),
+            DragLaw::SchillerNaumann => {
+                // A scene without them is refused.
+                let (viscosity, density) = self.viscosity.zip(self.density).unwrap_or((1.0, 0.0));
+                SchillerNaumann::coefficients(viscosity, density, radius)
+            }
+        }
+    }
+
+    /// Force over speed (kg/s) on a sphere of that radius (m) that the air passes at a speed (m/s),
+    /// along one axis.
+    pub fn coefficient(&self, radius: f64, speed: f64) -> f64 {
+        let (c1, c2) = self.coefficients(radius);
+        match self.law {
+            DragLaw::SchillerNaumann => SchillerNaumann::coefficient(c1, c2, speed.abs()),
+            _ => c1 + c2 * speed.abs(),
+        }
+    }
+
+    /// dF/du (kg/s) at a speed (m/s), the largest of all speeds up to that.
+    fn slope(&self, radius: f64, speed: f64) -> f64 {
+        let (c1, c2) = self.coefficients(radius);
+        match self.law {
+            DragLaw::SchillerNaumann => SchillerNaumann::slope(c1, c2, speed),
+            _ => c1 + 2.0 * c2 * speed,
         }
     }
 
     /// Which kernel the law needs.
     pub(super) fn kernel(&self) -> Form {
         match self.form {
+            _ if self.law == DragLaw::SchillerNaumann => Form::SchillerNaumann,
             _ if self.quadratic == 0.0 => Form::Linear,
             DragForm::Vector => Form::Vector,
             DragForm::Component => Form::Components,
@@ -88,38 +134,118 @@ impl Drag {
 }
 
 impl EffectKeys for Drag {
-    fn effect(&self, _: &Effects, _: &[f64]) -> Option<Box<dyn Effect>> {
+    fn effect(&self, _: &Effects, _: &Targets<'_>) -> Option<Box<dyn Effect>> {
         None
     }
 
     /// A sphere that slips through the air at speed u returns to its terminal speed at the rate
-    /// (c1 + 2 c2 u) / m. Swirl and updraught both act on the vertical velocity.
+    /// dF/du / m, which is (c1 + 2 c2 u) / m where the force is c1 u + c2 u^2. Swirl and updraught
+    /// both act on the vertical velocity.
     fn limit(&self, all: &Effects, regime: &Regime<'_>) -> Option<Limit> {
         let updraught = all.updraught.as_ref().map_or(0.0, |air| {
             let height = regime.lowest_height - air.origin;
             air.strength_in(all.swirl.as_ref()) * libm::exp(-air.decay * height)
         });
         let swirl = if all.swirl.is_some() { 1.0 } else { 0.0 };
-        let (linear, quadratic) = self.coefficients(regime.smallest_radius);
-        let coefficient = (linear + 2.0 * quadratic * regime.fastest_impact) * (swirl + updraught);
+        let slope = self.slope(regime.smallest_radius, regime.fastest_impact);
+        let coefficient = slope * (swirl + updraught);
         Some(Limit {
             name: "drag",
             seconds: (regime.scheme).oscillator(0.0, coefficient / regime.smallest_mass),
             decisive: true,
-            explanation: "2 m / (q (c1 + 2 c2 u)) of the smallest sphere, times the factors of \
-                          swirl and updraught at the lowest height; q = 2 for \
-                          synchronised-verlet, else 1",
+            explanation: match self.law {
+                DragLaw::SchillerNaumann => {
+                    "2 m / (q dF/du) of the smallest sphere, over the factors of swirl and \
+                     updraught at the lowest height; q = 2 for synchronised-verlet, else 1"
+                }
+                _ => {
+                    "2 m / (q (c1 + 2 c2 u)) of the smallest sphere, times the factors of \
+                     swirl and updraught at the lowest height; q = 2 for \
+                     synchronised-verlet, else 1"
+                }
+            },
             consequence: Limit::PASSES_ITS_END,
         })
     }
 
-    fn problems(&self, all: &Effects, _: bool) -> Vec<Problem> {
-        if all.swirl.is_some() || all.updraught.is_some() {
-            return Vec::new();
+    fn simplifications(
+        &self,
+        off: Simplification,
+        all: &Effects,
+        mean: &MeanSphere,
+    ) -> Vec<Simplification> {
+        let mut all = match self.law {
+            DragLaw::SchillerNaumann => schiller_naumann::simplifications(self),
+            _ => self.linear_instead(all, mean).into_iter().collect(),
+        };
+        if let Form::Vector | Form::Components = self.kernel() {
+            let (name, form) = match self.form {
+                DragForm::Vector => ("vector drag to component", DragForm::Component),
+                DragForm::Component => ("component drag to vector", DragForm::Vector),
+            };
+            all.push(Simplification::setting(name, [("drag.form", json!(form))]));
         }
-        let message = "[drag] acts through [swirl] or [updraught], but there is neither";
-        let help = "add [swirl], with `omega = 0.0` for still air, or remove [drag]";
-        vec![Problem::new("drag", message).help(help)]
+        all.push(off);
+        all
+    }
+
+    fn problems(&self, all: &Effects, _: bool) -> Vec<Problem> {
+        let mut problems = self.problems_of_law();
+        if all.swirl.is_none() && all.updraught.is_none() {
+            let message = "[drag] acts through [swirl] or [updraught], but there is neither";
+            let help = "add [swirl], with `omega = 0.0` for still air, or remove [drag]";
+            problems.push(Problem::new("drag", message).help(help));
+        }
+        problems
+    }
+}
+
+impl Drag {
+    /// A linear drag in place of a quadratic one, with the same force where it carries the weight
+    /// of the mean sphere.
+    fn linear_instead(&self, all: &Effects, mean: &MeanSphere) -> Option<Simplification> {
+        let gravity = all.gravity_in_fluid(mean.density)?;
+        let weight = mean.mass * gravity.acceleration.abs();
+        let (c1, c2) = self.coefficients(mean.radius);
+        // The root of c1 v + c2 v^2 = m g, in the form that does not cancel.
+        let root = (c1 * c1 + 4.0 * c2 * weight).sqrt();
+        let terminal = 2.0 * weight / (c1 + root);
+        let of_one = Self {
+            linear: 1.0,
+            ..self.clone()
+        };
+        let linear = weight / terminal / of_one.coefficients(mean.radius).0;
+        let name = "quadratic drag to linear, the same at the terminal speed of the mean sphere";
+        let set = [
+            ("drag.linear", json!(linear)),
+            ("drag.quadratic", json!(0.0)),
+        ];
+        (self.quadratic != 0.0 && weight > 0.0).then(|| Simplification::setting(name, set))
+    }
+
+    /// Keys that do not go with the law.
+    fn problems_of_law(&self) -> Vec<Problem> {
+        if self.law == DragLaw::SchillerNaumann {
+            let mut problems = schiller_naumann::problems(self);
+            if self.form == DragForm::Component {
+                let message =
+                    "`form = \"component\"` does not go with `law = \"schiller-naumann\"`";
+                let help = "remove `form`: C_d depends on the speed, not on its components";
+                problems.push(Problem::new("drag.form", message).help(help));
+            }
+            return problems;
+        }
+        let of_fluid = [
+            ("drag.viscosity", self.viscosity),
+            ("drag.density", self.density),
+        ];
+        let strange = of_fluid.iter().filter(|(_, value)| value.is_some());
+        let strange = strange.map(|(path, _)| {
+            let message = format!("`{path}` goes with `law = \"schiller-naumann\"` only");
+            let help = "remove it, or use that law without `linear` and `quadratic`";
+            Problem::new(*path, message).help(help).at_key()
+        });
+        strange.collect()
     }
 }
 
@@ -200,6 +326,7 @@ pub(super) enum Form {
     Linear,
     Vector,
     Components,
+    SchillerNaumann,
 }
 
 /// Coefficients c1 and c2 of every sphere, in whole blocks.

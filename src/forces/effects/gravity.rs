@@ -1,6 +1,6 @@
 //! Gravity: F = m g, straight down or tilted.
 
-use super::{Effect, EffectKeys, Effects, OneBody};
+use super::{Effect, EffectKeys, Effects, OneBody, Targets};
 use crate::document::quantity;
 use crate::particles::Particles;
 use crate::particles::block::BLOCK;
@@ -43,16 +43,17 @@ impl Gravity {
 }
 
 impl EffectKeys for Gravity {
-    fn effect(&self, _: &Effects, _: &[f64]) -> Option<Box<dyn Effect>> {
+    fn effect(&self, _: &Effects, _: &Targets<'_>) -> Option<Box<dyn Effect>> {
         Some(Box::new(GravityForce {
             acceleration: self.components(),
         }))
     }
 }
 
-struct GravityForce {
+/// F = m a, with one acceleration for all spheres.
+pub(super) struct GravityForce {
     /// Components along x and z (m/s2).
-    acceleration: [f64; 2],
+    pub(super) acceleration: [f64; 2],
 }
 
 impl OneBody for GravityForce {

@@ -1,18 +1,26 @@
 //! Effects on single spheres, one file each: keys, formula, loop, limit of the time step.
 
+mod added_mass;
+mod buoyancy;
 mod drag;
 mod gravity;
+mod magnus;
+mod schiller_naumann;
 mod spin_damping;
 mod swirl;
 mod updraught;
 
+pub use added_mass::AddedMass;
+pub use buoyancy::Buoyancy;
 pub use drag::{Drag, DragForm, DragLaw};
 pub use gravity::Gravity;
+pub use magnus::Magnus;
 pub use spin_damping::SpinDamping;
 pub use swirl::Swirl;
 pub use updraught::Updraught;
 
 use super::limit::{Limit, Regime};
+use super::simplification::{MeanSphere, Simplification};
 use crate::document::Problem;
 use crate::particles::Particles;
 use crate::particles::bodies::{Asked, Bodies};
@@ -22,8 +30,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Declares all effects, in the order in which they are applied, those with a potential energy
-/// first: the table of a scene file, the type of its keys, and its name in profiles (empty if only
-/// other effects use it, as they use the drag law).
+/// first: the table of a scene file, the type of its keys, and its name in profiles (empty if it
+/// has no loop: if only other effects use it, as they use the drag law, or it changes the spheres).
 macro_rules! effects {
     ($($(#[doc = $description:literal])+ $table:ident: $keys:ident = $name:literal,)+) => {
         /// The effects on single spheres. One that is absent does not exist in the simulation.
@@ -40,6 +48,16 @@ macro_rules! effects {
             /// Their names in profiles; empty for tables that only other effects use.
             const NAMES: &[&str] = &[$($name),+];
 
+            /// The tables of all, in the same order.
+            const TABLES: &[&str] = &[$(stringify!($table)),+];
+
+            /// Takes a table away.
+            fn remove(&mut self, table: &str) {
+                $(if table == stringify!($table) {
+                    self.$table = None;
+                })+
+            }
+
             /// Their keys in the same order.
             fn keys(&self) -> impl Iterator<Item = Option<&dyn EffectKeys>> {
                 [$(self.$table.as_ref().map(|keys| keys as &dyn EffectKeys)),+].into_iter()
@@ -51,12 +69,18 @@ macro_rules! effects {
 effects! {
     /// Gravity. Absent: none.
     gravity: Gravity = "gravity",
+    /// Buoyancy in a fluid, against gravity. Absent: none.
+    buoyancy: Buoyancy = "buoyancy",
+    /// Mass of fluid that moves with each sphere. Absent: none.
+    added_mass: AddedMass = "",
     /// The drag law that `swirl` and `updraught` share. Needed by either.
     drag: Drag = "",
     /// Drag toward air in rigid rotation about the axis. Absent: none.
     swirl: Swirl = "swirl",
     /// Rising air that lower spheres shield. Absent: none.
     updraught: Updraught = "updraught",
+    /// Lift of spinning spheres. Absent: none.
+    magnus: Magnus = "Magnus lift",
     /// Viscous damping of spins. Absent: none.
     spin_damping: SpinDamping = "spin damping",
 }
@@ -64,10 +88,19 @@ effects! {
 /// An effect, and its place among [all names](Effects::all_names).
 pub(crate) type PlacedEffect = (usize, Box<dyn Effect>);
 
+/// What effects act on.
+pub(crate) struct Targets<'a> {
+    /// Radii of the spheres (m).
+    pub(crate) radii: &'a [f64],
+    /// Their density (kg/m3).
+    pub(crate) density: f64,
+}
+
 /// The table of an effect in a scene.
 pub(crate) trait EffectKeys {
-    /// The effect on spheres of these radii (m); none if only others of `all` effects use the table.
-    fn effect(&self, all: &Effects, radii: &[f64]) -> Option<Box<dyn Effect>>;
+    /// The effect on these spheres; none if only others of `all` effects use the table, or if it
+    /// has no loop.
+    fn effect(&self, all: &Effects, targets: &Targets<'_>) -> Option<Box<dyn Effect>>;
 
     /// Its limit of the time step, if it has one. Limits are not summed: an effect that relaxes what
     /// another relaxes too must count the other's rate in.
@@ -78,6 +111,17 @@ pub(crate) trait EffectKeys {
     /// The fastest speed (m/s) that it gives a sphere up to that distance (m) from the axis.
     fn fastest(&self, _reach: f64) -> f64 {
         0.0
+    }
+
+    /// Simpler stand-ins for this part, each as a change of the scene's keys: off, as `off` has it,
+    /// or a simpler law.
+    fn simplifications(
+        &self,
+        off: Simplification,
+        _all: &Effects,
+        _mean: &MeanSphere,
+    ) -> Vec<Simplification> {
+        vec![off]
     }
 
     /// What is wrong with it beside `all` others; `rotates` says whether spheres have spins.
@@ -109,14 +153,28 @@ impl Effects {
         named.filter_map(|(name, keys)| (!name.is_empty()).then_some(keys))
     }
 
-    /// The effects with their places among [all names](Self::all_names), for spheres of these
-    /// radii (m).
-    pub(crate) fn build(&self, radii: &[f64]) -> Vec<PlacedEffect> {
+    /// The effects with their places among [all names](Self::all_names), for these spheres.
+    pub(crate) fn build(&self, targets: &Targets<'_>) -> Vec<PlacedEffect> {
         let effect = |(place, keys): (usize, Option<&dyn EffectKeys>)| {
-            let effect = keys?.effect(self, radii)?;
+            let effect = keys?.effect(self, targets)?;
             Some((place, effect))
         };
         self.acting().enumerate().filter_map(effect).collect()
+    }
+
+    /// Gravity, less the buoyancy of spheres of a density (kg/m3).
+    pub(crate) fn gravity_in_fluid(&self, density: f64) -> Option<Gravity> {
+        let gravity = self.gravity.as_ref()?;
+        let ratio = self.buoyancy.as_ref().map_or(0.0, |it| it.ratio(density));
+        Some(Gravity {
+            acceleration: gravity.acceleration * (1.0 - ratio),
+            ..gravity.clone()
+        })
+    }
+
+    /// Added mass over mass of spheres of a density (kg/m3).
+    pub(crate) fn added_mass_ratio(&self, density: f64) -> f64 {
+        self.added_mass.as_ref().map_or(0.0, |it| it.ratio(density))
     }
 
     /// Names of those that the scene has.
@@ -137,6 +195,49 @@ impl Effects {
     pub(crate) fn fastest(&self, reach: f64) -> f64 {
         let speeds = self.keys().flatten().map(|keys| keys.fastest(reach));
         speeds.fold(0.0, f64::max)
+    }
+
+    /// Simpler stand-ins for each of them, in a scene of that mean sphere; `rotates` says whether
+    /// spheres have spins.
+    pub(crate) fn simplifications(&self, rotates: bool, mean: &MeanSphere) -> Vec<Simplification> {
+        let tables = Self::TABLES.iter().zip(self.keys());
+        let of_table = |(&table, keys): (&&'static str, Option<&dyn EffectKeys>)| {
+            let off = Simplification {
+                name: format!("{} off", table.replace('_', " ")),
+                set: Vec::new(),
+                remove: self.removed_with(Some(table), rotates),
+            };
+            keys.map(|keys| keys.simplifications(off, self, mean))
+        };
+        tables.filter_map(of_table).flatten().collect()
+    }
+
+    /// A table and those that do not go without it, by name: what must be removed together. With
+    /// none, those that do not go with the others, or without spins.
+    pub(crate) fn removed_with(
+        &self,
+        table: Option<&'static str>,
+        rotates: bool,
+    ) -> Vec<&'static str> {
+        let (mut left, mut removed) = (self.clone(), Vec::new());
+        let mut next = table;
+        loop {
+            if let Some(table) = next {
+                left.remove(table);
+                removed.push(table);
+            }
+            let mut tables = Self::TABLES.iter().zip(left.keys());
+            let dangles = |keys: Option<&dyn EffectKeys>| {
+                keys.is_some_and(|keys| !keys.problems(&left, rotates).is_empty())
+            };
+            let found = tables.find(|(_, keys)| dangles(*keys));
+            next = found.map(|(table, _)| *table);
+            if next.is_none() {
+                break;
+            }
+        }
+        removed.sort_unstable();
+        removed
     }
 
     /// Keys that do not go together; `rotates` says whether spheres have spins.

@@ -1,6 +1,6 @@
 //! Viscous damping of spins: torque = -c w.
 
-use super::{Effect, EffectKeys, Effects, OneBody};
+use super::{Effect, EffectKeys, Effects, OneBody, Targets};
 use crate::document::{Problem, quantity};
 use crate::forces::limit::{Limit, Regime};
 use crate::particles::block::BLOCK;
@@ -18,7 +18,7 @@ pub struct SpinDamping {
 }
 
 impl EffectKeys for SpinDamping {
-    fn effect(&self, _: &Effects, _: &[f64]) -> Option<Box<dyn Effect>> {
+    fn effect(&self, _: &Effects, _: &Targets<'_>) -> Option<Box<dyn Effect>> {
         Some(Box::new(DampingTorque {
             coefficient: self.coefficient,
         }))

@@ -3,13 +3,16 @@
 use super::drag::{
     Coefficients, DragKernel, Form, Linear, QuadraticComponents, QuadraticVector, missing_drag,
 };
-use super::{Effect, EffectKeys, Effects, OneBody};
+use super::schiller_naumann::SchillerNaumann;
+use super::{Effect, EffectKeys, Effects, OneBody, Targets};
 use crate::document::{Problem, quantity};
+use crate::forces::simplification::{MeanSphere, Simplification};
 use crate::particles::block::BLOCK;
 use crate::particles::bodies::{Asked, Bodies};
 use crate::particles::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 use std::marker::PhantomData;
 
 /// Air in rigid rotation about the axis (Rice, 2012, eqs. 21 to 27).
@@ -22,7 +25,7 @@ pub struct Swirl {
 }
 
 impl EffectKeys for Swirl {
-    fn effect(&self, all: &Effects, radii: &[f64]) -> Option<Box<dyn Effect>> {
+    fn effect(&self, all: &Effects, targets: &Targets<'_>) -> Option<Box<dyn Effect>> {
         fn boxed<K: DragKernel>(omega: f64, coefficients: Coefficients) -> Box<dyn Effect> {
             Box::new(SwirlForce::<K> {
                 omega,
@@ -31,12 +34,29 @@ impl EffectKeys for Swirl {
             })
         }
         let drag = all.drag.as_ref()?;
-        let coefficients = Coefficients::new(drag, radii);
+        let coefficients = Coefficients::new(drag, targets.radii);
         Some(match drag.kernel() {
             Form::Linear => boxed::<Linear>(self.omega, coefficients),
             Form::Vector => boxed::<QuadraticVector>(self.omega, coefficients),
             Form::Components => boxed::<QuadraticComponents>(self.omega, coefficients),
+            Form::SchillerNaumann => boxed::<SchillerNaumann>(self.omega, coefficients),
         })
+    }
+
+    /// Without it an updraught that refers to its rotation is as strong as with it.
+    fn simplifications(
+        &self,
+        off: Simplification,
+        all: &Effects,
+        _: &MeanSphere,
+    ) -> Vec<Simplification> {
+        let updraught = all.updraught.as_ref();
+        let Some(updraught) = updraught.filter(|it| it.reference_omega.is_some()) else {
+            return vec![off];
+        };
+        let strength = json!(updraught.strength_in(Some(self)));
+        let still = Simplification::setting(off.name, [("updraught.strength", strength)]);
+        vec![still.removing(["swirl", "updraught.reference_omega"])]
     }
 
     fn problems(&self, all: &Effects, _: bool) -> Vec<Problem> {

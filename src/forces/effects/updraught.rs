@@ -1,15 +1,18 @@
 //! Rising air with the rectangular counting shield.
 
 use super::drag::{Coefficients, DragKernel, Form, Linear, QuadraticComponents, missing_drag};
-use super::{Effect, EffectKeys, Effects, OneBody, Swirl};
+use super::schiller_naumann::SchillerNaumann;
+use super::{Effect, EffectKeys, Effects, OneBody, Swirl, Targets};
 use crate::document::quantities::{fraction, place};
 use crate::document::{Problem, quantity};
 use crate::forces::one;
+use crate::forces::simplification::{MeanSphere, Simplification};
 use crate::particles::block::BLOCK;
 use crate::particles::bodies::{Asked, Bodies};
 use crate::particles::math::exp;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 use std::marker::PhantomData;
 
 /// Rising air with the rectangular counting shield (Rice, 2012, eq. 24).
@@ -56,7 +59,7 @@ impl Updraught {
 }
 
 impl EffectKeys for Updraught {
-    fn effect(&self, all: &Effects, radii: &[f64]) -> Option<Box<dyn Effect>> {
+    fn effect(&self, all: &Effects, targets: &Targets<'_>) -> Option<Box<dyn Effect>> {
         fn boxed<K: DragKernel>(
             parameters: Updraught,
             coefficients: Coefficients,
@@ -70,7 +73,7 @@ impl EffectKeys for Updraught {
             })
         }
         let drag = all.drag.as_ref()?;
-        let coefficients = Coefficients::new(drag, radii);
+        let coefficients = Coefficients::new(drag, targets.radii);
         let parameters = Self {
             strength: self.strength_in(all.swirl.as_ref()),
             ..self.clone()
@@ -81,7 +84,20 @@ impl EffectKeys for Updraught {
             Form::Vector | Form::Components => {
                 boxed::<QuadraticComponents>(parameters, coefficients)
             }
+            Form::SchillerNaumann => boxed::<SchillerNaumann>(parameters, coefficients),
         })
+    }
+
+    fn simplifications(
+        &self,
+        off: Simplification,
+        _: &Effects,
+        _: &MeanSphere,
+    ) -> Vec<Simplification> {
+        let all_alike = [("updraught.alpha", json!(1.0))];
+        let shield = Simplification::setting("counting shield to none", all_alike);
+        let shield = (self.alpha != 1.0).then_some(shield);
+        shield.into_iter().chain([off]).collect()
     }
 
     fn problems(&self, all: &Effects, _: bool) -> Vec<Problem> {

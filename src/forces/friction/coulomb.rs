@@ -23,6 +23,14 @@ pub struct Coulomb {
 impl Coulomb {
     /// Name of the law, as in a scene file.
     pub(crate) const NAME: &'static str = "coulomb";
+
+    /// The law in place of one with springs: regularised at a millimetre per second.
+    pub(super) fn instead(coefficient: f64) -> Self {
+        Self {
+            coefficient,
+            regularisation: 1e-3,
+        }
+    }
 }
 
 impl<C> FrictionKeys<C> for Coulomb {

@@ -1,6 +1,6 @@
 //! Friction by a tangential spring and dashpot.
 
-use super::{FrictionKeys, Grip, LoadedSpring, Spring, TangentialLaw, Touch};
+use super::{Coulomb, FrictionKeys, Grip, LoadedSpring, Spring, TangentialLaw, Touch};
 use crate::document::quantity;
 use crate::forces::contact::{Collision, Linear};
 use crate::forces::limit::{Limit, Regime};
@@ -47,6 +47,10 @@ impl FrictionKeys<Linear> for CundallStrack {
                           m_t = m_eff / (1 + m r^2 / I); q = 2 for synchronised-verlet, else 1",
             consequence: Limit::COARSE,
         })
+    }
+
+    fn simpler(&self, _: &Linear) -> Option<Coulomb> {
+        Some(Coulomb::instead(self.coefficient))
     }
 }
 

@@ -3,8 +3,10 @@
 use super::{Coulomb, CundallStrack, Mindlin, SilbertFriction, Spin, TangentialLaw};
 use crate::forces::contact::{Collision, Contact, ContactKeys, Hertz, Linear, Silbert};
 use crate::forces::limit::{Limit, Regime};
+use crate::forces::simplification::Simplification;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use serde_json::json;
 
 /// Tangential contact law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -30,6 +32,11 @@ pub(crate) trait FrictionKeys<C> {
     /// Its limit of the time step, if it has one, by the [collisions](ContactKeys::collisions) of
     /// the contact law.
     fn limit(&self, _contact: &C, _meetings: &[Collision], _regime: &Regime<'_>) -> Option<Limit> {
+        None
+    }
+
+    /// A simpler law than this one, if there is one, besides none at all.
+    fn simpler(&self, _contact: &C) -> Option<Coulomb> {
         None
     }
 }
@@ -88,6 +95,36 @@ impl Friction {
         let law = contact.law();
         let pairs = PAIRS.iter();
         pairs.filter_map(move |(contact, friction)| (*contact == law).then_some(*friction))
+    }
+
+    /// Simpler stand-ins for this law, each as a change of the scene's keys; `removed` is what goes
+    /// with it.
+    pub(crate) fn simplifications(
+        &self,
+        contact: &Contact,
+        removed: Vec<&'static str>,
+    ) -> Vec<Simplification> {
+        macro_rules! of_pair {
+            ($(($contact:ident, $friction:ident),)+) => {
+                match (contact, self) {
+                    $((Contact::$contact(contact), Self::$friction(friction)) => {
+                        friction.simpler(contact)
+                    })+
+                    _ => None,
+                }
+            };
+        }
+        let law = self.law();
+        let simpler = with_pairs_of_laws!(of_pair).map(|simpler| {
+            let table = json!(Self::Coulomb(simpler));
+            Simplification::setting(format!("{law} friction to coulomb"), [("friction", table)])
+        });
+        let none = Simplification {
+            name: format!("{law} friction to none"),
+            set: Vec::new(),
+            remove: removed,
+        };
+        simpler.into_iter().chain([none]).collect()
     }
 
     /// As [`FrictionKeys::limit`].

@@ -1,6 +1,6 @@
 //! Mindlin friction by increments.
 
-use super::{FrictionKeys, LoadedSpring, Spring, TangentialLaw, Touch};
+use super::{Coulomb, FrictionKeys, LoadedSpring, Spring, TangentialLaw, Touch};
 use crate::document::quantity;
 use crate::forces::contact::contact_radius;
 use crate::forces::contact::{Collision, Hertz};
@@ -51,6 +51,10 @@ impl FrictionKeys<Hertz> for Mindlin {
                           k_t / k_n = 2 (1 - nu) / (2 - nu)",
             consequence: Limit::COARSE,
         })
+    }
+
+    fn simpler(&self, _: &Hertz) -> Option<Coulomb> {
+        Some(Coulomb::instead(self.coefficient))
     }
 }
 

@@ -7,7 +7,8 @@ mod silo;
 
 pub use crate::forces::contact::{Contact, ContactDrag, Hertz, Linear, Silbert};
 pub use crate::forces::effects::{
-    Drag, DragForm, DragLaw, Effects, Gravity, SpinDamping, Swirl, Updraught,
+    AddedMass, Buoyancy, Drag, DragForm, DragLaw, Effects, Gravity, Magnus, SpinDamping, Swirl,
+    Updraught,
 };
 pub use crate::forces::friction::{
     Coulomb, CundallStrack, Friction, Mindlin, SilbertFriction, Spin,

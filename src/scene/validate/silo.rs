@@ -49,6 +49,17 @@ impl Scene {
             let help = format!("remove it, {shape}");
             refuse("tank.depth".to_owned(), "two sides stand along it", &help);
         }
+        let effects = &self.dem.effects;
+        for (table, is_there) in [
+            ("buoyancy", effects.buoyancy.is_some()),
+            ("added_mass", effects.added_mass.is_some()),
+            ("magnus", effects.magnus.is_some()),
+        ] {
+            if is_there {
+                let help = format!("remove it, {shape}");
+                refuse(table.to_owned(), "this fluid is in space", &help);
+            }
+        }
         if self.dem.effects.swirl.is_some() || self.dem.effects.updraught.is_some() {
             let path = if self.dem.effects.swirl.is_some() {
                 "swirl"

@@ -1,7 +1,7 @@
 //! The library: a run in parts has the bits of a whole one.
 
 use super::bench::whole;
-use crate::scenes::{frictions, state, tank};
+use crate::scenes::{frictions, state, tank, water};
 use crate::support::{Workplace, silo_file};
 use phase::dem::Simulation;
 use phase::record::{MilestoneKind, Outcome, RunRecord};
@@ -89,6 +89,12 @@ fn a_tank_with_every_effect_goes_on_with_the_same_bits() {
             scene.output.ledger = integrator == Integrator::VelocityVerlet;
             assert_same_bits(scene, 37);
         }
+    }
+    for integrator in Integrator::ALL {
+        let mut scene = water(integrator);
+        scene.time.duration = 0.12;
+        scene.output.ledger = integrator == Integrator::SynchronisedVerlet;
+        assert_same_bits(scene, 37);
     }
 }
 

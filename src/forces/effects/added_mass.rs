@@ -1,0 +1,41 @@
+//! Added mass: the fluid about a sphere must be accelerated with it.
+
+use super::{Effect, EffectKeys, Effects, Targets};
+use crate::document::quantities::fluid_density;
+use crate::document::quantity;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Added mass (Lamb, Hydrodynamics (1932), section 92): a sphere in an ideal fluid moves as if its
+/// mass were m + C rho V, also while it touches others. Its weight and its moment of inertia stay,
+/// and kinetic energies hold that of the fluid.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AddedMass {
+    /// Coefficient C (default 1/2, that of a sphere far from others and from walls).
+    #[serde(default = "half")]
+    #[schemars(transform = quantity("C_m", "", "coefficient of the added mass").at_least(0.0))]
+    pub coefficient: f64,
+    /// Density rho of the fluid (kg/m3).
+    #[schemars(transform = fluid_density())]
+    pub density: f64,
+}
+
+fn half() -> f64 {
+    0.5
+}
+
+impl AddedMass {
+    /// Added mass over mass of spheres of a density (kg/m3).
+    pub(super) fn ratio(&self, density: f64) -> f64 {
+        self.coefficient * self.density / density
+    }
+}
+
+/// No force: spheres are given the inertia of the added mass where they are placed, and the limits
+/// of the time step know of it by their masses.
+impl EffectKeys for AddedMass {
+    fn effect(&self, _: &Effects, _: &Targets<'_>) -> Option<Box<dyn Effect>> {
+        None
+    }
+}

@@ -1,0 +1,111 @@
+//! Lift of spinning spheres.
+
+use super::{Effect, EffectKeys, Effects, OneBody, Targets};
+use crate::document::quantities::fluid_density;
+use crate::document::{Problem, quantity};
+use crate::forces::limit::{Limit, Regime};
+use crate::forces::one;
+use crate::particles::block::BLOCK;
+use crate::particles::bodies::{Asked, Bodies};
+use crate::particles::vector::Vector;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Lift of a spinning sphere that moves through a fluid (Rubinow and Keller, 1961):
+/// F = C pi r^3 rho (w x u), with spin w and velocity u relative to the air, which is at rest but
+/// for [swirl].
+///
+/// C is 1 at small Reynolds numbers. Beyond, the form is kept and C is to be chosen: by the
+/// measurements of Oesterlé and Bui Dinh (1998) it is about 1/3 at Re = 100, where r |w| = |u|.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Magnus {
+    /// Coefficient C (default 1).
+    #[serde(default = "one")]
+    #[schemars(transform = quantity("C_w", "", "coefficient of the Magnus lift").at_least(0.0))]
+    pub coefficient: f64,
+    /// Density rho of the fluid (kg/m3).
+    #[schemars(transform = fluid_density())]
+    pub density: f64,
+}
+
+impl Magnus {
+    /// C pi r^3 rho over the mass of spheres of a density (kg/m3): 3/4 C rho / rho_sphere.
+    fn ratio(&self, density: f64) -> f64 {
+        0.75 * self.coefficient * self.density / density
+    }
+}
+
+/// Angle (rad) by which the lift should turn a velocity in a step at most: the speed, which the
+/// lift does not change, then grows by 1 % per radian in schemes that know the velocity of half a
+/// step before.
+const LARGEST_TURN: f64 = 0.02;
+
+impl EffectKeys for Magnus {
+    fn effect(&self, all: &Effects, targets: &Targets<'_>) -> Option<Box<dyn Effect>> {
+        Some(Box::new(Lift {
+            ratio: self.ratio(targets.density),
+            rotation: all.swirl.as_ref().map_or(0.0, |swirl| swirl.omega),
+        }))
+    }
+
+    fn limit(&self, all: &Effects, regime: &Regime<'_>) -> Option<Limit> {
+        let rotation = all.swirl.as_ref().map_or(0.0, |swirl| swirl.omega.abs());
+        let spin = regime.fastest_spin + rotation;
+        let rate = self.ratio(regime.density) * spin / regime.inertial_factor;
+        Some(Limit {
+            name: "Magnus lift",
+            seconds: LARGEST_TURN / rate,
+            decisive: false,
+            explanation: "0.02 / W, W = C pi r^3 rho w / m at the fastest spin w: at the start, or \
+                          of the smallest sphere that rolls at the speed of the fastest impact; \
+                          and of the air",
+            consequence: Some(
+                "the lift, which should only turn velocities, makes spinning spheres faster",
+            ),
+        })
+    }
+
+    fn problems(&self, _: &Effects, rotates: bool) -> Vec<Problem> {
+        if rotates {
+            return Vec::new();
+        }
+        let message = "[magnus] lifts spheres that spin, but without [friction] there are no spins";
+        let help = "add [friction], or remove [magnus]";
+        vec![Problem::new("magnus", message).help(help)]
+    }
+}
+
+/// Rubinow and Keller, J. Fluid Mech. 11, 447 (1961): F = pi r^3 rho w x u (1 + O(Re)), without
+/// the viscous torque, which is [`SpinDamping`](super::SpinDamping)'s. Lift beyond small Re:
+/// Oesterlé and Bui Dinh, Exp. Fluids 25, 16 (1998), C = C_L / 2 where r |w| = |u|. Air in rigid
+/// rotation has at each place the velocity Omega x r and the spin Omega.
+struct Lift {
+    /// C pi r^3 rho / m.
+    ratio: f64,
+    /// Omega (rad/s).
+    rotation: f64,
+}
+
+impl OneBody for Lift {
+    const ASKS: Asked = Asked {
+        motion: true,
+        turn: true,
+    };
+
+    #[inline(always)]
+    fn add(&self, bodies: &mut Bodies) {
+        let [x, y, _] = &bodies.position.0;
+        let [fx, fy, fz] = &mut bodies.force.0;
+        for k in 0..BLOCK {
+            let air = Vector::new(-self.rotation * y[k], self.rotation * x[k], 0.0);
+            let air_spin = Vector::new(0.0, 0.0, self.rotation);
+            let (velocity, spin) = (bodies.velocity.vector(k), bodies.spin.vector(k));
+            let across = (spin - air_spin).cross(velocity - air);
+            let force = across * (self.ratio * bodies.mass[k]);
+            fx[k] += force.x;
+            fy[k] += force.y;
+            fz[k] += force.z;
+        }
+    }
+}

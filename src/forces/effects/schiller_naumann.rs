@@ -1,0 +1,154 @@
+//! The drag of a sphere from creeping to fast flow.
+
+use super::drag::DragKernel;
+use super::{Drag, DragLaw};
+use crate::document::Problem;
+use crate::forces::simplification::Simplification;
+use crate::particles::vector::Vector;
+use serde_json::json;
+use std::f64::consts::PI;
+
+/// C_d of fast flow: that of Newton's law.
+const FAST: f64 = 0.44;
+
+/// Schiller and Naumann (Z. Ver. Dtsch. Ing. 77, 318 (1933)): F = (pi/8) C_d rho D^2 |u| u with
+///
+/// C_d = max(24/Re (1 + 0.15 Re^0.687), 0.44), Re = rho D |u| / mu,
+///
+/// for a sphere of diameter D in a fluid of density rho and viscosity mu. Their formula holds up to
+/// Re = 800; from Re = 1000 on C_d stays near 0.44, up to 2e5 (Clift, Grace and Weber, Bubbles,
+/// Drops, and Particles (1978), chapter 5). Its limits are 3 pi mu D u (Stokes) and
+/// 0.44 (pi/8) rho D^2 |u| u (Newton).
+///
+/// Here c1 = 3 pi mu D (kg/s) and c2 = rho D / mu (s/m): F = c1 u max(1 + 0.15 (c2 |u|)^0.687,
+/// 0.44/24 c2 |u|).
+#[derive(Clone, Copy)]
+pub(super) struct SchillerNaumann;
+
+/// What C_d is over that of Stokes, at a Reynolds number.
+#[inline(always)]
+fn over_stokes(reynolds: f64) -> f64 {
+    let slow = 1.0 + 0.15 * libm::pow(reynolds, 0.687);
+    let fast = FAST / 24.0 * reynolds;
+    if fast > slow { fast } else { slow }
+}
+
+impl SchillerNaumann {
+    /// The coefficients c1 (kg/s) and c2 (s/m) of a sphere of that radius (m).
+    pub(super) fn coefficients(viscosity: f64, density: f64, radius: f64) -> (f64, f64) {
+        let diameter = 2.0 * radius;
+        (
+            3.0 * PI * viscosity * diameter,
+            density * diameter / viscosity,
+        )
+    }
+
+    /// Force over speed (kg/s) at that speed (m/s).
+    pub(super) fn coefficient(c1: f64, c2: f64, speed: f64) -> f64 {
+        c1 * over_stokes(c2 * speed)
+    }
+
+    /// dF/du (kg/s) at that speed (m/s), where it is largest of all speeds up to that.
+    pub(super) fn slope(c1: f64, c2: f64, speed: f64) -> f64 {
+        let reynolds = c2 * speed;
+        let power = 0.15 * libm::pow(reynolds, 0.687);
+        let fast = FAST / 24.0 * reynolds;
+        match fast > 1.0 + power {
+            true => c1 * 2.0 * fast,
+            false => c1 * (1.0 + 1.687 * power),
+        }
+    }
+}
+
+impl DragKernel for SchillerNaumann {
+    #[inline(always)]
+    fn vector(c1: f64, c2: f64, air: Vector) -> Vector {
+        air * (c1 * over_stokes(c2 * air.norm()))
+    }
+
+    #[inline(always)]
+    fn along(c1: f64, c2: f64, air: f64) -> f64 {
+        c1 * over_stokes(c2 * air.abs()) * air
+    }
+}
+
+/// Its two limits: linear (Stokes) and quadratic (Newton).
+pub(super) fn simplifications(drag: &Drag) -> Vec<Simplification> {
+    let Some((viscosity, density)) = drag.viscosity.zip(drag.density) else {
+        return Vec::new();
+    };
+    let simpler = |name: &str, law: DragLaw, key: &'static str, coefficient: f64| {
+        let set = [("drag.law", json!(law)), (key, json!(coefficient))];
+        Simplification::setting(name, set).removing(["drag.viscosity", "drag.density"])
+    };
+    let stokes = "Schiller-Naumann drag to linear (Stokes)";
+    let newton = "Schiller-Naumann drag to quadratic (C_d = 0.44)";
+    vec![
+        simpler(
+            stokes,
+            DragLaw::Diameter,
+            "drag.linear",
+            3.0 * PI * viscosity,
+        ),
+        // pi/8 D^2 is half the cross-section.
+        simpler(
+            newton,
+            DragLaw::CrossSection,
+            "drag.quadratic",
+            0.5 * FAST * density,
+        ),
+    ]
+}
+
+/// Keys of this law that are missing, and keys of the others that stand beside it.
+pub(super) fn problems(drag: &Drag) -> Vec<Problem> {
+    let missing = [
+        (
+            "drag.viscosity",
+            drag.viscosity,
+            "air has 1.8e-5 Pa s, water 1e-3 Pa s",
+        ),
+        (
+            "drag.density",
+            drag.density,
+            "air has 1.2 kg/m3, water 1000 kg/m3",
+        ),
+    ];
+    let missing = missing.iter().filter(|(_, value, _)| value.is_none());
+    let missing = missing.map(|(path, _, known)| {
+        let name = path.trim_start_matches("drag.");
+        let message = format!("the law `schiller-naumann` needs `{name}`, that of the fluid");
+        Problem::new("drag", message).help(format!("add `{name}` to [drag]: {known}"))
+    });
+    let strange = [
+        ("drag.linear", drag.linear),
+        ("drag.quadratic", drag.quadratic),
+    ];
+    let strange = strange.iter().filter(|(_, value)| *value != 0.0);
+    let strange = strange.map(|(path, _)| {
+        let message = format!("`{path}` does not go with `law = \"schiller-naumann\"`");
+        let help = "remove it: the force follows from `viscosity` and `density`";
+        Problem::new(*path, message).help(help).at_key()
+    });
+    missing.chain(strange).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_slope_is_that_of_the_force() {
+        // A sphere of 1 mm in water.
+        let (c1, c2) = SchillerNaumann::coefficients(1e-3, 1e3, 5e-4);
+        for speed in [1e-6, 1e-3, 0.1, 0.9, 1.1, 5.0] {
+            let force = |speed: f64| SchillerNaumann::along(c1, c2, speed);
+            let step = 1e-5 * speed;
+            let expected = (force(speed + step) - force(speed - step)) / (2.0 * step);
+            let found = SchillerNaumann::slope(c1, c2, speed);
+            assert!((found / expected - 1.0).abs() < 1e-6, "{speed}: {found}");
+            let over_speed = SchillerNaumann::coefficient(c1, c2, speed);
+            assert!((over_speed * speed / force(speed) - 1.0).abs() < 1e-15);
+        }
+    }
+}
