@@ -15,7 +15,7 @@ radius-of-wrong-kind radius-share-misspelt several-problems start-position-incom
 start-sphere-misspelt""".split()
 
 validators = {}
-for kind in "scene", "sweep", "stability":
+for kind in "scene", "sweep", "stability", "accuracy":
     schema = json.loads(Path(f"docs/schema/{kind}.json").read_text())
     jsonschema.Draft7Validator.check_schema(schema)
     validators[kind] = jsonschema.Draft7Validator(schema)
@@ -24,7 +24,7 @@ for kind in "scene", "sweep", "stability":
 def complaints(path):
     content = tomllib.loads(path.read_text())
     is_sweep = bool(content.keys() & {"axis", "scene", "seeds", "sieves", "plot"})
-    kind = "stability" if "study" in content else "sweep" if is_sweep else "scene"
+    kind = content.get("study") or ("sweep" if is_sweep else "scene")
     return [error.message for error in validators[kind].iter_errors(content)]
 
 

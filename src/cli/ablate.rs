@@ -186,7 +186,7 @@ fn text(ablated: &[Ablated], cost: &Cost, finding: &Finding) -> String {
     let width = longest.unwrap_or(0).max(7);
     let mut lines = vec![format!(
         "as it is: {} of processor time and {} force evaluations a run",
-        format::duration(cost.cpu_seconds),
+        format::short_duration(cost.cpu_seconds),
         format::with_prefix(cost.force_evaluations, "")
     )];
     for it in ablated {

@@ -181,7 +181,7 @@ fn text(evaluation: &Evaluation) -> String {
         lines.push(format!(
             "{:<width$}  {:>10}  {:>11}  {}",
             outcome.name,
-            format::duration(outcome.cost.cpu_seconds),
+            format::short_duration(outcome.cost.cpu_seconds),
             format::with_prefix(outcome.cost.force_evaluations, ""),
             outcome.in_words(evaluation.counted_time)
         ));

@@ -15,6 +15,20 @@ pub(crate) fn duration(seconds: f64) -> String {
     }
 }
 
+/// A time that may be short: `3.1 µs`, `42 ms`, and from a second on as any [duration].
+pub(crate) fn short_duration(seconds: f64) -> String {
+    match seconds {
+        seconds if seconds >= 1.0 || seconds <= 0.0 => duration(seconds),
+        seconds if seconds >= 1e-3 => format!("{} ms", two_digits(1e3 * seconds)),
+        seconds => format!("{} µs", two_digits(1e6 * seconds)),
+    }
+}
+
+fn two_digits(value: f64) -> String {
+    let decimals = usize::from(value < 9.95);
+    format!("{value:.decimals$}")
+}
+
 /// A simulated time (s), without the last digits that rounding gave it.
 pub(crate) fn time(seconds: f64) -> String {
     let rounded: f64 = format!("{seconds:.9}").parse().unwrap_or(seconds);
@@ -79,6 +93,12 @@ mod tests {
         ] {
             assert_eq!(duration(seconds), text);
         }
+    }
+
+    #[test]
+    fn short_durations_keep_two_digits() {
+        let short = [3.14e-6, 4.2e-2, 0.9, 12.0].map(short_duration);
+        assert_eq!(short, ["3.1 µs", "42 ms", "900 ms", "12 s"]);
     }
 
     #[test]

@@ -2,7 +2,9 @@
 
 use super::Simulation;
 use super::profile;
+use super::simplifications::simplifications;
 use super::work::sphere_steps;
+use crate::forces::simplification::Simplification;
 use crate::scene::Scene;
 use crate::simulation::{
     BuildError, Counts, Frame, Instability, Milestone, Model, PartOfStep, Profile, StateError,
@@ -25,6 +27,10 @@ impl Model for Dem {
 
     fn parts_of(&self, scene: &Scene) -> Vec<PartOfStep> {
         profile::parts_of(scene)
+    }
+
+    fn simplifications(&self, scene: &Scene) -> Vec<Simplification> {
+        simplifications(scene)
     }
 
     fn build(&self, scene: &Scene) -> Result<Box<dyn crate::simulation::Simulation>, BuildError> {

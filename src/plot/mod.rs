@@ -7,6 +7,7 @@
 //!
 //! To add a figure: a file with an implementation of `Figure`, and a line in `all`.
 
+pub mod ablation;
 pub mod accuracy;
 mod axes;
 mod beverloo;

@@ -47,17 +47,17 @@ impl Accuracy {
         match self {
             Self::Draft => Settings {
                 integrator: "symplectic-euler",
-                safety_factor: 0.4,
+                safety_factor: 1.0,
                 frames_per_fall: 5.0,
             },
             Self::Standard => Settings {
                 integrator: "symplectic-euler",
-                safety_factor: 0.2,
+                safety_factor: 0.5,
                 frames_per_fall: 10.0,
             },
             Self::Reference => Settings {
                 integrator: "synchronised-verlet",
-                safety_factor: 0.05,
+                safety_factor: 0.1,
                 frames_per_fall: 20.0,
             },
         }
@@ -174,7 +174,7 @@ mod tests {
             json!({
                 "duration": 5.0,
                 "dt": "auto",
-                "safety_factor": 0.2,
+                "safety_factor": 0.5,
                 "integrator": "symplectic-euler",
                 "frame_interval": 2e-3,
             })

@@ -1,6 +1,7 @@
 //! The door between the program and its models.
 
 use super::{Column, Counts, Frame, Instability, Milestone, PartOfStep, Profile};
+use crate::forces::simplification::Simplification;
 use crate::scene::Scene;
 use rayon::ThreadPoolBuildError;
 use std::error::Error;
@@ -16,6 +17,11 @@ pub trait Model: Sync {
 
     /// The parts of a step that cost time, whether the scene has them or not.
     fn parts_of(&self, scene: &Scene) -> Vec<PartOfStep>;
+
+    /// Simpler stand-ins for the effects and laws of a scene, as changes of its keys.
+    fn simplifications(&self, _scene: &Scene) -> Vec<Simplification> {
+        Vec::new()
+    }
 
     /// A simulation of the scene at its start.
     ///

@@ -194,6 +194,7 @@ pub(super) fn moving(position: [f64; 3], velocity: [f64; 3]) -> StartSphere {
 pub(super) struct Bench {
     integrator: Integrator,
     steps: u64,
+    moves: u64,
 }
 
 impl Bench {
@@ -201,6 +202,7 @@ impl Bench {
         Self {
             integrator,
             steps: 0,
+            moves: 0,
         }
     }
 
@@ -240,7 +242,10 @@ impl Bench {
         steps: u64,
     ) -> Result<(), VerifyError> {
         self.steps += steps;
-        Ok(simulation.advance(steps)?)
+        let before = simulation.moves();
+        simulation.advance(steps)?;
+        self.moves += simulation.moves() - before;
+        Ok(())
     }
 
     /// Advances by a duration (s), to the nearest step.
@@ -273,6 +278,11 @@ impl Bench {
     /// Steps of all simulations so far.
     pub(super) fn steps(&self) -> u64 {
         self.steps
+    }
+
+    /// How often spheres were moved by all simulations so far, sub-steps counted.
+    pub(super) fn moves(&self) -> u64 {
+        self.moves
     }
 
     /// Sum of the forces on spheres that rest where these are, in a scene without gravity or air:

@@ -237,6 +237,8 @@ pub struct Outcome {
     pub checks: Vec<Check>,
     /// Steps simulated.
     pub steps: u64,
+    /// How often spheres were moved, sub-steps counted: each time with an evaluation of its force.
+    pub moves: u64,
     /// Processor time it took (s).
     pub cpu_seconds: f64,
 }
@@ -340,6 +342,7 @@ pub fn run(case: &Case, integrator: Integrator) -> Result<Outcome, VerifyError> 
     Ok(Outcome {
         checks: case.expect.iter().map(check).collect::<Result<_, _>>()?,
         steps: bench.steps(),
+        moves: bench.moves(),
         cpu_seconds: cpu_time::of_this_thread() - started,
     })
 }

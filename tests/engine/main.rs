@@ -8,6 +8,7 @@ mod integrators;
 mod invariants;
 mod large;
 mod ledger;
+mod motion;
 mod plane_sides;
 mod reproduction;
 #[path = "../scenes/mod.rs"]

@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The commands that answer in JSON are tested below; these are all.
-const COMMANDS: [&str; 17] = [
+const COMMANDS: [&str; 19] = [
     "sweep",
     "classify",
     "plot",
@@ -17,6 +17,8 @@ const COMMANDS: [&str; 17] = [
     "cost",
     "neighbours",
     "stability",
+    "accuracy",
+    "ablate",
     "verify",
     "status",
     "new",
@@ -33,6 +35,7 @@ fn documents_are_what_the_program_prints() {
         (["schema", "scene"], "docs/schema/scene.json"),
         (["schema", "sweep"], "docs/schema/sweep.json"),
         (["schema", "stability"], "docs/schema/stability.json"),
+        (["schema", "accuracy"], "docs/schema/accuracy.json"),
         (["reference", "keys"], "docs/reference.md"),
         (["reference", "notation"], "docs/notation.md"),
     ] {

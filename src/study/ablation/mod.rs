@@ -8,7 +8,8 @@ pub use finding::{Finding, Verdict};
 pub use table::write_ablation;
 
 use crate::document::{LoadError, Problem};
-use crate::forces::{Simplification, simplifications};
+use crate::forces::simplification::Simplification;
+use crate::run;
 use crate::study::comparison::{
     Base, Change, Comparison, Cost, Measurement, RunRow, Setting, States,
 };
@@ -85,7 +86,8 @@ impl Ablation {
         if count != base.sweep.seeds.len() {
             base.sweep.seeds = (0..count as u64).map(|next| first.saturating_add(next)).collect();
         }
-        let singles = simplifications(&base.sweep.scene).into_iter();
+        let scene = &base.sweep.scene;
+        let singles = run::model_of(scene).simplifications(scene).into_iter();
         let singles = singles.map(|it| (it.name.clone(), change_of(&it)));
         let mut ablation = Self::new(base, singles.collect())?;
         if ablation.comparison.settings.len() < 2 && ablation.skipped.is_empty() {

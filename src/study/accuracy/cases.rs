@@ -29,8 +29,10 @@ pub struct CaseSetting {
 pub struct CaseRow {
     /// The numbers and their errors; or why there are none.
     pub checks: Result<Vec<Check>, String>,
-    /// Sphere-steps.
+    /// Steps.
     pub steps: u64,
+    /// Evaluations of the force on a sphere, those of sub-steps too.
+    pub force_evaluations: u64,
     /// Processor time (s).
     pub cpu_seconds: f64,
 }
@@ -128,11 +130,13 @@ fn row_of(setting: &CaseSetting) -> CaseRow {
         Ok(outcome) => CaseRow {
             checks: Ok(outcome.checks),
             steps: outcome.steps,
+            force_evaluations: outcome.moves,
             cpu_seconds: outcome.cpu_seconds,
         },
         Err(error) => CaseRow {
             checks: Err(error.to_string()),
             steps: 0,
+            force_evaluations: 0,
             cpu_seconds: 0.0,
         },
     }

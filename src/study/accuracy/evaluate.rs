@@ -235,7 +235,7 @@ fn of_case(setting: &CaseSetting, row: &CaseRow) -> Outcome {
         cost: Cost {
             cpu_seconds: row.cpu_seconds,
             sphere_steps: row.steps as f64,
-            force_evaluations: row.steps as f64,
+            force_evaluations: row.force_evaluations as f64,
         },
         errors: Errors::Case(
             checks.iter().map(|check| (check.quantity.clone(), check.error)).collect(),
@@ -264,15 +264,20 @@ fn orders(
         let outcome = outcomes.get(place)?;
         Some((&outcome.method, outcome.rung.as_ref()?))
     });
-    let order = |((method, key), points): ((&str, &str), Vec<(f64, f64)>)| {
+    let order = |((method, key), mut points): ((&str, &str), Vec<(f64, f64)>)| {
         let reference = finest
             .filter(|(own, (own_key, _))| *own == method && own_key == key)
             .map(|(_, (_, value))| *value);
-        let (order, misfit) = fitted_order(&points, reference)?;
+        points.sort_by(|one, other| one.0.total_cmp(&other.0));
+        // Errors fall with a time step, and with the inverse of a number of steps.
+        let falls = points.first()?.1 > points.last()?.1;
+        let step = |value: f64| if falls { 1.0 / value } else { value };
+        points.iter_mut().for_each(|point| point.0 = step(point.0));
+        let (order, misfit) = fitted_order(&points, reference.map(step))?;
         Some(MethodOrder {
             method: method.to_owned(),
             key: key.to_owned(),
-            order,
+            order: if falls { -order } else { order },
             misfit,
         })
     };

@@ -84,21 +84,23 @@ fn sentence(
     if cheapest.name == base.name {
         return format!("The scene as it is is the cheapest setting {wanted}: {how_wrong}.");
     }
-    let percent = |ratio: Option<f64>| {
-        ratio.map_or_else(|| "?".to_owned(), |ratio| format!("{:.0} %", 100.0 * (1.0 - ratio)))
-    };
-    let saved = match time_ratio {
+    let times = |ratio: Option<f64>| ratio.unwrap_or(f64::NAN);
+    let cost = match time_ratio {
         Some(ratio) if ratio <= 1.0 => format!(
-            "It saves {} of the processor time of the scene as it is ({} of its force evaluations)",
-            percent(time_ratio),
-            percent(work_ratio)
+            "It saves {:.0} % of the processor time of the scene as it is, and {:.0} % of its force \
+             evaluations",
+            100.0 * (1.0 - ratio),
+            100.0 * (1.0 - times(work_ratio))
         ),
-        ratio => format!(
-            "It takes {:.2} times the processor time of the scene as it is, which is not {wanted}",
-            ratio.unwrap_or(f64::NAN)
+        _ => format!(
+            "The scene as it is does not do: {}. It takes {:.1} times the processor time of that, \
+             and {:.1} times its force evaluations",
+            self::how_wrong(evaluation, base),
+            times(time_ratio),
+            times(work_ratio)
         ),
     };
-    format!("The cheapest setting {wanted} is {}: {how_wrong}. {saved}.", cheapest.name)
+    format!("The cheapest setting {wanted} is {}: {how_wrong}. {cost}.", cheapest.name)
 }
 
 /// What is asked for.

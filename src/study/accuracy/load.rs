@@ -4,7 +4,9 @@ use super::choices::{Choice, choices};
 use super::file::{ACCURACY, AccuracyFile};
 use super::{AccuracyStudy, Subject, cases};
 use crate::document::{Document, LoadError, Problem, number};
-use crate::scene::FileKind;
+use crate::run;
+use crate::scene::{FileKind, Scene, Start, StartSphere};
+use crate::simulation::{BuildError, Snapshot};
 use crate::study::StudyName;
 use crate::study::comparison::{Base, Change, Comparison, Measurement, Setting};
 use crate::sweep::{
@@ -116,6 +118,7 @@ fn comparison(
     let measurement = match &file.times {
         None => Measurement::States(Box::new(base.sweep.sieves.clone())),
         Some(times) => {
+            start_alike(&mut settings, &mut problems);
             for setting in &mut settings {
                 keep_snapshots(setting, times, &mut problems);
             }
@@ -236,6 +239,51 @@ fn reference(
             Err(Problem::new("times", message).help(help))
         }
     }
+}
+
+/// Makes all settings start with the spheres of the scene as it is. Random places follow from all
+/// keys of a scene, so that each setting would have its own.
+fn start_alike(settings: &mut [Setting], problems: &mut Vec<Problem>) {
+    let Some(first) = settings.first() else { return };
+    let scene = &first.sweep.scene;
+    if !matches!(scene.start, Start::Random { .. }) {
+        return;
+    }
+    let (spheres, start) = (scene.spheres.clone(), match placed(scene) {
+        Ok(spheres) => Start::list(spheres),
+        Err(error) => return problems.push(Problem::new("scene", error.to_string())),
+    });
+    for setting in settings {
+        let own = &mut setting.sweep.scene;
+        if own.spheres.count != spheres.count || own.spheres.radius != spheres.radius {
+            let message = format!(
+                "with {}: a motion of other spheres cannot be compared with that of the scene",
+                setting.name
+            );
+            let help = "leave `spheres` as it is, or remove `times` to compare labels";
+            problems.push(Problem::new("times", message).help(help));
+        }
+        own.start = start.clone();
+    }
+}
+
+/// The spheres of a scene at its start.
+fn placed(scene: &Scene) -> Result<Vec<StartSphere>, BuildError> {
+    let mut simulation = run::model_of(scene).build(scene)?;
+    let radius = simulation.radius().to_vec();
+    let mut start = Snapshot::default();
+    simulation.look(&mut |frame| start = Snapshot::take(0.0, frame));
+    let vector = |rows: &ndarray::Array2<f64>, sphere: usize| match rows.nrows() > sphere {
+        true => [0, 1, 2].map(|axis| rows[[sphere, axis]]),
+        false => [0.0; 3],
+    };
+    let sphere = |(sphere, radius): (usize, &f64)| StartSphere {
+        position: vector(&start.position, sphere),
+        velocity: vector(&start.velocity, sphere),
+        spin: vector(&start.spin, sphere),
+        radius: Some(*radius),
+    };
+    Ok(radius.iter().enumerate().map(sphere).collect())
 }
 
 /// Makes the runs of a setting keep all spheres at these times, and end with the last.

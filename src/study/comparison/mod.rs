@@ -12,6 +12,8 @@ mod sample;
 mod shift;
 mod states;
 mod table;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use base::Base;
 pub use bootstrap::Interval;
