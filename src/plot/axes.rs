@@ -2,21 +2,21 @@
 
 use super::canvas::Canvas;
 use super::scale::Scale;
-use super::style::{self, Drawn, SMALL, Sheet, TICK, frame, letters};
+use super::style::{self, Drawn, Failed, Sheet, TICK, frame, letters};
 use plotters::chart::{ChartBuilder, ChartContext, LabelAreaPosition};
 use plotters::coord::cartesian::Cartesian2d;
-use plotters::drawing::{DrawingArea, DrawingAreaErrorKind};
+use plotters::drawing::DrawingArea;
 use plotters::style::text_anchor::{HPos, VPos};
-use std::convert::Infallible;
 
 /// A panel with its coordinates.
 pub(super) type Plot<'a> = DrawingArea<Canvas<'a>, Cartesian2d<Scale, Scale>>;
 
-/// The frame of a panel with the ticks of its scales.
 pub(super) struct Axes<'s, 'c> {
     sheet: &'s Sheet<'c>,
     chart: ChartContext<'s, Canvas<'c>, Cartesian2d<Scale, Scale>>,
     corners: style::Corners,
+    /// Sizes of the letters of the labels of both scales.
+    letters: (i32, i32),
 }
 
 impl<'s, 'c> Axes<'s, 'c> {
@@ -28,10 +28,11 @@ impl<'s, 'c> Axes<'s, 'c> {
         (width, height): (i32, i32),
         ticks: (i32, i32),
         scales: (Scale, Scale),
-    ) -> Result<Self, DrawingAreaErrorKind<Infallible>> {
+    ) -> Result<Self, Failed> {
         let area = sheet
             .clone()
             .shrink((left - ticks.0, top), (width + ticks.0, height + ticks.1));
+        let letters = (scales.0.letters, scales.1.letters);
         let chart = ChartBuilder::on(&area)
             .set_label_area_size(LabelAreaPosition::Left, ticks.0)
             .set_label_area_size(LabelAreaPosition::Bottom, ticks.1)
@@ -40,6 +41,7 @@ impl<'s, 'c> Axes<'s, 'c> {
             sheet,
             chart,
             corners: [(left, top), (left + width, top + height)],
+            letters,
         })
     }
 
@@ -55,7 +57,8 @@ impl<'s, 'c> Axes<'s, 'c> {
             .configure_mesh()
             .disable_mesh()
             .axis_style(frame())
-            .label_style(letters(SMALL, HPos::Center, VPos::Center))
+            .x_label_style(letters(self.letters.0, HPos::Center, VPos::Center))
+            .y_label_style(letters(self.letters.1, HPos::Center, VPos::Center))
             .set_tick_mark_size(LabelAreaPosition::Left, TICK)
             .set_tick_mark_size(LabelAreaPosition::Bottom, TICK)
             .draw()

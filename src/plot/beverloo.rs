@@ -1,14 +1,14 @@
 //! The discharge rate of a silo over the width of its opening, with the law of Beverloo fitted to
 //! it.
 
-use super::chart::{Bar, Chart, Line, Panel};
+use super::chart::{Bar, Chart, Line, Panel, ends, samples};
 use super::grid::GridAxis;
 use super::series::{self, Series};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
 use crate::beverloo::{self, Bed, Discharge, Fit};
-use crate::classify::{Family, SILO, Verdict};
+use crate::classify::{Family, Point, SILO, Verdict};
 use crate::statistics::Estimate;
 use std::f64::consts::PI;
 
@@ -16,9 +16,6 @@ use std::f64::consts::PI;
 pub(super) struct Beverloo;
 
 const OPENING: &str = "geometry.opening";
-
-/// Points of a curve.
-const SAMPLES: usize = 200;
 
 /// The law fitted to the runs of one line of the figure.
 #[derive(Clone, Debug)]
@@ -162,36 +159,26 @@ fn curve(fitted: &FittedLine, line: &Series, axis: &GridAxis, end: f64) -> Line 
     let constants = [fitted.fit.c.value, fitted.fit.k.value];
     // From the width at which the rate is zero, as the axis shows it.
     let from = axis.factor * fitted.bed.diameter * constants[1].max(0.0);
-    let at = |sample: usize| {
-        let shown = from + (end - from) * sample as f64 / SAMPLES as f64;
-        (
-            shown,
-            fitted.bed.discharge_rate(shown / axis.factor, constants),
-        )
+    let rate = |shown: f64| {
+        let opening = shown / axis.factor;
+        (shown, fitted.bed.discharge_rate(opening, constants))
     };
     Line {
-        points: (0..=SAMPLES).map(at).collect(),
+        points: samples(from, end).map(rate).collect(),
         color: line.color,
     }
 }
 
 /// Means over the seeds.
 fn bars(source: &Source<'_>, line: &Series, factor: f64) -> Vec<Bar> {
-    let mean = |opening: f64| {
-        let rates: Vec<f64> = runs(source, line)
-            .filter(|(at, _)| *at == opening)
-            .filter_map(|(_, verdict)| verdict.value("discharge_rate"))
-            .collect();
-        Estimate::of_mean(&rates)
+    let bar = |(opening, point): &(f64, Point)| {
+        let rows = point.rows.iter().map(|&row| &source.table.rows[row]);
+        let rates = rows.filter_map(|row| row.verdict.value("discharge_rate"));
+        let mean = Estimate::of_mean(&rates.collect::<Vec<_>>())?;
+        let at = (opening * factor, mean.value);
+        Some(Bar::about(at, mean.half_width, line.color))
     };
-    let openings = line.points.iter().map(|(opening, _)| *opening);
-    openings
-        .filter_map(|opening| {
-            let mean = mean(opening)?;
-            let at = (opening * factor, mean.value);
-            Some(Bar::about(at, mean.half_width, line.color))
-        })
-        .collect()
+    line.points.iter().filter_map(bar).collect()
 }
 
 /// `value ± half`, to the digits that the interval leaves.
@@ -222,9 +209,7 @@ fn notes(lines: &[FittedLine]) -> Vec<String> {
         0 => String::new(),
         without => format!(" {without} runs whose outflow stopped or did not end have no rate."),
     };
-    let densities = || lines.iter().map(|line| line.bed.number_density);
-    let least = densities().fold(f64::INFINITY, f64::min);
-    let most = densities().fold(0.0, f64::max);
+    let (least, most) = ends(lines.iter().map(|line| line.bed.number_density));
     let range = match (format!("{least:.0}"), format!("{most:.0}")) {
         (least, most) if least == most => most,
         (least, most) => format!("{least} to {most}"),

@@ -4,11 +4,14 @@
 //! belong although plotters counts in whole units. Straight edges are put on the pixels of the
 //! PNG, which has [`PNG_SCALE`] of them per CSS pixel: no hairlines between cells, no blur.
 
+use super::PlotError;
+use super::style::{self, Sheet};
 use super::text::{SUBSCRIPT_SIZE, runs};
 use crate::fonts::FAMILY;
 use crate::markup::escape;
 use crate::render::Image;
 use base64::Engine;
+use plotters::drawing::IntoDrawingArea;
 use plotters_backend::text_anchor::{HPos, VPos};
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
@@ -28,18 +31,31 @@ pub(super) const SNAP: i32 = 4;
 
 type Drawn = Result<(), DrawingErrorKind<Infallible>>;
 
+/// Size of a canvas, and the elements on it.
+pub(super) type Body = ((u32, u32), String);
+
 /// Collects the elements of an SVG.
 pub(super) struct Canvas<'a> {
     body: &'a mut String,
     size: (u32, u32),
 }
 
-impl<'a> Canvas<'a> {
-    /// A canvas of `size` units that appends its elements to `body`.
-    pub(super) fn new(body: &'a mut String, size: (u32, u32)) -> Self {
-        Self { body, size }
-    }
+/// Draws on a canvas of that size.
+pub(super) fn draw(
+    (width, height): (i32, i32),
+    content: impl FnOnce(&Sheet<'_>) -> style::Drawn,
+) -> Result<Body, PlotError> {
+    let size = (width as u32, height as u32);
+    let mut body = String::new();
+    let canvas = Canvas {
+        body: &mut body,
+        size,
+    };
+    content(&canvas.into_drawing_area())?;
+    Ok((size, body))
+}
 
+impl Canvas<'_> {
     fn element(&mut self, element: &str) -> Drawn {
         self.body.push_str(element);
         self.body.push('\n');

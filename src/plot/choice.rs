@@ -4,6 +4,7 @@ use super::{PlotError, Source, grid};
 use crate::classify::Label;
 use crate::classify::{LabelRow, Point};
 use crate::record::RunRecord;
+use std::cmp::Ordering;
 
 /// A run of the table of labels, chosen to be shown.
 #[derive(Clone, Copy)]
@@ -61,55 +62,43 @@ fn row_at(source: &Source<'_>, point: &[(String, f64)]) -> Result<usize, PlotErr
 /// The first run at both ends of the horizontal axis with the least value other than zero, the
 /// middle one and the largest of the vertical axis; at the first value of every other axis.
 pub(super) fn corners(source: &Source<'_>) -> Result<Vec<usize>, PlotError> {
-    let table = source.table;
+    let rows = &source.table.rows;
     let [x, y, ..] = grid::places(source.sweep)?;
     let values = |axis: usize| {
-        let mut values: Vec<f64> = table.rows.iter().map(|row| row.values[axis]).collect();
+        let mut values: Vec<f64> = rows.iter().map(|row| row.values[axis]).collect();
         values.sort_by(f64::total_cmp);
         values.dedup();
         values
     };
-    let ends = |axis: usize| {
-        let values = values(axis);
-        let mut ends = vec![values[0], values[values.len() - 1]];
-        ends.dedup();
-        ends
-    };
-    let three = |axis: usize| {
-        let mut values = values(axis);
+    let three = |mut values: Vec<f64>| {
         if values.len() > 3 {
             values.retain(|&value| value != 0.0);
         }
-        let mut three = vec![
-            values[0],
-            values[values.len() / 2],
-            values[values.len() - 1],
-        ];
-        three.dedup();
-        three
+        let last = values.len() - 1;
+        [0, values.len() / 2, last]
+            .map(|index| values[index])
+            .to_vec()
     };
-    let (first, second) = match (x, y) {
-        (Some(x), Some(y)) => (ends(x), three(y)),
-        (Some(x), None) => (three(x), vec![f64::NAN]),
-        _ => (vec![f64::NAN], vec![f64::NAN]),
-    };
-    let others = &table.rows[0].values;
-    let mut chosen = Vec::new();
-    for at_x in first {
-        for &at_y in &second {
-            let matches = |row: &LabelRow| {
-                row.values.iter().enumerate().all(|(axis, &value)| {
-                    value
-                        == match axis {
-                            _ if Some(axis) == x => at_x,
-                            _ if Some(axis) == y => at_y,
-                            _ => others[axis],
-                        }
-                })
-            };
-            chosen.extend(table.rows.iter().position(matches));
+    let shown = |axis: usize| match (axis, values(axis)) {
+        (axis, values) if Some(axis) == x && y.is_some() => {
+            vec![values[0], values[values.len() - 1]]
         }
-    }
+        (axis, values) if Some(axis) == x || Some(axis) == y => three(values),
+        (axis, _) => vec![rows[0].values[axis]],
+    };
+    let shown: Vec<Vec<f64>> = (0..rows[0].values.len()).map(shown).collect();
+    let is_shown = |&row: &usize| {
+        let mut values = rows[row].values.iter().zip(&shown);
+        values.all(|(value, shown)| shown.contains(value))
+    };
+    let mut chosen: Vec<usize> = (0..rows.len()).filter(is_shown).collect();
+    let place = |row: usize| [x, y].map(|axis| axis.map_or(0.0, |axis| rows[row].values[axis]));
+    chosen.sort_by(|&one, &other| {
+        place(one)
+            .partial_cmp(&place(other))
+            .unwrap_or(Ordering::Equal)
+    });
+    chosen.dedup_by_key(|row| place(*row));
     Ok(chosen)
 }
 

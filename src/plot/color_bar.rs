@@ -1,10 +1,12 @@
 //! The colour bar: which colour stands for which value.
 
+use super::chart::ends;
 use super::palette;
-use super::scale::{Direction, Room, Scale};
+use super::scale::{Room, Scale, Span};
 use super::style::{self, Drawn, LABEL, SMALL, Sheet, TICK, frame, letters, px};
 use super::text;
 use crate::color::ColorMap;
+use plotters::coord::ranged1d::Ranged;
 use plotters::element::PathElement;
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{FontTransform, RGBColor};
@@ -24,6 +26,7 @@ pub(super) struct ColorBar {
     map: ColorMap,
     /// Name and unit of the values, with markup, line by line.
     label: Vec<String>,
+    height: i32,
 }
 
 impl ColorBar {
@@ -34,10 +37,7 @@ impl ColorBar {
         signed: bool,
         label: String,
     ) -> Option<Self> {
-        let (mut low, mut high) = values
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |range, value| {
-                (range.0.min(value), range.1.max(value))
-            });
+        let (mut low, mut high) = ends(values);
         if low > high {
             return None;
         }
@@ -57,13 +57,18 @@ impl ColorBar {
             high,
             map,
             label: vec![label],
+            height: 0,
         })
     }
 
-    /// The same with a label that a bar of this height can hold.
+    /// The same with a height, and with a label in lines that fit.
     pub(super) fn fitted(self, height: i32) -> Self {
         let label = text::wrap(&self.label.join(" "), f64::from(LABEL), f64::from(height));
-        Self { label, ..self }
+        Self {
+            label,
+            height,
+            ..self
+        }
     }
 
     /// Colour of a value.
@@ -71,42 +76,36 @@ impl ColorBar {
         palette::mapped(self.map, (value - self.low) / (self.high - self.low))
     }
 
-    fn scale(&self, height: i32) -> Scale {
-        let room = Room {
-            length: f64::from(height),
-            size: 1.4 * f64::from(SMALL),
-            direction: Direction::Vertical,
-        };
-        Scale::new(self.low, self.high, false, &[], room)
+    fn scale(&self) -> Scale {
+        Scale::new(&Span::linear((self.low, self.high)), Room::Up(self.height))
     }
 
-    /// Its width at a height.
-    pub(super) fn width(&self, height: i32) -> i32 {
-        let numbers = self.scale(height).label_width(f64::from(SMALL)).ceil() as i32;
-        BAR + 2 * TICK + numbers + px(6) + LINE * self.label.len() as i32
+    /// Its width with numbers and label.
+    pub(super) fn width(&self) -> i32 {
+        let numbers = 2 * TICK + self.scale().label_width();
+        BAR + numbers + px(6) + LINE * self.label.len() as i32
     }
 
     /// Draws it with its upper left corner at `origin`.
-    pub(super) fn draw(&self, sheet: &Sheet<'_>, origin: (i32, i32), height: i32) -> Drawn {
+    pub(super) fn draw(&self, sheet: &Sheet<'_>, origin: (i32, i32)) -> Drawn {
         let (left, top) = origin;
-        let (right, bottom) = (left + BAR, top + height);
+        let (right, bottom) = (left + BAR, top + self.height);
         for step in 0..STEPS {
-            let edge = |index: i32| bottom - height * index / STEPS;
+            let edge = |index: i32| bottom - self.height * index / STEPS;
             let color = palette::mapped(self.map, (f64::from(step) + 0.5) / f64::from(STEPS));
             style::fill(sheet, [(left, edge(step + 1)), (right, edge(step))], color)?;
         }
         style::outline(sheet, [(left, top), (right, bottom)], frame())?;
-        let scale = self.scale(height);
+        let scale = self.scale();
         let numbers = letters(SMALL, HPos::Left, VPos::Center);
         for (value, text) in scale.ticks() {
-            let y = bottom - (scale.fraction(*value) * f64::from(height)).round() as i32;
-            let tick = PathElement::new([(right, y), (right + TICK, y)], frame());
-            sheet.draw(&tick)?;
+            let y = scale.map(value, (bottom, top));
+            sheet.draw(&PathElement::new([(right, y), (right + TICK, y)], frame()))?;
             sheet.draw_text(text, &numbers, (right + 2 * TICK, y))?;
         }
         // The label is read from below, its last line on the right.
         let name = letters(LABEL, HPos::Center, VPos::Bottom).transform(FontTransform::Rotate270);
-        let (end, middle) = (left + self.width(height), top + height / 2);
+        let (end, middle) = (left + self.width(), top + self.height / 2);
         for (index, line) in self.label.iter().rev().enumerate() {
             sheet.draw_text(line, &name, (end - LINE * index as i32, middle))?;
         }

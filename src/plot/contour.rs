@@ -1,7 +1,9 @@
 //! Contours: where values on a grid of nodes pass zero (marching squares).
 
-use super::critical::Piece;
 use std::collections::HashMap;
+
+/// A piece of a curve: points in shown values.
+pub(super) type Piece = Vec<(f64, f64)>;
 
 /// Values at the nodes of a grid; none where there is no value.
 pub(super) struct Nodes<'a> {
@@ -10,9 +12,9 @@ pub(super) struct Nodes<'a> {
     pub(super) y: &'a [f64],
     /// Value of the node at the indices of x and y.
     pub(super) value: &'a dyn Fn(usize, usize) -> Option<f64>,
-    /// Place between two places where a value that was the first at one and is the second at the
-    /// other passes zero, along x and along y.
-    pub(super) zero: [&'a dyn Fn([f64; 2], [f64; 2]) -> f64; 2],
+    /// Along which of x and y a value is taken for a power of the place less 1, rather than for
+    /// linear in it.
+    pub(super) logarithmic: [bool; 2],
 }
 
 /// An edge between two nodes: from that of these indices along x (0) or y (1).
@@ -85,11 +87,27 @@ impl Nodes<'_> {
         if (values[0] < 0.0) == (values[1] < 0.0) {
             return None;
         }
-        let place = (self.zero[along])([places[index], places[index + 1]], values);
+        let place = zero(
+            self.logarithmic[along],
+            [places[index], places[index + 1]],
+            values,
+        );
         Some(match along {
             0 => (place, self.y[j]),
             _ => (self.x[i], place),
         })
+    }
+}
+
+/// Where a value that is `values` at two places passes zero between them.
+fn zero(logarithmic: bool, places: [f64; 2], values: [f64; 2]) -> f64 {
+    let share = |[one, other]: [f64; 2]| one / (one - other);
+    let [from, to] = places;
+    if logarithmic {
+        let share = share(values.map(libm::log1p));
+        from * libm::pow(to / from, share)
+    } else {
+        from + (to - from) * share(values)
     }
 }
 
@@ -99,12 +117,11 @@ mod tests {
 
     fn contour(value: &dyn Fn(f64, f64) -> Option<f64>) -> Vec<Piece> {
         let places: Vec<f64> = (-10..=10).map(|place| f64::from(place) / 5.0).collect();
-        let linear = |[a, b]: [f64; 2], [one, other]: [f64; 2]| a + (b - a) * one / (one - other);
         Nodes {
             x: &places,
             y: &places,
             value: &|i, j| value(places[i], places[j]),
-            zero: [&linear, &linear],
+            logarithmic: [false, false],
         }
         .contour()
     }
@@ -135,5 +152,14 @@ mod tests {
         assert!(pieces.iter().flatten().all(|point| point.0 < 0.1));
         assert!(!pieces.is_empty());
         assert!(contour(&|_, _| Some(1.0)).is_empty());
+    }
+
+    #[test]
+    fn powers_pass_their_limit_where_they_are_one() {
+        // (x / 3)^0.4 between 1 and 10.
+        let ratio = |x: f64| libm::pow(x / 3.0, 0.4) - 1.0;
+        let found = zero(true, [1.0, 10.0], [ratio(1.0), ratio(10.0)]);
+        assert!((found - 3.0).abs() < 1e-9, "{found}");
+        assert_eq!(zero(false, [1.0, 3.0], [-0.5, 0.5]), 2.0);
     }
 }

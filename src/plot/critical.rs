@@ -1,19 +1,17 @@
 //! The curve of the critical rotation, drawn over a figure.
 
+use super::chart::samples;
+use super::contour::{Nodes, Piece};
+use super::critical_rotation::radius_of_mean_volume;
 use super::grid::{Grid, Panel};
-use crate::scene::{Radii, Scene};
+use super::scale::Span;
+use crate::scene::Scene;
 use crate::theory::critical_rotation;
 
 const OMEGA: &str = "swirl.omega";
 
-/// Points on the curve.
-const SAMPLES: usize = 300;
-
 /// Name of the curve in legends.
 pub(super) const NAME: &str = "critical rotation $Ω_c$";
-
-/// A piece of a curve: points in shown values.
-pub(super) type Piece = Vec<(f64, f64)>;
 
 /// The pieces of the curve Omega = Omega_c inside a panel, in shown values; none if the figure
 /// has no axis for Omega or the scene lacks a tank, gravity or one radius. What a panel is for
@@ -25,9 +23,11 @@ pub(super) fn curve(scene: &Scene, grid: &Grid, panel: &Panel) -> Vec<Piece> {
         y if grid.x.key == OMEGA => (&grid.x, y.as_ref()),
         _ => return Vec::new(),
     };
-    let points = (0..=SAMPLES).filter_map(|sample| {
-        let fraction = sample as f64 / SAMPLES as f64;
-        let place = other.map_or(fraction, |axis| axis.along(fraction));
+    let places = samples(0.0, 1.0);
+    let places: Vec<f64> = places
+        .map(|fraction| other.map_or(fraction, |axis| axis.along(fraction)))
+        .collect();
+    let critical = |place: f64| {
         let value = |key: &str| match other {
             Some(axis) if axis.key == key => Some(place / axis.factor),
             _ => fixed(key, grid, panel).or_else(|| of_scene(key, scene)),
@@ -38,15 +38,18 @@ pub(super) fn curve(scene: &Scene, grid: &Grid, panel: &Panel) -> Vec<Piece> {
             value("tank.radius")?,
             value("gravity.acceleration")?,
         );
-        critical
-            .is_finite()
-            .then_some((place, critical * omega.factor))
-    });
-    let edges = omega.edges();
-    let (Some(&low), Some(&high)) = (edges.first(), edges.last()) else {
-        return Vec::new();
+        Some(critical * omega.factor).filter(|critical| critical.is_finite())
     };
-    let mut pieces = clipped(&points.collect::<Vec<_>>(), low, high);
+    let curve: Vec<Option<f64>> = places.iter().map(|&place| critical(place)).collect();
+    let Span { low, high, .. } = omega.span();
+    let ends = [low, high];
+    let mut pieces = Nodes {
+        x: &places,
+        y: &ends,
+        value: &|i, j| Some(ends[j] - curve[i]?),
+        logarithmic: [false, false],
+    }
+    .contour();
     if !upright {
         let points = pieces.iter_mut().flatten();
         points.for_each(|(place, omega)| std::mem::swap(place, omega));
@@ -67,61 +70,11 @@ fn fixed(key: &str, grid: &Grid, panel: &Panel) -> Option<f64> {
 fn of_scene(key: &str, scene: &Scene) -> Option<f64> {
     match key {
         "spheres.count" => Some(scene.spheres.count as f64),
-        "spheres.radius" => radius_of_mean_volume(&scene.spheres.radius),
+        "spheres.radius" => Some(radius_of_mean_volume(&scene.spheres.radius)),
         "tank.radius" => scene.tank.as_ref()?.radius,
         "gravity.acceleration" => Some(scene.dem.effects.gravity.as_ref()?.acceleration),
         _ => None,
     }
-}
-
-/// Cube root of the mean of r^3, as eq. 42 sums it.
-pub(super) fn radius_of_mean_volume(radii: &Radii) -> Option<f64> {
-    let weighted: Vec<(f64, f64)> = match radii {
-        Radii::One(radius) => return Some(*radius),
-        Radii::Shares(shares) => shares
-            .iter()
-            .map(|part| (part.radius, part.share))
-            .collect(),
-        Radii::Each(radii) => radii.iter().map(|&radius| (radius, 1.0)).collect(),
-        Radii::File { .. } => return None,
-    };
-    let (volume, weight) = weighted.iter().fold((0.0, 0.0), |sum, (radius, weight)| {
-        (sum.0 + weight * radius * radius * radius, sum.1 + weight)
-    });
-    Some(libm::cbrt(volume / weight))
-}
-
-/// The pieces of a polyline whose second coordinate lies between `low` and `high`.
-fn clipped(points: &[(f64, f64)], low: f64, high: f64) -> Vec<Piece> {
-    let mut pieces: Vec<Piece> = Vec::new();
-    for pair in points.windows(2) {
-        let (from, to) = (pair[0], pair[1]);
-        let rise = to.1 - from.1;
-        // The share of the segment that is inside.
-        let (enter, leave) = if rise == 0.0 {
-            if (low..=high).contains(&from.1) {
-                (0.0, 1.0)
-            } else {
-                continue;
-            }
-        } else {
-            let (a, b) = ((low - from.1) / rise, (high - from.1) / rise);
-            (a.min(b).max(0.0), a.max(b).min(1.0))
-        };
-        if enter >= leave {
-            continue;
-        }
-        let at = |share: f64| match share {
-            0.0 => from,
-            1.0 => to,
-            _ => (from.0 + share * (to.0 - from.0), from.1 + share * rise),
-        };
-        match pieces.last_mut() {
-            Some(piece) if piece.last() == Some(&at(enter)) => piece.push(at(leave)),
-            _ => pieces.push(vec![at(enter), at(leave)]),
-        }
-    }
-    pieces
 }
 
 #[cfg(test)]
@@ -131,7 +84,6 @@ mod tests {
     use crate::classify::{Label, Sieves, TANK, Verdict};
     use crate::classify::{LabelRow, LabelTable};
     use crate::record::Program;
-    use crate::scene::RadiusShare;
     use crate::sweep::{Axis, PlotSettings, Sweep};
     use serde_json::json;
 
@@ -251,28 +203,5 @@ mod tests {
         assert!(on(&density[0], (1e3, 9.44633)) && on(&density[0], (1500.0, 9.44633)));
         let (none, _) = curves(&[(RADIUS, &[0.002, 0.006]), ("spheres.density", &[1e3, 2e3])]);
         assert!(none[0].is_empty());
-    }
-
-    #[test]
-    fn clipping() {
-        let points = [(0.0, 0.0), (1.0, 2.0), (2.0, 4.0), (3.0, 2.0), (4.0, 2.0)];
-        assert_eq!(
-            clipped(&points, 1.0, 3.0),
-            [
-                vec![(0.5, 1.0), (1.0, 2.0), (1.5, 3.0)],
-                vec![(2.5, 3.0), (3.0, 2.0), (4.0, 2.0)],
-            ]
-        );
-        assert!(clipped(&points, 5.0, 6.0).is_empty());
-    }
-
-    #[test]
-    fn radius_of_unequal_spheres() {
-        let share = |radius, share| RadiusShare { radius, share };
-        let radii = Radii::Shares(vec![share(1.0, 3.0), share(3.0, 1.0)]);
-        let expected = libm::cbrt((3.0 + 27.0) / 4.0);
-        assert!((radius_of_mean_volume(&radii).unwrap() - expected).abs() < 1e-12);
-        let radii = Radii::Each(vec![1.0, 1.0, 1.0, 3.0]);
-        assert!((radius_of_mean_volume(&radii).unwrap() - expected).abs() < 1e-12);
     }
 }

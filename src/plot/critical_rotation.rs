@@ -1,19 +1,16 @@
 //! The critical rotation over the radius of the spheres (Rice, 2012, eq. 43 and figure 19).
 
-use super::chart::{self, Chart, Line, Panel};
+use super::chart::{Chart, Line, Panel, ends, samples};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, choice, palette};
 use crate::classify::{Family, TANK};
-use crate::scene::Scene;
+use crate::scene::{Radii, Scene};
 use crate::theory::critical_rotation;
 use plotters::style::RGBColor;
 
 /// The critical rotation over the radius of the spheres.
 pub(super) struct CriticalRotation;
-
-/// Points of a curve over the radius.
-pub(super) const SAMPLES: usize = 300;
 
 /// Axes of a sweep that move the curve, each value to one line, as many as there are colours.
 const MOVING: [&str; 3] = ["spheres.count", "tank.radius", "gravity.acceleration"];
@@ -33,7 +30,7 @@ impl Figure for CriticalRotation {
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
         let (low, high) = radii(source);
-        let mut curves = Vec::new();
+        let (mut lines, mut legend) = (Vec::new(), Vec::new());
         for (name, color, scene) in scenes(source) {
             let omega = |radius: f64| critical(&scene, radius).map(|omega| (radius * 1e3, omega));
             let points: Option<Vec<_>> = samples(low, high).map(omega).collect();
@@ -41,33 +38,23 @@ impl Figure for CriticalRotation {
                 figure: self.name(),
                 needs: "a tank with a radius, and gravity",
             })?;
-            curves.push((name, Line { points, color }));
+            lines.push(Line { points, color });
+            legend.push((color, name));
         }
-        let all = curves.iter().flat_map(|(_, line)| &line.points);
-        let top = chart::range(all.map(|point| point.1)).map_or(1.0, |(_, high)| high);
-        let legend = match &curves[..] {
-            [_] => Vec::new(),
-            _ => curves
-                .iter()
-                .map(|(name, line)| (line.color, name.clone()))
-                .collect(),
-        };
+        if lines.len() == 1 {
+            legend.clear();
+        }
+        let x = (low * 1e3, high * 1e3);
         Chart {
             name: self.name(),
             common: fixed(source),
-            panels: vec![Panel {
-                head: Vec::new(),
-                x: (low * 1e3, high * 1e3),
-                y: (0.0, top),
-                lines: curves.into_iter().map(|(_, line)| line).collect(),
-                bars: Vec::new(),
-            }],
+            panels: vec![Panel::new(Vec::new(), x, lines).down_to_zero()],
             columns: 1,
             height: px(400),
             x_label: "radius of the spheres $r$ (mm)".to_owned(),
             y_label: "critical rotation $Ω_c$ (rad/s)".to_owned(),
             legend,
-            notes: Vec::new(),
+            ..Chart::default()
         }
         .draw(source)
     }
@@ -128,22 +115,21 @@ pub(super) fn radii(source: &Source<'_>) -> (f64, f64) {
     let sweep = source.sweep;
     let axis = sweep.axes.iter().find(|axis| axis.key == "spheres.radius");
     let values = axis.map_or(&[][..], |axis| &axis.values);
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = values.iter().copied().fold(0.0, f64::max);
+    let (low, high) = ends(values.iter().copied());
     if low < high {
         (low, high)
     } else {
-        let radius = libm::cbrt(sweep.scene.spheres.radius.mean_volume() / volume(1.0));
+        let radius = radius_of_mean_volume(&sweep.scene.spheres.radius);
         (0.5 * radius, 1.5 * radius)
     }
+}
+
+/// Cube root of the mean of r^3, as eq. 42 sums it; not a number for a file that was not read.
+pub(super) fn radius_of_mean_volume(radii: &Radii) -> f64 {
+    libm::cbrt(radii.mean_volume() / volume(1.0))
 }
 
 /// Volume of a sphere (m3).
 pub(super) fn volume(radius: f64) -> f64 {
     4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius
-}
-
-/// Values from `low` to `high`.
-pub(super) fn samples(low: f64, high: f64) -> impl Iterator<Item = f64> {
-    (0..=SAMPLES).map(move |index| low + (high - low) * index as f64 / SAMPLES as f64)
 }

@@ -1,19 +1,29 @@
 //! A diagram over the axes of a sweep: coloured cells, small multiples, axes, title, legend.
 
-use super::axes::{Axes, Plot};
+use super::axes::Plot;
+use super::canvas::Body;
 use super::color_bar::ColorBar;
-use super::grid::{Grid, Panel};
-use super::layout::{Layout, TITLE_LINE};
+use super::contour::Piece;
+use super::critical;
+use super::grid::{self, Grid, Panel};
 use super::legend::{Entry, Key};
+use super::page::{Frame, Page, Plan};
 use super::scale::Scale;
-use super::style::{self, Drawn, Fill, LABEL, SMALL, Sheet, TITLE, letters, px};
+use super::style::{self, Corners, Drawn, Fill, Sheet, px};
 use super::svg::Svg;
-use super::{PlotError, Source, canvas, critical};
+use super::{PlotError, Source};
 use crate::classify::Point;
-use plotters::drawing::IntoDrawingArea;
 use plotters::element::PathElement;
-use plotters::style::text_anchor::{HPos, VPos};
-use plotters::style::{BLACK, Color, FontTransform, TextStyle};
+use plotters::style::{BLACK, Color};
+
+/// Height of a panel without a vertical axis, and beside a colour bar.
+const STRIP: [i32; 2] = [px(56), px(120)];
+/// Height of a single panel, and of several times their number per row.
+const HEIGHTS: [i32; 2] = [px(400), px(560)];
+/// Least height of a panel.
+const LEAST_HEIGHT: i32 = px(90);
+/// Greatest height of the colour bar.
+const LONGEST_BAR: i32 = px(480);
 
 /// How a cell looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,10 +35,21 @@ pub(super) struct Look {
     pub(super) group: Option<i8>,
 }
 
+impl Look {
+    /// A cell on which all seeds agree.
+    pub(super) fn new(fill: Fill, group: Option<i8>) -> Self {
+        Self {
+            fill,
+            agreement: 1.0,
+            group,
+        }
+    }
+}
+
 /// A curve over a panel: pieces in shown values.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Curve {
-    pub(super) pieces: Vec<critical::Piece>,
+    pub(super) pieces: Vec<Piece>,
     /// Whether it is a thin dashed one.
     pub(super) dashed: bool,
 }
@@ -62,10 +83,8 @@ impl Diagram<'_> {
             .map(|panel| vec![curve(panel)])
             .collect();
         let is_there = |curve: &Curve| !curve.pieces.is_empty();
-        let entry = curves.iter().flatten().any(is_there).then(|| Entry {
-            key: Key::Curve,
-            text: critical::NAME.to_owned(),
-        });
+        let entry = curves.iter().flatten().any(is_there);
+        let entry = entry.then(|| Entry::new(Key::Curve, critical::NAME));
         let title = source.sweep.title.as_deref();
         let (size, body) = self.body(title, &curves, entry)?;
         Ok(Svg::new(self.name, source, size, &body))
@@ -80,26 +99,56 @@ impl<P> Diagram<'_, P> {
         title: Option<&str>,
         curves: &[Vec<Curve>],
         of_curves: impl IntoIterator<Item = Entry>,
-    ) -> Result<((u32, u32), String), PlotError> {
-        let mut entries = self.entries();
-        entries.extend(of_curves);
-        let mut layout = Layout::new(title, self.grid, self.bar.clone(), entries);
-        layout.legend.0.cell = self.smallest_cell(&layout);
-        let size = (layout.size.0 as u32, layout.size.1 as u32);
-        let mut body = String::new();
-        {
-            let sheet = canvas::Canvas::new(&mut body, size).into_drawing_area();
-            for (index, panel) in self.grid.panels.iter().enumerate() {
-                self.draw_panel(&sheet, &layout, index, panel, &curves[index])?;
+    ) -> Result<Body, PlotError> {
+        let columns = self.grid.panels_per_row();
+        let height = match (&self.grid.y, columns) {
+            (None, _) => STRIP[usize::from(self.bar.is_some())],
+            (_, 1) => HEIGHTS[0],
+            (_, columns) => (HEIGHTS[1] / columns as i32).max(LEAST_HEIGHT),
+        };
+        let rows = self.grid.panels.len().div_ceil(columns) as i32;
+        let bar = self.bar.clone();
+        let bar = bar.map(|bar| bar.fitted(LONGEST_BAR.min(rows * height)));
+        let mut legend = self.entries();
+        legend.extend(of_curves);
+        let y_label = self.grid.y.as_ref().map(|axis| axis.label());
+        let mut page = Page::new(Plan {
+            title,
+            frames: self.frames(columns),
+            columns,
+            row_heads: self.grid.row_heads(),
+            height,
+            aside: bar.as_ref().map_or(0, ColorBar::width),
+            labels: [self.grid.x.label(), y_label.unwrap_or_default()],
+            legend,
+            beside: columns == 1 && bar.is_none() && self.grid.y.is_some(),
+            ..Plan::default()
+        });
+        page.legend.0.cell = self.smallest_cell(&page);
+        page.draw(|sheet| {
+            for (index, curves) in curves.iter().enumerate() {
+                self.draw_panel(sheet, &page, index, curves)?;
             }
-            self.draw_words(&sheet, &layout)?;
-            let (legend, corner) = &layout.legend;
-            legend.draw(&sheet, *corner)?;
-            if let Some((bar, corner, height)) = &layout.bar {
-                bar.draw(&sheet, *corner, *height)?;
-            }
-        }
-        Ok((size, body))
+            bar.iter().try_for_each(|bar| bar.draw(sheet, page.aside))
+        })
+    }
+
+    fn frames(&self, columns: usize) -> Vec<Frame> {
+        let panels = self.grid.panels.iter().enumerate();
+        let frame = |(index, panel): (usize, &Panel<P>)| Frame {
+            // Where rows have heads too, those of columns stand above the first row alone.
+            head: match &panel.head {
+                Some(head) if index < columns || self.grid.rows.is_none() => vec![head.clone()],
+                _ => Vec::new(),
+            },
+            x: self.grid.x.span(),
+            y: self
+                .grid
+                .y
+                .as_ref()
+                .map_or_else(grid::strip, |axis| axis.span()),
+        };
+        panels.map(frame).collect()
     }
 
     fn looks(&self, panel: &Panel<P>) -> Vec<Option<Look>> {
@@ -112,38 +161,20 @@ impl<P> Diagram<'_, P> {
         let mut entries = self.legend.clone();
         let empty = |panel: &Panel<P>| self.looks(panel).contains(&None);
         if self.grid.panels.iter().any(empty) {
-            entries.push(Entry {
-                key: Key::Fill(Fill::Hatch),
-                text: self.empty.clone(),
-            });
+            entries.push(Entry::new(Key::Fill(Fill::Hatch), &self.empty));
         }
         entries
     }
 
-    fn draw_panel(
-        &self,
-        sheet: &Sheet<'_>,
-        layout: &Layout,
-        index: usize,
-        panel: &Panel<P>,
-        curves: &[Curve],
-    ) -> Drawn {
-        let (left, top) = layout.corner(index);
-        let (first, last) = layout.outer(index);
-        let ticks = (
-            if first { layout.ticks.0 } else { 0 },
-            if last { layout.ticks.1 } else { 0 },
-        );
-        let axes = Axes::new(
-            sheet,
-            (left, top),
-            layout.panel,
-            ticks,
-            layout.scales.clone(),
-        )?;
+    fn draw_panel(&self, sheet: &Sheet<'_>, page: &Page, index: usize, curves: &[Curve]) -> Drawn {
+        let axes = page.axes(sheet, index)?;
         let plot = axes.plot();
-        let looks = self.looks(panel);
-        self.draw_cells(sheet, plot, &looks)?;
+        let looks = self.looks(&self.grid.panels[index]);
+        let cells = || self.cells(plot).into_iter().zip(&looks);
+        for (corners, look) in cells() {
+            let fill = look.map_or(Fill::Hatch, |look| look.fill);
+            style::paint(sheet, corners, fill)?;
+        }
         self.draw_borders(sheet, plot, &looks)?;
         for Curve { pieces, dashed } in curves {
             let draw = if *dashed { style::dashes } else { style::curve };
@@ -152,7 +183,14 @@ impl<P> Diagram<'_, P> {
                 draw(sheet, &pixels.collect::<Vec<_>>())?;
             }
         }
-        self.draw_marks(sheet, plot, &looks, layout.legend.0.cell)?;
+        for (corners, look) in cells() {
+            // A mark where seeds disagree.
+            if let Some(look) = look
+                && look.agreement < 1.0
+            {
+                style::disagreement(sheet, corners, look.agreement, page.legend.0.cell)?;
+            }
+        }
         axes.draw()
     }
 
@@ -171,55 +209,32 @@ impl<P> Diagram<'_, P> {
         )
     }
 
-    fn draw_cells(&self, sheet: &Sheet<'_>, plot: &Plot<'_>, looks: &[Option<Look>]) -> Drawn {
+    /// Corners of all cells on the canvas.
+    fn cells(&self, plot: &Plot<'_>) -> Vec<Corners> {
         let (x, y) = self.edges(plot);
-        let columns = self.grid.cells().0;
-        for (index, look) in looks.iter().enumerate() {
-            let (column, row) = (index % columns, index / columns);
-            let corners = [(x[column], y[row + 1]), (x[column + 1], y[row])];
-            match look {
-                Some(look) => style::paint(sheet, corners, look.fill)?,
-                None => style::paint(sheet, corners, Fill::Hatch)?,
-            }
-        }
-        Ok(())
-    }
-
-    /// Marks the cells in which seeds disagree.
-    fn draw_marks(
-        &self,
-        sheet: &Sheet<'_>,
-        plot: &Plot<'_>,
-        looks: &[Option<Look>],
-        cell: i32,
-    ) -> Drawn {
-        let (x, y) = self.edges(plot);
-        let columns = self.grid.cells().0;
-        for (index, look) in looks.iter().enumerate() {
-            let (column, row) = (index % columns, index / columns);
-            let corners = [(x[column], y[row + 1]), (x[column + 1], y[row])];
-            if let Some(look) = look
-                && look.agreement < 1.0
-            {
-                style::disagreement(sheet, corners, look.agreement, cell)?;
-            }
-        }
-        Ok(())
+        let row = |y: &[i32]| {
+            let (bottom, top) = (y[0], y[1]);
+            let cells = x.windows(2);
+            cells
+                .map(move |x| [(x[0], top), (x[1], bottom)])
+                .collect::<Vec<_>>()
+        };
+        y.windows(2).flat_map(row).collect()
     }
 
     /// Shortest side of a cell, as far as marks grow with it.
-    fn smallest_cell(&self, layout: &Layout) -> i32 {
-        let (columns, rows) = (&layout.scales.0, &layout.scales.1);
+    fn smallest_cell(&self, page: &Page) -> i32 {
         let shortest = |edges: Vec<f64>, scale: &Scale, length: i32| {
             let places = edges.windows(2);
             let sides = places.map(|pair| scale.fraction(pair[1]) - scale.fraction(pair[0]));
             (sides.fold(1.0, f64::min) * f64::from(length)) as i32
         };
-        let across = shortest(self.grid.x.edges(), columns, layout.panel.0);
-        let y = self.grid.y.as_ref();
-        let up = y.map_or(layout.panel.1, |y| {
-            shortest(y.edges(), rows, layout.panel.1)
-        });
+        let ((x, y), (width, height)) = (page.scales(0), page.panel);
+        let across = shortest(self.grid.x.edges(), x, width);
+        let up = match &self.grid.y {
+            Some(axis) => shortest(axis.edges(), y, height),
+            None => height,
+        };
         across.min(up).min(style::LARGEST_CELL)
     }
 
@@ -228,78 +243,30 @@ impl<P> Diagram<'_, P> {
         let (x, y) = self.edges(plot);
         let (columns, rows) = self.grid.cells();
         let group = |column: usize, row: usize| looks[column + row * columns].map(|at| at.group);
-        type Group = Option<Option<i8>>;
-        let differ =
-            |one: Group, other: Group| one.zip(other).is_some_and(|(one, other)| one != other);
-        let line = |from: (i32, i32), to: (i32, i32)| {
-            sheet.draw(&PathElement::new(
-                [from, to],
-                BLACK.mix(0.7).stroke_width(8),
-            ))
+        let line = |here: Option<Option<i8>>, there, ends: [(i32, i32); 2]| match here.zip(there) {
+            Some((here, there)) if here != there => {
+                sheet.draw(&PathElement::new(ends, BLACK.mix(0.7).stroke_width(8)))
+            }
+            _ => Ok(()),
         };
-        for (edge, &at) in x.iter().enumerate().take(columns).skip(1) {
-            let border = |row| differ(group(edge - 1, row), group(edge, row));
-            for (from, to) in runs(rows, border) {
-                line((at, y[from]), (at, y[to]))?;
+        for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |it| (row, it))) {
+            let here = group(column, row);
+            let (left, bottom) = (x[column], y[row]);
+            if column > 0 {
+                line(
+                    here,
+                    group(column - 1, row),
+                    [(left, bottom), (left, y[row + 1])],
+                )?;
             }
-        }
-        for (edge, &at) in y.iter().enumerate().take(rows).skip(1) {
-            let border = |column| differ(group(column, edge - 1), group(column, edge));
-            for (from, to) in runs(columns, border) {
-                line((x[from], at), (x[to], at))?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Draws title, axis labels and heads of panels.
-    fn draw_words(&self, sheet: &Sheet<'_>, layout: &Layout) -> Drawn {
-        let (left, top) = layout.origin;
-        let (right, bottom) = layout.end();
-        let (middle_x, middle_y) = ((left + right) / 2, (top + bottom) / 2);
-        let rotated = |style: TextStyle<'static>| style.transform(FontTransform::Rotate270);
-        for (index, line) in layout.title.iter().enumerate() {
-            let style = letters(TITLE, HPos::Center, VPos::Top);
-            let y = style::MARGIN + index as i32 * TITLE_LINE;
-            sheet.draw_text(line, &style, (layout.size.0 / 2, y))?;
-        }
-        let x_label = letters(LABEL, HPos::Center, VPos::Top);
-        let below = bottom + layout.ticks.1 + px(6);
-        sheet.draw_text(&self.grid.x.label(), &x_label, (middle_x, below))?;
-        if let Some(y) = &self.grid.y {
-            let style = rotated(letters(LABEL, HPos::Center, VPos::Top));
-            sheet.draw_text(&y.label(), &style, (style::MARGIN, middle_y))?;
-        }
-        for (index, panel) in self.grid.panels.iter().enumerate() {
-            let (left, top) = layout.corner(index);
-            let first_row = index < layout.shape.columns;
-            if let Some(head) = &panel.head
-                && (first_row || self.grid.rows.is_none())
-            {
-                let style = letters(SMALL, HPos::Center, VPos::Bottom);
-                let place = (left + layout.panel.0 / 2, top - px(3));
-                sheet.draw_text(head, &style, place)?;
-            }
-            let last_column = (index + 1).is_multiple_of(layout.shape.columns);
-            if let (Some(axis), Some(value), true) = (&self.grid.rows, panel.row, last_column) {
-                let style =
-                    letters(SMALL, HPos::Center, VPos::Bottom).transform(FontTransform::Rotate90);
-                let place = (left + layout.panel.0 + px(8), top + layout.panel.1 / 2);
-                sheet.draw_text(&axis.at(value), &style, place)?;
+            if row > 0 {
+                line(
+                    here,
+                    group(column, row - 1),
+                    [(left, bottom), (x[column + 1], bottom)],
+                )?;
             }
         }
         Ok(())
     }
-}
-
-/// The runs of indices below `count` that satisfy a condition: first, and one past the last.
-fn runs(count: usize, condition: impl Fn(usize) -> bool) -> Vec<(usize, usize)> {
-    let mut runs: Vec<(usize, usize)> = Vec::new();
-    for index in (0..count).filter(|&index| condition(index)) {
-        match runs.last_mut() {
-            Some(run) if run.1 == index => run.1 = index + 1,
-            _ => runs.push((index, index + 1)),
-        }
-    }
-    runs
 }

@@ -1,6 +1,6 @@
 //! Energies over time, per sphere (Rice, 2012, figures 12 and 15): the whole run, and its begin.
 
-use super::chart::{self, Chart, Line, Panel, prefixed};
+use super::chart::{self, Chart, Line, Panel};
 use super::choice::{self, Run};
 use super::style::px;
 use super::svg::Svg;
@@ -68,16 +68,9 @@ impl Figure for Energies {
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
         let runs = choice::runs(source, self.choice)?;
-        let energies = runs
-            .iter()
-            .map(|run| Ok(energies(run, &run.record()?)))
-            .collect::<Result<Vec<_>, PlotError>>()?;
-        let all = energies.iter().flat_map(|run| run.lines.iter().flatten());
-        let largest = all.fold(0.0, |most: f64, point| most.max(point.1.abs()));
-        let (unit, factor) = prefixed("J", largest);
         let (common, places) = choice::places(&runs);
-        let shown = runs.iter().zip(places).zip(&energies);
-        let panels = shown.flat_map(|((run, mut head), energies)| {
+        let mut panels = Vec::new();
+        for (run, mut head) in runs.iter().zip(places) {
             if self.with_states {
                 let state = run.row.verdict.label.name.replace('-', " ");
                 match head.first_mut() {
@@ -85,12 +78,13 @@ impl Figure for Energies {
                     None => head.push(state),
                 }
             }
-            panels(head, energies, factor)
-        });
+            panels.extend(of_run(run, head, &run.record()?));
+        }
+        let unit = chart::scaled("J", &mut panels);
         Chart {
             name: self.name,
             common,
-            panels: panels.collect(),
+            panels,
             columns: 2,
             height: if runs.len() == 1 { px(240) } else { px(130) },
             x_label: "time (s)".to_owned(),
@@ -109,36 +103,39 @@ impl Figure for Energies {
     }
 }
 
-/// The mean energies of a sphere over time (s, J), one line per kind.
-struct Lines {
-    duration: f64,
-    lines: [Vec<(f64, f64)>; 3],
-}
-
-fn energies(run: &Run<'_>, record: &RunRecord) -> Lines {
+/// Mean energies of a sphere over time (s, J): the whole run, and its begin.
+fn of_run(run: &Run<'_>, head: Vec<String>, record: &RunRecord) -> [Panel; 2] {
     let observations = &record.observations;
     let spheres = record.radius.len().max(1) as f64;
-    let line = |values: &[f32], zero: f64| -> Vec<(f64, f64)> {
-        let pairs = observations.time.iter().zip(values);
-        pairs
-            .map(|(&time, &value)| (time, (f64::from(value) - zero) / spheres))
-            .collect()
-    };
     let duration = record.scene.time.duration;
     let settled = run.row.verdict.value("settle_time");
-    let zero = mean_after(
-        &observations.time,
-        &observations.gravitational,
-        settled.unwrap_or((1.0 - END) * duration),
-    );
-    Lines {
-        duration,
-        lines: [
-            line(&observations.kinetic, 0.0),
-            line(&observations.rotational, 0.0),
-            line(&observations.gravitational, zero),
-        ],
-    }
+    let settled = settled.unwrap_or((1.0 - END) * duration);
+    let zero = mean_after(&observations.time, &observations.gravitational, settled);
+    let kinds = [
+        (&observations.kinetic, 0.0),
+        (&observations.rotational, 0.0),
+        (&observations.gravitational, zero),
+    ];
+    let kinds = kinds.into_iter().zip(palette::LINES);
+    let lines = kinds.map(|((values, zero), color)| {
+        let mut line = Line::over(&observations.time, values, color);
+        for point in &mut line.points {
+            point.1 = (point.1 - zero) / spheres;
+        }
+        line
+    });
+    let lines: Vec<Line> = lines.collect();
+    let begin = if duration > BEGIN {
+        BEGIN
+    } else {
+        0.2 * duration
+    };
+    let larger = match begin {
+        1.0 => "first second".to_owned(),
+        _ => format!("first {} s", scale::number(begin)),
+    };
+    [(head, duration), (vec![larger], begin)]
+        .map(|(head, end)| Panel::new(head, (0.0, end), lines.clone()))
 }
 
 /// Mean of the values from a time on; the last value if there are none.
@@ -154,39 +151,4 @@ fn mean_after(time: &[f64], values: &[f32], from: f64) -> f64 {
         Some(last) => f64::from(*last),
         None => 0.0,
     }
-}
-
-/// The whole run, and its begin.
-fn panels(head: Vec<String>, energies: &Lines, factor: f64) -> [Panel; 2] {
-    let scaled = |points: &[(f64, f64)]| points.iter().map(|(t, e)| (*t, e * factor)).collect();
-    let lines: Vec<Line> = energies
-        .lines
-        .iter()
-        .zip(palette::LINES)
-        .map(|(points, color)| Line {
-            points: scaled(points),
-            color,
-        })
-        .collect();
-    let values = lines
-        .iter()
-        .flat_map(|line| &line.points)
-        .map(|point| point.1);
-    let y = chart::range(values).unwrap_or((0.0, 1.0));
-    let begin = if energies.duration > BEGIN {
-        BEGIN
-    } else {
-        0.2 * energies.duration
-    };
-    let larger = match begin {
-        1.0 => "first second".to_owned(),
-        _ => format!("first {} s", scale::number(begin)),
-    };
-    [(head, energies.duration), (vec![larger], begin)].map(|(head, end)| Panel {
-        head,
-        x: (0.0, end),
-        y,
-        lines: lines.clone(),
-        bars: Vec::new(),
-    })
 }

@@ -1,19 +1,15 @@
 //! The ledger of a run: where its energy is and went, and what the integrator got wrong.
 
-use super::chart::{self, Chart, Line, Panel, prefixed};
+use super::chart::{self, Chart, Line, Panel};
 use super::style::px;
 use super::svg::Svg;
 use super::{PlotError, palette};
 use crate::observe::Observations;
 use crate::record::RunRecord;
-use plotters::style::{BLACK, RGBColor};
+use plotters::style::BLACK;
 
-/// One kind of energy over time (J).
-struct Account {
-    name: &'static str,
-    color: RGBColor,
-    values: Vec<f64>,
-}
+/// The name of a kind of energy, and its values over time (J).
+type Account = (&'static str, Line);
 
 /// Draws the ledger of a run.
 ///
@@ -25,18 +21,15 @@ pub fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
         return Err(PlotError::NoLedger);
     }
     let accounts = accounts(observations);
-    let residual = Account {
-        name: "residual",
-        color: BLACK,
-        values: wide(&observations.residual),
-    };
-    let panels = [
-        panel("where the energy is, and went", &accounts, observations),
-        panel(
-            "residual, what the integrator got wrong",
-            std::slice::from_ref(&residual),
-            observations,
-        ),
+    let residual = Line::over(&observations.time, &observations.residual, BLACK);
+    let legend = accounts.iter();
+    let legend = legend
+        .map(|(name, line)| (line.color, (*name).to_owned()))
+        .collect();
+    let lines = accounts.into_iter().map(|(_, line)| line).collect();
+    let panels = vec![
+        panel("where the energy is, and went", lines),
+        panel("residual, what the integrator got wrong", vec![residual]),
     ];
     let chart = Chart {
         name: "ledger",
@@ -45,96 +38,60 @@ pub fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
             record.scene.time.integrator.name(),
             crate::document::number(record.scene.time.dt)
         )],
-        panels: panels.into(),
+        panels,
         columns: 1,
         height: px(240),
         x_label: "time (s)".to_owned(),
         y_label: "energy".to_owned(),
-        legend: accounts
-            .iter()
-            .map(|account| (account.color, account.name.to_owned()))
-            .collect(),
-        notes: Vec::new(),
+        legend,
+        ..Chart::default()
     };
     let (size, body) = chart.body(record.scene.title.as_deref())?;
     Ok(Svg::of_record("ledger", record, size, &body))
 }
 
-fn wide(values: &[f32]) -> Vec<f64> {
-    values.iter().copied().map(f64::from).collect()
-}
-
 /// All kinds of energy that the run knew.
 fn accounts(observations: &Observations) -> Vec<Account> {
-    let Observations {
-        kinetic,
-        rotational,
-        gravitational,
-        elastic,
-        springs,
-        dissipated_by_damping,
-        dissipated_by_friction,
-        work_of_air,
-        energy_brought,
-        ..
-    } = observations;
-    let gravitational = wide(gravitational);
-    let start = gravitational.first().copied().unwrap_or(0.0);
     let [blue, red, green, pink, orange, light_blue] = palette::DISTINCT;
+    let line = |values, color| Line::over(&observations.time, values, color);
+    let mut gravitational = line(&observations.gravitational, green);
+    let start = gravitational.points.first().map_or(0.0, |point| point.1);
+    for point in &mut gravitational.points {
+        point.1 -= start;
+    }
+    let mut elastic = line(&observations.elastic, palette::LINES[0]);
+    for (point, springs) in elastic.points.iter_mut().zip(&observations.springs) {
+        point.1 += f64::from(*springs);
+    }
     let accounts = [
-        ("kinetic", blue, wide(kinetic)),
-        ("rotational", light_blue, wide(rotational)),
+        ("kinetic", line(&observations.kinetic, blue)),
+        ("rotational", line(&observations.rotational, light_blue)),
+        ("gravitational, from the start on", gravitational),
+        ("elastic, in contacts and tangential springs", elastic),
         (
-            "gravitational, from the start on",
-            green,
-            gravitational.iter().map(|energy| energy - start).collect(),
+            "dissipated by damping",
+            line(&observations.dissipated_by_damping, red),
         ),
-        (
-            "elastic, in contacts and tangential springs",
-            palette::LINES[0],
-            elastic
-                .iter()
-                .zip(springs)
-                .map(|(elastic, springs)| f64::from(*elastic) + f64::from(*springs))
-                .collect(),
-        ),
-        ("dissipated by damping", red, wide(dissipated_by_damping)),
         (
             "dissipated by friction",
-            orange,
-            wide(dissipated_by_friction),
+            line(&observations.dissipated_by_friction, orange),
         ),
-        ("work of the air", pink, wide(work_of_air)),
-        ("brought by spheres", palette::GUIDE, wide(energy_brought)),
+        ("work of the air", line(&observations.work_of_air, pink)),
+        (
+            "brought by spheres",
+            line(&observations.energy_brought, palette::GUIDE),
+        ),
     ];
-    let accounts = accounts.into_iter().map(|(name, color, values)| Account {
-        name,
-        color,
-        values,
-    });
-    let is_known = |account: &Account| account.values.iter().any(|value| *value != 0.0);
-    accounts.filter(is_known).collect()
+    let is_known = |(_, line): &Account| line.points.iter().any(|point| point.1 != 0.0);
+    accounts.into_iter().filter(is_known).collect()
 }
 
 /// A panel in the unit that its largest value asks for, which its head names.
-fn panel(head: &str, accounts: &[Account], observations: &Observations) -> Panel {
-    let values = || accounts.iter().flat_map(|account| account.values.iter());
-    let largest = values().fold(0.0, |most: f64, value| most.max(value.abs()));
-    let (unit, factor) = prefixed("J", largest);
-    let lines = accounts.iter().map(|account| Line {
-        points: observations
-            .time
-            .iter()
-            .zip(&account.values)
-            .map(|(time, value)| (*time, value * factor))
-            .collect(),
-        color: account.color,
-    });
-    Panel {
-        head: vec![format!("{head} ({unit})")],
-        x: (0.0, observations.time.last().copied().unwrap_or(1.0)),
-        y: chart::range(values().map(|value| value * factor)).unwrap_or((0.0, 1.0)),
-        lines: lines.collect(),
-        bars: Vec::new(),
-    }
+fn panel(head: &str, lines: Vec<Line>) -> Panel {
+    let ends = lines.iter().filter_map(|line| line.points.last());
+    let end = ends.map(|point| point.0).fold(0.0, f64::max);
+    let mut panel = Panel::new(Vec::new(), (0.0, end), lines);
+    let unit = chart::scaled("J", std::slice::from_mut(&mut panel));
+    panel.head.push(format!("{head} ({unit})"));
+    panel
 }

@@ -2,7 +2,7 @@
 
 use super::style::{self, Drawn, Fill, SMALL, Sheet, letters, px};
 use super::text;
-use plotters::element::Circle;
+use plotters::element::{Circle, PathElement};
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters::style::{BLACK, Color, RGBColor, WHITE};
 
@@ -35,6 +35,13 @@ pub(super) enum Key {
 pub(super) struct Entry {
     pub(super) key: Key,
     pub(super) text: String,
+}
+
+impl Entry {
+    pub(super) fn new(key: Key, text: &str) -> Self {
+        let text = text.to_owned();
+        Self { key, text }
+    }
 }
 
 /// Entries with their places.
@@ -103,7 +110,10 @@ fn draw_key(sheet: &Sheet<'_>, key: Key, (left, middle): (i32, i32), cell: i32) 
             let middle = (left.midpoint(right), middle);
             return sheet.draw(&Circle::new(middle, px(3), color.filled()));
         }
-        Key::Line(color) => return style::line(sheet, &[(left, middle), (right, middle)], color),
+        Key::Line(color) => {
+            let ends = [(left, middle), (right, middle)];
+            return sheet.draw(&PathElement::new(ends, style::line(color)));
+        }
     }
     style::outline(sheet, corners, BLACK.mix(0.6).stroke_width(4))
 }

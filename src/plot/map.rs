@@ -96,11 +96,7 @@ impl Figure for Map {
             grid: &grid,
             look: &|point| {
                 let value = self.mean(source, point)?;
-                Some(Look {
-                    fill: Fill::Color(bar.as_ref()?.color(value)),
-                    agreement: 1.0,
-                    group: None,
-                })
+                Some(Look::new(Fill::Color(bar.as_ref()?.color(value)), None))
             },
             empty: match &bar {
                 Some(_) => "no value".to_owned(),

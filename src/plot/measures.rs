@@ -44,14 +44,13 @@ impl Figure for MeasuresFigure {
         );
         Chart {
             name: self.name(),
-            common: Vec::new(),
             columns: 2,
             height: px(130),
             panels,
             x_label: axis.label(),
-            y_label: String::new(),
             legend: named.map(|line| (line.color, line.name.clone())).collect(),
             notes: [Some(note), left_out].into_iter().flatten().collect(),
+            ..Chart::default()
         }
         .draw(source)
     }

@@ -21,12 +21,12 @@ mod critical_rotation;
 mod diagram;
 mod energies;
 mod grid;
-mod layout;
 mod ledger;
 mod legend;
 mod map;
 mod measures;
 mod net_force;
+mod page;
 mod palette;
 mod phase;
 mod scale;
@@ -41,6 +41,7 @@ mod svg;
 mod text;
 mod tracks;
 pub mod verification;
+mod words;
 
 pub use beverloo::{FittedLine, fitted_lines};
 pub use ledger::draw as draw_ledger;
@@ -53,8 +54,6 @@ use crate::classify::LabelTable;
 use crate::record::{Program, RunRecord};
 use crate::store::StoreError;
 use crate::sweep::{SelectError, Sweep};
-use plotters::drawing::DrawingAreaErrorKind;
-use std::convert::Infallible;
 
 /// What figures are drawn from: tables and records, never simulations.
 pub struct Source<'a> {
@@ -338,8 +337,8 @@ impl PlotError {
     }
 }
 
-impl From<DrawingAreaErrorKind<Infallible>> for PlotError {
-    fn from(error: DrawingAreaErrorKind<Infallible>) -> Self {
+impl From<style::Failed> for PlotError {
+    fn from(error: style::Failed) -> Self {
         Self::Drawing(error.to_string())
     }
 }

@@ -5,8 +5,8 @@
 //! that the lift at the scene's own Omega is the scene's updraught, whether that depends on Omega
 //! or not.
 
-use super::chart::{self, Chart, Line, Panel};
-use super::critical_rotation::{radii, samples, volume};
+use super::chart::{self, Chart, Line, Panel, samples};
+use super::critical_rotation::{radii, volume};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, palette, scale};
@@ -37,15 +37,15 @@ impl Figure for NetForce {
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
         let scene = &source.sweep.scene;
         let largest = radii(source).1;
-        let mut curves = Vec::new();
+        let mut lines = Vec::new();
         for (share, color) in ROTATIONS.into_iter().zip(palette::LINES) {
             let point = |radius: f64| Some((radius * 1e3, net_force(scene, radius, share)?));
             let points: Option<Vec<_>> = samples(0.0, largest).map(point).collect();
-            curves.push((share, color, points.ok_or(NEEDS)?));
+            let points = points.ok_or(NEEDS)?;
+            lines.push(Line { points, color });
         }
-        let values = || curves.iter().flat_map(|(.., points)| points).map(|p| p.1);
-        let most = values().fold(0.0, |most: f64, force| most.max(force.abs()));
-        let (unit, factor) = chart::prefixed("N", most);
+        let mut panels = vec![Panel::new(Vec::new(), (0.0, largest * 1e3), lines)];
+        let unit = chart::scaled("N", &mut panels);
         let omega = scene.dem.effects.swirl.as_ref().ok_or(NEEDS)?.omega;
         let name = |share: f64| {
             let own = if share == 1.0 {
@@ -57,29 +57,17 @@ impl Figure for NetForce {
         };
         Chart {
             name: self.name(),
-            common: Vec::new(),
-            legend: curves
-                .iter()
-                .map(|(share, color, _)| (*color, name(*share)))
+            legend: palette::LINES
+                .into_iter()
+                .zip(ROTATIONS.map(name))
                 .collect(),
-            panels: vec![Panel {
-                head: Vec::new(),
-                x: (0.0, largest * 1e3),
-                y: chart::range(values().map(|force| force * factor)).unwrap_or((0.0, 1.0)),
-                lines: curves
-                    .into_iter()
-                    .map(|(_, color, points)| Line {
-                        points: points.into_iter().map(|(r, f)| (r, f * factor)).collect(),
-                        color,
-                    })
-                    .collect(),
-                bars: Vec::new(),
-            }],
+            panels,
             columns: 1,
             height: px(400),
             x_label: "radius of the sphere $r$ (mm)".to_owned(),
             y_label: format!("net vertical force $F_z$ ({unit})"),
             notes: notes(scene),
+            ..Chart::default()
         }
         .draw(source)
     }

@@ -60,8 +60,8 @@ pub(super) fn faded(color: RGBColor, agreement: f64) -> RGBColor {
 }
 
 /// A colour with that share of white.
-pub(super) fn lightened(color: RGBColor, share: f64) -> RGBColor {
-    mix(color, RGBColor(255, 255, 255), share)
+pub(super) fn lightened(RGBColor(red, green, blue): RGBColor, share: f64) -> RGBColor {
+    color(color::mix([red, green, blue], [255; 3], share))
 }
 
 /// Colour at `fraction` of a map, 0 to 1.
@@ -75,12 +75,6 @@ const fn rgb(hex: u32) -> RGBColor {
 
 const fn color([red, green, blue]: [u8; 3]) -> RGBColor {
     RGBColor(red, green, blue)
-}
-
-/// `share` of `other` in `one`.
-fn mix(one: RGBColor, other: RGBColor, share: f64) -> RGBColor {
-    let channels = |color: RGBColor| [color.0, color.1, color.2];
-    color(color::mix(channels(one), channels(other), share))
 }
 
 #[cfg(test)]
@@ -178,18 +172,22 @@ mod tests {
         families.flat_map(of_family).collect()
     }
 
+    fn apart_for_every_vision(one: RGBColor, other: RGBColor) {
+        for (name, vision) in &VISIONS {
+            let (a, b) = (lab(one, vision), lab(other, vision));
+            let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
+            let distance = square.sqrt();
+            assert!(
+                distance >= LEAST_DISTANCE,
+                "{name}: {one:?} and {other:?} are {distance:.1} apart"
+            );
+        }
+    }
+
     #[test]
     fn states_stay_apart_for_every_vision() {
-        for (name, vision) in &VISIONS {
-            for (one, other) in pairs() {
-                let (a, b) = (lab(state(one), vision), lab(state(other), vision));
-                let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
-                assert!(
-                    square.sqrt() >= LEAST_DISTANCE,
-                    "{name}: {one:?} and {other:?} are {:.1} apart",
-                    square.sqrt()
-                );
-            }
+        for (one, other) in pairs() {
+            apart_for_every_vision(state(one), state(other));
         }
     }
 
@@ -219,33 +217,15 @@ mod tests {
     }
 
     #[test]
-    fn numerical_labels_stay_apart_for_every_vision_and_in_grey() {
-        let colors = stability::Label::ALL.map(super::stability);
-        for (name, vision) in &VISIONS {
+    fn numerical_labels_and_lines_stay_apart_for_every_vision_and_in_grey() {
+        let mut numerical = stability::Label::ALL.map(super::stability);
+        numerical.reverse();
+        for colors in [&LINES, &numerical] {
             for pair in colors.windows(2) {
-                let (a, b) = (lab(pair[0], vision), lab(pair[1], vision));
-                let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
-                assert!(square.sqrt() >= LEAST_DISTANCE, "{name}: {pair:?}");
+                apart_for_every_vision(pair[0], pair[1]);
+                let step = lightness(pair[1]) - lightness(pair[0]);
+                assert!(step >= LEAST_STEP, "{pair:?}: {step:.1}");
             }
-        }
-        for pair in colors.windows(2) {
-            let step = lightness(pair[0]) - lightness(pair[1]);
-            assert!(step >= LEAST_STEP, "{pair:?}: {step:.1}");
-        }
-    }
-
-    #[test]
-    fn lines_stay_apart_for_every_vision_and_in_grey() {
-        for (name, vision) in &VISIONS {
-            for pair in LINES.windows(2) {
-                let (a, b) = (lab(pair[0], vision), lab(pair[1], vision));
-                let square: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
-                assert!(square.sqrt() >= LEAST_DISTANCE, "{name}: {pair:?}");
-            }
-        }
-        for pair in LINES.windows(2) {
-            let step = lightness(pair[1]) - lightness(pair[0]);
-            assert!(step >= LEAST_STEP, "{pair:?}: {step:.1}");
         }
     }
 

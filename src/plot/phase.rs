@@ -37,10 +37,7 @@ impl Figure for PhaseDiagram {
         let labels = source.table.family.labels.iter();
         let mut legend: Vec<Entry> = labels
             .filter(|label| occurs(label))
-            .map(|label| Entry {
-                key: Key::Fill(fill(*label)),
-                text: label.name.replace('-', " "),
-            })
+            .map(|label| Entry::new(Key::Fill(fill(*label)), &label.name.replace('-', " ")))
             .collect();
         legend.extend(of_disagreement(&points));
         Diagram {
@@ -80,11 +77,7 @@ fn look(point: &Point) -> Look {
             group: Some(point.label.code),
         }
     } else {
-        Look {
-            fill: Fill::Stipple,
-            agreement: 1.0,
-            group: None,
-        }
+        Look::new(Fill::Stipple, None)
     }
 }
 
@@ -101,16 +94,13 @@ fn of_disagreement(points: &[&Point]) -> Vec<Entry> {
     }
     let mut entries: Vec<Entry> = ends
         .into_iter()
-        .map(|agreement| Entry {
-            key: Key::Agreement(agreement),
-            text: format!("{:.0} % of seeds agree", 100.0 * agreement),
+        .map(|agreement| {
+            let text = format!("{:.0} % of seeds agree", 100.0 * agreement);
+            Entry::new(Key::Agreement(agreement), &text)
         })
         .collect();
     if points.iter().any(|point| !has_majority(point)) {
-        entries.push(Entry {
-            key: Key::Fill(Fill::Stipple),
-            text: "no majority".to_owned(),
-        });
+        entries.push(Entry::new(Key::Fill(Fill::Stipple), "no majority"));
     }
     entries
 }

@@ -1,5 +1,6 @@
 //! A scale: from the values of an axis to the canvas, with ticks that fit.
 
+use super::style::SMALL;
 use super::text;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use std::ops::Range;
@@ -10,22 +11,45 @@ const MOST_TICKS: usize = 9;
 /// Most values of an axis that are ticks themselves.
 const MOST_VALUES: usize = 12;
 
-/// Direction of an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Direction {
-    Horizontal,
-    Vertical,
+/// The length of an axis (units of the canvas) and its direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Room {
+    Across(i32),
+    Up(i32),
 }
 
-/// The room that tick labels have.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Room {
-    /// Length of the axis (units of the canvas).
-    pub(super) length: f64,
-    /// Size of the letters (units of the canvas).
-    pub(super) size: f64,
-    /// Direction of the axis.
-    pub(super) direction: Direction,
+/// The range of an axis.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Span {
+    pub(super) low: f64,
+    pub(super) high: f64,
+    pub(super) logarithmic: bool,
+    pub(super) ticks: Ticks,
+    /// Size of the letters of its labels, where it is not that of small ones.
+    pub(super) letters: Option<i32>,
+}
+
+/// Where an axis has ticks.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) enum Ticks {
+    /// At round numbers, as many as fit.
+    #[default]
+    Round,
+    /// At these values if they are few, short and fit; else at round numbers.
+    Values(Vec<f64>),
+    /// At these values, with these labels.
+    Given(Vec<(f64, String)>),
+}
+
+impl Span {
+    /// A linear range with ticks at round numbers.
+    pub(super) fn linear((low, high): (f64, f64)) -> Self {
+        Self {
+            low,
+            high,
+            ..Self::default()
+        }
+    }
 }
 
 /// A linear or logarithmic scale with its ticks.
@@ -36,56 +60,42 @@ pub(super) struct Scale {
     logarithmic: bool,
     /// Values and labels of the ticks.
     ticks: Vec<(f64, String)>,
+    /// Size of their letters.
+    pub(super) letters: i32,
 }
 
 impl Scale {
-    /// A scale from `low` to `high`. The ticks are `values` if they are few, short and fit; else
-    /// round numbers, as many as fit.
-    pub(super) fn new(low: f64, high: f64, logarithmic: bool, values: &[f64], room: Room) -> Self {
+    /// The scale of a range, with the ticks that fit into `room`.
+    pub(super) fn new(span: &Span, room: Room) -> Self {
+        let (low, high, logarithmic) = (span.low, span.high, span.logarithmic);
         let mut scale = Self {
             low,
             high,
             logarithmic,
             ticks: Vec::new(),
+            letters: span.letters.unwrap_or(SMALL),
         };
-        let few = (1..=MOST_VALUES).contains(&values.len());
-        let candidates = few.then(|| values.to_vec()).into_iter();
-        let candidates = candidates.chain(round_ticks(low, high, logarithmic));
-        for (index, values) in candidates.enumerate() {
-            let own = few && index == 0;
-            let Some(ticks) = labelled(&values, logarithmic) else {
-                continue;
-            };
-            let short = ticks.iter().all(|(_, label)| label.chars().count() <= 5);
-            if scale.fit(&ticks, room) && (!own || short || values.len() == 1) {
-                scale.ticks = ticks;
-                break;
+        let own = match &span.ticks {
+            Ticks::Values(values) if (1..=MOST_VALUES).contains(&values.len()) => {
+                labelled(values, logarithmic).filter(|ticks| {
+                    let short = |(_, label): &(f64, String)| label.chars().count() <= 5;
+                    ticks.len() == 1 || ticks.iter().all(short)
+                })
             }
-        }
+            Ticks::Given(ticks) => {
+                scale.ticks.clone_from(ticks);
+                return scale;
+            }
+            _ => None,
+        };
+        let round = round_ticks(low, high, logarithmic).into_iter();
+        let round = round.filter_map(|values| labelled(&values, logarithmic));
+        let fitting = own
+            .into_iter()
+            .chain(round)
+            .find(|ticks| scale.fit(ticks, room));
+        scale.ticks = fitting.unwrap_or_default();
         scale
-    }
-
-    /// The scale without the ticks whose labels reach further than `overhang` (units of the canvas)
-    /// beyond its ends.
-    pub(super) fn with_labels_within(mut self, room: Room, overhang: f64) -> Self {
-        let mut ticks = std::mem::take(&mut self.ticks);
-        ticks.retain(|(value, label)| {
-            let half = 0.5 * text::width(label, room.size);
-            let place = self.fraction(*value) * room.length;
-            place - half >= -overhang && place + half <= room.length + overhang
-        });
-        self.ticks = ticks;
-        self
-    }
-
-    /// A linear scale without ticks.
-    pub(super) fn bare(low: f64, high: f64) -> Self {
-        Self {
-            low,
-            high,
-            logarithmic: false,
-            ticks: Vec::new(),
-        }
     }
 
     /// Position between the ends, 0 to 1.
@@ -102,24 +112,37 @@ impl Scale {
         &self.ticks
     }
 
-    /// Width of the widest tick label, in the unit of `size`.
-    pub(super) fn label_width(&self, size: f64) -> f64 {
-        let widths = self.ticks.iter().map(|(_, label)| text::width(label, size));
-        widths.fold(0.0, f64::max)
+    /// Width of the widest tick label (units of the canvas).
+    pub(super) fn label_width(&self) -> i32 {
+        let widths = self.ticks.iter().map(|(_, label)| self.width(label));
+        widths.fold(0.0, f64::max).ceil() as i32
+    }
+
+    /// How far the labels of a horizontal axis of a length reach beyond its ends.
+    pub(super) fn overhang(&self, length: i32) -> i32 {
+        let beyond = self.ticks.iter().map(|(value, label)| {
+            let place = self.fraction(*value);
+            0.5 * self.width(label) - place.min(1.0 - place) * f64::from(length)
+        });
+        beyond.fold(0.0, f64::max).ceil() as i32
+    }
+
+    fn width(&self, label: &str) -> f64 {
+        text::width(label, f64::from(self.letters))
     }
 
     /// Whether no two labels touch.
     fn fit(&self, ticks: &[(f64, String)], room: Room) -> bool {
         ticks.windows(2).all(|pair| {
-            let position = |tick: &(f64, String)| self.fraction(tick.0) * room.length;
-            let needed = match room.direction {
-                Direction::Vertical => 1.2 * room.size,
-                Direction::Horizontal => {
-                    let width = |tick: &(f64, String)| text::width(&tick.1, room.size);
-                    0.5 * (width(&pair[0]) + width(&pair[1])) + 0.7 * room.size
+            let [one, next] = [&pair[0], &pair[1]];
+            let (length, needed) = match room {
+                Room::Up(length) => (length, 1.2 * f64::from(SMALL)),
+                Room::Across(length) => {
+                    let labels = 0.5 * (self.width(&one.1) + self.width(&next.1));
+                    (length, labels + 0.7 * f64::from(SMALL))
                 }
             };
-            position(&pair[1]) - position(&pair[0]) >= needed
+            (self.fraction(next.0) - self.fraction(one.0)) * f64::from(length) >= needed
         })
     }
 }
@@ -186,33 +209,37 @@ fn round_ticks(low: f64, high: f64, logarithmic: bool) -> Vec<Vec<f64>> {
 
 /// The ticks with their labels, of equal style; `None` if they have too many digits.
 fn labelled(ticks: &[f64], logarithmic: bool) -> Option<Vec<(f64, String)>> {
-    let largest = ticks
-        .iter()
-        .fold(0.0_f64, |most, tick| most.max(tick.abs()));
-    let plain = (1e-3..1e5).contains(&largest) || largest == 0.0;
-    let label: Box<dyn Fn(f64) -> String> = if logarithmic {
-        let smallest = ticks
+    let sizes = || {
+        ticks
             .iter()
-            .fold(f64::INFINITY, |least, tick| least.min(*tick));
-        if plain && smallest >= 1e-3 {
-            Box::new(number)
-        } else {
-            Box::new(scientific)
-        }
-    } else if plain {
-        let span = ticks.last()? - ticks.first()?;
-        let tolerance = 1e-6 * if span > 0.0 { span } else { largest };
-        let decimals = (0..=4).find(|&decimals| {
-            ticks.iter().all(|&tick| {
-                let written = format!("{tick:.decimals$}").parse::<f64>();
-                written.is_ok_and(|written| (written - tick).abs() <= tolerance)
-            })
-        })?;
-        Box::new(move |tick| minus(format!("{tick:.decimals$}")))
-    } else {
-        Box::new(scientific)
+            .map(|tick| tick.abs())
+            .filter(|size| *size > 0.0)
     };
-    Some(ticks.iter().map(|&tick| (tick, label(tick))).collect())
+    let (least, most) = (
+        sizes().fold(f64::INFINITY, f64::min),
+        sizes().fold(0.0, f64::max),
+    );
+    let decisive = if logarithmic { least } else { most };
+    let plain = most == 0.0 || (decisive >= 1e-3 && most < 1e5);
+    let with = |label: &dyn Fn(f64) -> String| {
+        let ticks = ticks.iter();
+        Some(ticks.map(|&tick| (tick, label(tick))).collect())
+    };
+    if !plain {
+        return with(&scientific);
+    }
+    if logarithmic {
+        return with(&number);
+    }
+    let span = ticks.last()? - ticks.first()?;
+    let tolerance = 1e-6 * if span > 0.0 { span } else { most };
+    let decimals = (0..=4).find(|&decimals| {
+        ticks.iter().all(|&tick| {
+            let written = format!("{tick:.decimals$}").parse::<f64>();
+            written.is_ok_and(|written| (written - tick).abs() <= tolerance)
+        })
+    })?;
+    with(&|tick| minus(format!("{tick:.decimals$}")))
 }
 
 /// A number for people: at most four digits, a power of ten if it is very large or very small.
@@ -240,15 +267,9 @@ fn scientific(value: f64) -> String {
 }
 
 fn superscript(digit: char) -> char {
-    match digit {
-        '-' => '⁻',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        '4'..='9' => char::from_u32('⁴' as u32 + digit as u32 - '4' as u32).unwrap_or(digit),
-        '0' => '⁰',
-        other => other,
-    }
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let digit = digit.to_digit(10);
+    digit.map_or('⁻', |digit| DIGITS[digit as usize])
 }
 
 /// A typographic minus sign instead of a hyphen; no minus zero.
@@ -265,11 +286,14 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn room(length: f64, direction: Direction) -> Room {
-        Room {
-            length,
-            size: 110.0,
-            direction,
+    fn span(low: f64, high: f64, logarithmic: bool, values: &[f64]) -> Span {
+        let ticks = Ticks::Values(values.to_vec());
+        Span {
+            low,
+            high,
+            logarithmic,
+            ticks,
+            letters: None,
         }
     }
 
@@ -284,20 +308,19 @@ mod tests {
     #[test]
     fn few_short_values_are_the_ticks() {
         let omega = [0.0, 2.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 40.0];
-        let scale = Scale::new(-1.0, 48.0, false, &omega, room(4000.0, Direction::Vertical));
+        let scale = Scale::new(&span(-1.0, 48.0, false, &omega), Room::Up(4000));
         assert_eq!(
             labels(&scale),
             ["0", "2", "4", "6", "8", "12", "16", "24", "40"]
         );
-        let scale = Scale::new(-1.0, 48.0, false, &omega, room(1000.0, Direction::Vertical));
+        let scale = Scale::new(&span(-1.0, 48.0, false, &omega), Room::Up(1000));
         assert_eq!(labels(&scale), ["0", "10", "20", "30", "40"]);
     }
 
     #[test]
     fn values_of_many_digits_give_way_to_round_numbers() {
         let ratios: Vec<f64> = (4..=12).map(|r| f64::from(r) * 5e-4 / 0.06).collect();
-        let wide = room(5000.0, Direction::Horizontal);
-        let scale = Scale::new(0.029, 0.104, false, &ratios, wide);
+        let scale = Scale::new(&span(0.029, 0.104, false, &ratios), Room::Across(5000));
         assert_eq!(
             labels(&scale),
             [
@@ -308,9 +331,9 @@ mod tests {
 
     #[test]
     fn logarithmic_ticks() {
-        let scale = Scale::new(8e-7, 2e-2, true, &[], room(4000.0, Direction::Horizontal));
+        let scale = Scale::new(&span(8e-7, 2e-2, true, &[]), Room::Across(4000));
         assert_eq!(labels(&scale), ["10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²"]);
-        let scale = Scale::new(0.9, 110.0, true, &[], room(4000.0, Direction::Horizontal));
+        let scale = Scale::new(&span(0.9, 110.0, true, &[]), Room::Across(4000));
         assert_eq!(labels(&scale), ["1", "2", "5", "10", "20", "50", "100"]);
     }
 
@@ -331,28 +354,16 @@ mod tests {
         }
     }
 
-    /// Labels of powers of ten at both ends ran into those of the next panel, and off the sheet.
-    #[test]
-    fn labels_stay_within_their_panel() {
-        let room = room(2000.0, Direction::Horizontal);
-        let scale = Scale::new(8.9e-6, 1.12e-2, true, &[], room);
-        assert_eq!(labels(&scale), ["10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²"]);
-        let cut = |overhang| scale.clone().with_labels_within(room, overhang);
-        assert_eq!(labels(&cut(50.0)), ["10⁻⁴", "10⁻³"]);
-        assert_eq!(labels(&cut(500.0)), labels(&scale));
-    }
-
     proptest! {
         #[test]
         fn ticks_lie_inside_and_never_touch(
             low in -1e3..1e3_f64,
             span in prop_oneof![1e-6..1e-2_f64, 1e-2..1e6],
-            length in 300.0..6000.0_f64,
+            length in 300..6000_i32,
             vertical: bool,
         ) {
-            let direction = if vertical { Direction::Vertical } else { Direction::Horizontal };
-            let room = room(length, direction);
-            let scale = Scale::new(low, low + span, false, &[], room);
+            let room = if vertical { Room::Up(length) } else { Room::Across(length) };
+            let scale = Scale::new(&Span::linear((low, low + span)), room);
             let slack = 1e-6 * span;
             for (tick, _) in &scale.ticks {
                 prop_assert!((low - slack..=low + span + slack).contains(tick));

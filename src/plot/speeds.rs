@@ -1,6 +1,7 @@
 //! Speeds of air and spheres over time (Rice, 2012, figure 4).
 
-use super::chart::{self, Chart, Line, Panel, columns};
+use super::chart::{Chart, Line, Panel};
+use super::page::columns;
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, choice, palette};
@@ -47,7 +48,7 @@ impl Figure for Speeds {
                 (AIR, "air at the spheres".to_owned()),
                 (SPHERES, "spheres".to_owned()),
             ],
-            notes: Vec::new(),
+            ..Chart::default()
         }
         .draw(source)
     }
@@ -58,28 +59,10 @@ const SPHERES: plotters::style::RGBColor = palette::LINES[0];
 
 fn panel(head: Vec<String>, record: &RunRecord) -> Panel {
     let observations = &record.observations;
-    let line = |values: &[f32], color| Line {
-        points: observations
-            .time
-            .iter()
-            .zip(values)
-            .map(|(&time, &value)| (time, f64::from(value)))
-            .collect(),
-        color,
-    };
+    let line = |values, color| Line::over(&observations.time, values, color);
     let lines = vec![
         line(&observations.air_speed_mean, AIR),
         line(&observations.speed_mean, SPHERES),
     ];
-    let speeds = lines
-        .iter()
-        .flat_map(|line| &line.points)
-        .map(|point| point.1);
-    Panel {
-        head,
-        x: (0.0, record.scene.time.duration),
-        y: (0.0, chart::range(speeds).map_or(1.0, |(_, high)| high)),
-        lines,
-        bars: Vec::new(),
-    }
+    Panel::new(head, (0.0, record.scene.time.duration), lines).down_to_zero()
 }

@@ -1,8 +1,7 @@
 //! The phase diagram of the numerics: what became of the runs of a study, one panel per integrator,
 //! with the theoretical limit of the time step over it.
 
-use super::contour::Nodes;
-use super::critical::Piece;
+use super::contour::{Nodes, Piece};
 use super::diagram::{Curve, Diagram, Look};
 use super::grid::{Grid, GridAxis, Panel};
 use super::legend::{Entry, Key};
@@ -33,14 +32,12 @@ pub fn draw(study: &Study, rows: &[Row], program: &Program) -> Result<Svg, PlotE
         panels,
     };
     let occurs = |label: &Label| rows.iter().any(|row| row.label == *label);
-    let legend = Label::ALL.into_iter().filter(occurs).map(|label| Entry {
-        key: Key::Fill(fill(label)),
-        text: words(label).to_owned(),
-    });
+    let legend = Label::ALL.into_iter().filter(occurs);
+    let legend = legend.map(|label| Entry::new(Key::Fill(fill(label)), words(label)));
     let diagram = Diagram {
         name: "stability",
         grid: &grid,
-        look: &|label: &Label| Some(look(*label)),
+        look: &|label: &Label| Some(Look::new(fill(*label), Some(*label as i8))),
         empty: "not run".to_owned(),
         legend: legend.collect(),
         bar: None,
@@ -64,14 +61,6 @@ fn words(label: Label) -> &'static str {
 
 fn fill(label: Label) -> Fill {
     Fill::Color(palette::stability(label))
-}
-
-fn look(label: Label) -> Look {
-    Look {
-        fill: fill(label),
-        agreement: 1.0,
-        group: Some(label as i8),
-    }
 }
 
 fn panel(
@@ -115,14 +104,11 @@ fn curves(study: &Study, integrator: Integrator, x: &GridAxis, y: &GridAxis) -> 
             let (dt, theory) = theory(i, j)?;
             Some(dt / limit(&theory)?.seconds - 1.0)
         };
-        let passes = |logarithmic| {
-            move |places: [f64; 2], values: [f64; 2]| zero(logarithmic, places, values)
-        };
         Nodes {
             x: &shown(&across, x),
             y: &shown(&up, y),
             value: &value,
-            zero: [&passes(x.logarithmic()), &passes(y.logarithmic())],
+            logarithmic: [x.logarithmic(), y.logarithmic()],
         }
         .contour()
     };
@@ -147,19 +133,6 @@ fn nodes(axis: &GridAxis) -> Vec<f64> {
     nodes
 }
 
-/// Where a step over its limit passes 1 between two places, `values` being that ratio less 1 there.
-/// On a logarithmic axis it is taken for a power of the place, which it is for most keys.
-fn zero(logarithmic: bool, places: [f64; 2], values: [f64; 2]) -> f64 {
-    let share = |[one, other]: [f64; 2]| one / (one - other);
-    let [from, to] = places;
-    if logarithmic {
-        let share = share(values.map(libm::log1p));
-        from * libm::pow(to / from, share)
-    } else {
-        from + (to - from) * share(values)
-    }
-}
-
 /// Entries of the legend for the curves that there are.
 fn of_curves(curves: &[Vec<Curve>]) -> Vec<Entry> {
     let is_there = |dashed: bool| {
@@ -168,30 +141,11 @@ fn of_curves(curves: &[Vec<Curve>]) -> Vec<Entry> {
     };
     let mut entries = Vec::new();
     if is_there(false) {
-        entries.push(Entry {
-            key: Key::Curve,
-            text: "limit of the time step".to_owned(),
-        });
+        entries.push(Entry::new(Key::Curve, "limit of the time step"));
     }
     if is_there(true) {
-        entries.push(Entry {
-            key: Key::Dashes,
-            text: "advised limit of twelve contacts".to_owned(),
-        });
+        let words = "advised limit of twelve contacts";
+        entries.push(Entry::new(Key::Dashes, words));
     }
     entries
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn powers_pass_their_limit_where_they_are_one() {
-        // (x / 3)^0.4 between 1 and 10.
-        let ratio = |x: f64| libm::pow(x / 3.0, 0.4) - 1.0;
-        let found = zero(true, [1.0, 10.0], [ratio(1.0), ratio(10.0)]);
-        assert!((found - 3.0).abs() < 1e-9, "{found}");
-        assert_eq!(zero(false, [1.0, 3.0], [-0.5, 0.5]), 2.0);
-    }
 }

@@ -1,18 +1,18 @@
 //! Pictures of the states: spheres in the tank at the end of a run, from the side and from above
 //! (Rice, 2012, figure 11).
 
-use super::canvas::{Canvas, SNAP};
+use super::canvas::{self, SNAP};
 use super::choice::{self, Run};
-use super::layout::{TITLE_LINE, title_height, title_lines, whole};
-use super::style::{Drawn, LABEL, MARGIN, SMALL, Sheet, TITLE, WIDTH, frame, letters, px};
+use super::page::whole;
+use super::style::{Drawn, LABEL, MARGIN, SMALL, Sheet, WIDTH, frame, letters, px};
 use super::svg::{Placed, Svg};
+use super::words::{LINE, Words};
 use super::{Figure, PlotError, Source, chart, palette, scale, text};
 use crate::classify::{Family, Label, TANK};
 use crate::observe::Snapshot;
 use crate::record::{Outcome, RunRecord};
 use crate::render::{Camera, Rgb, Stage, picture, round_down};
 use ndarray::Axis;
-use plotters::drawing::IntoDrawingArea;
 use plotters::element::PathElement;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -25,9 +25,8 @@ const MOST: usize = 5;
 const WIDEST: i32 = px(200);
 /// Room between pictures.
 const GAP: i32 = px(12);
-/// Room of a name above a picture, and of the lines below.
+/// Room of a name above a picture.
 const HEAD: i32 = px(20);
-const LINE: i32 = px(17);
 /// Greatest height that is shown, over the radius of the tank.
 const HIGHEST: f64 = 4.0;
 /// Heights that differ by this share are equal.
@@ -58,18 +57,13 @@ impl Figure for States {
             .zip(places)
             .map(|(run, place)| End::new(run, place, run.record()?, self.name()))
             .collect::<Result<Vec<_>, PlotError>>()?;
-        let mut notes: Vec<String> = choice::left_out(source).into_iter().collect();
-        if !common.is_empty() {
-            notes.insert(0, common.join(", "));
-        }
-        let strip = Strip::new(&ends, source.sweep.title.as_deref(), &notes);
-        let size = (WIDTH as u32, strip.height as u32);
-        let mut body = String::new();
-        {
-            let sheet = Canvas::new(&mut body, size).into_drawing_area();
-            strip.draw_words(&sheet, &ends)?;
-        }
-        let pictures = (0..ends.len()).flat_map(|index| strip.pictures(&ends, index));
+        let title = source.sweep.title.as_deref();
+        let strip = Strip::new(ends, title, &common, choice::left_out(source));
+        let (size, body) = canvas::draw((WIDTH, strip.height), |sheet| {
+            strip.words.draw(sheet)?;
+            strip.draw_length(sheet)
+        })?;
+        let pictures = (0..strip.ends.len()).flat_map(|index| strip.pictures(index));
         Svg::new(self.name(), source, size, &body).with_pictures(pictures.collect())
     }
 }
@@ -132,18 +126,14 @@ impl End {
 
 /// Where pictures and words go. Corners of pictures fall on pixels of the PNG.
 struct Strip {
-    title: Vec<String>,
-    /// Lines below each pair of pictures, and below all.
-    places: Vec<Vec<String>>,
-    notes: Vec<String>,
+    ends: Vec<End>,
     /// The tanks, with what is seen of them.
     stages: Vec<Stage>,
+    words: Words,
     /// Pictures per row.
     columns: usize,
-    /// Left end of the first picture.
-    left: i32,
-    /// Upper end of the first row.
-    top: i32,
+    /// Upper left corner of the first picture.
+    origin: (i32, i32),
     /// Width of a picture, heights of that from the side and of that from above.
     picture: (i32, [i32; 2]),
     /// Height of a row with its words.
@@ -152,27 +142,13 @@ struct Strip {
 }
 
 impl Strip {
-    fn new(ends: &[End], title: Option<&str>, notes: &[String]) -> Self {
-        let top_of = |end: &End| {
-            let [low, high] = end.stage.seen;
-            let reach = end.stage.radius.unwrap_or(0.5 * (high[0] - low[0]));
-            (high[2] - low[2]).clamp(reach, HIGHEST * reach)
-        };
-        let seen = ends.iter().map(top_of).fold(0.0, f64::max);
-        // All are seen equally high and wide, so that one length serves for all.
-        let mut stages: Vec<Stage> = ends
-            .iter()
-            .map(|end| end.stage.up_to(end.stage.seen[0][2] + seen))
-            .collect();
-        for axis in 0..2 {
-            let least = |low: f64, stage: &Stage| stage.seen[0][axis].min(low);
-            let most = |high: f64, stage: &Stage| stage.seen[1][axis].max(high);
-            let low = stages.iter().fold(f64::INFINITY, least);
-            let high = stages.iter().fold(f64::NEG_INFINITY, most);
-            for stage in &mut stages {
-                (stage.seen[0][axis], stage.seen[1][axis]) = (low, high);
-            }
-        }
+    fn new(
+        ends: Vec<End>,
+        title: Option<&str>,
+        common: &[String],
+        left_out: Option<String>,
+    ) -> Self {
+        let stages = stages(&ends);
         let columns = ends.len().clamp(1, MOST);
         let count = columns as i32;
         let room = (WIDTH - 2 * MARGIN - GAP * (count - 1)) / count;
@@ -183,44 +159,57 @@ impl Strip {
             (height / f64::from(SNAP)).ceil() as i32 * SNAP
         };
         let heights = [height_of(Camera::side), height_of(Camera::top)];
-        let places: Vec<Vec<String>> = ends
-            .iter()
-            .zip(&stages)
+        let mut words = Words::new(WIDTH);
+        words.title(title, &[]);
+        let places = ends.iter().zip(&stages);
+        let places: Vec<Vec<String>> = places
             .map(|(end, stage)| place_lines(end, stage, width))
             .collect();
         let lines = places.iter().map(Vec::len).max().unwrap_or(0) as i32;
-        let notes = chart::note_lines(notes);
-        let row = HEAD + heights[0] + GAP + heights[1] + px(6) + lines * LINE;
-        let title = title_lines(title);
-        let top = title_height(&title);
-        let rows = ends.len().div_ceil(columns) as i32;
-        Self {
-            left: (WIDTH - count * width - (count - 1) * GAP) / 2 / SNAP * SNAP,
-            top: (top + SNAP - 1) / SNAP * SNAP,
-            height: whole(top + rows * (row + GAP) + notes.len() as i32 * LINE + MARGIN + px(6)),
-            title,
-            places,
-            notes,
+        let pictures = HEAD + heights[0] + GAP + heights[1] + px(6);
+        let left = (WIDTH - count * width - (count - 1) * GAP) / 2;
+        let mut strip = Self {
+            origin: (left / SNAP * SNAP, (words.bottom + SNAP - 1) / SNAP * SNAP),
+            ends,
             stages,
+            words,
             columns,
             picture: (width, heights),
-            row: row / SNAP * SNAP,
+            row: (pictures + lines * LINE + GAP) / SNAP * SNAP,
+            height: 0,
+        };
+        let head = letters(LABEL, HPos::Center, VPos::Bottom);
+        for (index, place) in places.into_iter().enumerate() {
+            let (left, top) = strip.corner(index);
+            let middle = left + width / 2;
+            let name = strip.ends[index].label.name.replace('-', " ");
+            strip
+                .words
+                .put(name, head.clone(), (middle, top + HEAD - px(4)));
+            strip.words.lines(place, (middle, top + pictures));
         }
+        let rows = strip.ends.len().div_ceil(columns) as i32;
+        strip.words.bottom = strip.origin.1 + rows * strip.row;
+        let common = Some(common.join(", ")).filter(|common| !common.is_empty());
+        let notes: Vec<String> = common.into_iter().chain(left_out).collect();
+        strip.words.notes(&notes);
+        strip.height = whole(strip.words.bottom + MARGIN + px(6));
+        strip
     }
 
     /// Upper left corner of the pictures of a run.
     fn corner(&self, index: usize) -> (i32, i32) {
         let (column, row) = ((index % self.columns) as i32, (index / self.columns) as i32);
         (
-            self.left + column * (self.picture.0 + GAP),
-            self.top + row * (self.row + GAP),
+            self.origin.0 + column * (self.picture.0 + GAP),
+            self.origin.1 + row * self.row,
         )
     }
 
-    fn pictures(&self, ends: &[End], index: usize) -> [Placed; 2] {
+    fn pictures(&self, index: usize) -> [Placed; 2] {
         let (left, top) = self.corner(index);
         let (width, [side, above]) = self.picture;
-        let (end, stage) = (&ends[index], &self.stages[index]);
+        let (end, stage) = (&self.ends[index], &self.stages[index]);
         let drawn = end.below_top(stage);
         let snapshot = Snapshot {
             position: end.snapshot.position.select(Axis(0), &drawn),
@@ -246,34 +235,6 @@ impl Strip {
         ]
     }
 
-    fn draw_words(&self, sheet: &Sheet<'_>, ends: &[End]) -> Drawn {
-        for (index, line) in self.title.iter().enumerate() {
-            let style = letters(TITLE, HPos::Center, VPos::Top);
-            let y = MARGIN + index as i32 * TITLE_LINE;
-            sheet.draw_text(line, &style, (WIDTH / 2, y))?;
-        }
-        let (width, [side, above]) = self.picture;
-        for (index, end) in ends.iter().enumerate() {
-            let (left, top) = self.corner(index);
-            let middle = left + width / 2;
-            let name = end.label.name.replace('-', " ");
-            let head = letters(LABEL, HPos::Center, VPos::Bottom);
-            sheet.draw_text(&name, &head, (middle, top + HEAD - px(4)))?;
-            let below = top + HEAD + side + GAP + above + px(6);
-            for (index, line) in self.places[index].iter().enumerate() {
-                let style = letters(SMALL, HPos::Center, VPos::Top);
-                sheet.draw_text(line, &style, (middle, below + index as i32 * LINE))?;
-            }
-        }
-        let rows = ends.len().div_ceil(self.columns) as i32;
-        let below = self.top + rows * (self.row + GAP);
-        for (index, line) in self.notes.iter().enumerate() {
-            let style = letters(SMALL, HPos::Center, VPos::Top);
-            sheet.draw_text(line, &style, (WIDTH / 2, below + index as i32 * LINE))?;
-        }
-        self.draw_length(sheet)
-    }
-
     /// Draws a length to compare with: the radius of the tank, or what is seen, rounded.
     fn draw_length(&self, sheet: &Sheet<'_>) -> Drawn {
         let Some(stage) = self.stages.first() else {
@@ -283,7 +244,7 @@ impl Strip {
         let camera = Camera::side(stage);
         let per_metre = camera.scale(width as usize, side as usize);
         let length = round_down(0.5 * camera.view()[0]);
-        let right = self.left + self.columns as i32 * (width + GAP) - GAP;
+        let right = self.origin.0 + self.columns as i32 * (width + GAP) - GAP;
         let left = right - (length * per_metre).round() as i32;
         let y = self.height - MARGIN - px(4);
         let bar = [(left, y - px(3)), (left, y), (right, y), (right, y - px(3))];
@@ -292,6 +253,28 @@ impl Strip {
         let style = letters(SMALL, HPos::Right, VPos::Bottom);
         sheet.draw_text(&text, &style, (left - px(6), y + px(3)))
     }
+}
+
+/// What is seen of the tanks: all equally high and wide, so that one length serves for all.
+fn stages(ends: &[End]) -> Vec<Stage> {
+    let top_of = |end: &End| {
+        let [low, high] = end.stage.seen;
+        let reach = end.stage.radius.unwrap_or(0.5 * (high[0] - low[0]));
+        (high[2] - low[2]).clamp(reach, HIGHEST * reach)
+    };
+    let seen = ends.iter().map(top_of).fold(0.0, f64::max);
+    let mut stages: Vec<Stage> = ends
+        .iter()
+        .map(|end| end.stage.up_to(end.stage.seen[0][2] + seen))
+        .collect();
+    for axis in 0..2 {
+        let seen = stages.iter().flat_map(|stage| stage.seen);
+        let (low, high) = chart::ends(seen.map(|corner| corner[axis]));
+        for stage in &mut stages {
+            (stage.seen[0][axis], stage.seen[1][axis]) = (low, high);
+        }
+    }
+    stages
 }
 
 /// Lines below the pictures of a run, none wider than they: where it is in the sweep, and how many

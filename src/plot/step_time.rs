@@ -35,36 +35,27 @@ pub fn draw(
     scene: &Scene,
     program: &Program,
 ) -> Result<Svg, PlotError> {
-    let points = || times.iter().flat_map(|line| &line.points);
-    let longest = points().map(|point| point.1).fold(0.0, f64::max);
-    let (unit, factor) = chart::prefixed("s", longest);
-    let largest = points().map(|point| point.0).fold(0.0, f64::max);
-    let colors = || palette::LINES.into_iter().cycle();
+    let colors = palette::LINES.into_iter().cycle();
+    let line = |(line, color): (&StepTimes, _)| Line {
+        points: line.points.clone(),
+        color,
+    };
+    let lines: Vec<Line> = times.iter().zip(colors).map(line).collect();
+    let legend = lines.iter().zip(times);
+    let legend = legend
+        .map(|(line, time)| (line.color, time.name.clone()))
+        .collect();
+    let largest = times.iter().flat_map(|line| &line.points);
+    let largest = largest.map(|point| point.0).fold(0.0, f64::max);
+    let mut panels = vec![Panel::new(Vec::new(), (0.0, largest), lines).down_to_zero()];
+    let unit = chart::scaled("s", &mut panels);
     let chart = Chart {
         name: match against {
             Against::Count => "step-time-count",
             Against::Length => "step-time-length",
         },
-        common: Vec::new(),
-        legend: times
-            .iter()
-            .zip(colors())
-            .map(|(line, color)| (color, line.name.clone()))
-            .collect(),
-        panels: vec![Panel {
-            head: Vec::new(),
-            bars: Vec::new(),
-            x: (0.0, largest),
-            y: (0.0, 1.04 * factor * longest),
-            lines: times
-                .iter()
-                .zip(colors())
-                .map(|(line, color)| Line {
-                    points: line.points.iter().map(|(x, y)| (*x, y * factor)).collect(),
-                    color,
-                })
-                .collect(),
-        }],
+        legend,
+        panels,
         columns: 1,
         height: px(380),
         x_label: match against {
@@ -72,7 +63,7 @@ pub fn draw(
             Against::Length => "side of a cell $L$ (m)".to_owned(),
         },
         y_label: format!("processor time of a step ({unit})"),
-        notes: Vec::new(),
+        ..Chart::default()
     };
     let (size, body) = chart.body(scene.title.as_deref())?;
     Ok(Svg::of_scene(chart.name, scene, program, size, &body))

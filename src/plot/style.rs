@@ -5,7 +5,7 @@ use super::palette;
 use crate::fonts;
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, DrawingAreaErrorKind};
-use plotters::element::{Circle, PathElement, Rectangle};
+use plotters::element::{Circle, DashedPathElement, PathElement, Rectangle};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{
     BLACK, Color, FontDesc, FontFamily, FontStyle, RGBColor, ShapeStyle, TextStyle, WHITE,
@@ -15,8 +15,11 @@ use std::convert::Infallible;
 /// The sheet a figure is drawn on.
 pub(super) type Sheet<'a> = DrawingArea<Canvas<'a>, Shift>;
 
+/// Why drawing failed.
+pub(super) type Failed = DrawingAreaErrorKind<Infallible>;
+
 /// Result of drawing.
-pub(super) type Drawn = Result<(), DrawingAreaErrorKind<Infallible>>;
+pub(super) type Drawn = Result<(), Failed>;
 
 /// Units of the canvas of a length in CSS pixels.
 pub(super) const fn px(pixels: i32) -> i32 {
@@ -61,15 +64,7 @@ pub(super) fn fill(sheet: &Sheet<'_>, corners: Corners, color: RGBColor) -> Draw
 
 /// Draws the outline of a rectangle.
 pub(super) fn outline(sheet: &Sheet<'_>, corners: Corners, style: ShapeStyle) -> Drawn {
-    let [(left, top), (right, bottom)] = corners;
-    let path = [
-        (left, top),
-        (right, top),
-        (right, bottom),
-        (left, bottom),
-        (left, top),
-    ];
-    sheet.draw(&PathElement::new(path, style))
+    sheet.draw(&Rectangle::new(corners, style))
 }
 
 /// What a rectangle is filled with. The patterns differ in shape, so that they need no colour.
@@ -93,13 +88,13 @@ pub(super) fn paint(sheet: &Sheet<'_>, corners: Corners, with: Fill) -> Drawn {
         Fill::Color(color) => fill(sheet, corners, color),
         Fill::Hatch => {
             fill(sheet, corners, palette::EMPTY)?;
-            oblique(sheet, corners, palette::HATCH.stroke_width(6), Way::Up)
+            oblique(sheet, corners, palette::HATCH.stroke_width(6), true)
         }
         Fill::CrossHatch => {
             fill(sheet, corners, WHITE)?;
             let ink = BLACK.mix(0.75).stroke_width(8);
-            oblique(sheet, corners, ink, Way::Up)?;
-            oblique(sheet, corners, ink, Way::Down)
+            oblique(sheet, corners, ink, true)?;
+            oblique(sheet, corners, ink, false)
         }
         Fill::Stipple => {
             fill(sheet, corners, WHITE)?;
@@ -108,22 +103,15 @@ pub(super) fn paint(sheet: &Sheet<'_>, corners: Corners, with: Fill) -> Drawn {
     }
 }
 
-/// Direction of oblique lines, to the right.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Way {
-    Up,
-    Down,
-}
-
-/// Draws oblique lines in a rectangle.
-fn oblique(sheet: &Sheet<'_>, corners: Corners, ink: ShapeStyle, way: Way) -> Drawn {
+/// Draws oblique lines in a rectangle, to the right upward or downward.
+fn oblique(sheet: &Sheet<'_>, corners: Corners, ink: ShapeStyle, upward: bool) -> Drawn {
     let [(left, top), (right, bottom)] = corners;
     // Downward lines are upward ones in a rectangle that is turned over.
-    let turned = |y: i32| if way == Way::Up { y } else { -y };
-    let (top, bottom) = (
-        turned(top).min(turned(bottom)),
-        turned(top).max(turned(bottom)),
-    );
+    let turned = |y: i32| if upward { y } else { -y };
+    let (top, bottom) = match upward {
+        true => (top, bottom),
+        false => (-bottom, -top),
+    };
     let mut sum = (left + top).div_euclid(SPACING) * SPACING + SPACING;
     while sum < right + bottom {
         let from = (left.max(sum - bottom), turned(bottom.min(sum - left)));
@@ -175,84 +163,16 @@ pub(super) fn curve(sheet: &Sheet<'_>, points: &[(i32, i32)]) -> Drawn {
     sheet.draw(&PathElement::new(points, BLACK.stroke_width(20)))
 }
 
-/// Length of a dash, and of what lies between two.
-const DASH: (f64, f64) = (px(6) as f64, px(4) as f64);
-
 /// Draws the curve of an advice: thin black dashes with a white border.
 pub(super) fn dashes(sheet: &Sheet<'_>, points: &[(i32, i32)]) -> Drawn {
-    let dashes = dashed(points);
-    for (color, width) in [(WHITE, 28), (BLACK, 12)] {
-        for dash in &dashes {
-            sheet.draw(&PathElement::new(
-                dash.as_slice(),
-                color.stroke_width(width),
-            ))?;
-        }
+    for ink in [WHITE.stroke_width(28), BLACK.stroke_width(12)] {
+        let points = points.iter().copied();
+        sheet.draw(&DashedPathElement::new(points, px(6), px(4), ink))?;
     }
     Ok(())
 }
 
-/// The dashes of a polyline.
-fn dashed(points: &[(i32, i32)]) -> Vec<Vec<(i32, i32)>> {
-    let mut ways = vec![0.0];
-    for pair in points.windows(2) {
-        let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
-        ways.push(ways[ways.len() - 1] + libm::hypot(f64::from(x1 - x0), f64::from(y1 - y0)));
-    }
-    let total = ways[ways.len() - 1];
-    let at = |way: f64| {
-        let after = ways
-            .partition_point(|end| *end < way)
-            .clamp(1, points.len() - 1);
-        let (from, to) = (points[after - 1], points[after]);
-        let share = (way - ways[after - 1]) / (ways[after] - ways[after - 1]).max(1e-9);
-        let between = |a: i32, b: i32| a + (share * f64::from(b - a)).round() as i32;
-        (between(from.0, to.0), between(from.1, to.1))
-    };
-    let count = if points.len() < 2 {
-        0
-    } else {
-        (total / (DASH.0 + DASH.1)).ceil() as usize
-    };
-    let dash = |index: usize| {
-        let start = index as f64 * (DASH.0 + DASH.1);
-        let end = (start + DASH.0).min(total);
-        let inside = ways
-            .iter()
-            .zip(points)
-            .filter(|(way, _)| (start..end).contains(*way));
-        let mut dash = vec![at(start)];
-        dash.extend(inside.map(|(_, point)| *point));
-        dash.push(at(end));
-        dash
-    };
-    (0..count).map(dash).collect()
-}
-
-/// Draws a line of a chart.
-pub(super) fn line(sheet: &Sheet<'_>, points: &[(i32, i32)], color: RGBColor) -> Drawn {
-    sheet.draw(&PathElement::new(points, color.stroke_width(15)))
-}
-
-/// Draws a point and, between the heights of two ends, its interval.
-pub(super) fn bar(
-    sheet: &Sheet<'_>,
-    (x, y): (i32, i32),
-    [low, high]: [i32; 2],
-    color: RGBColor,
-) -> Drawn {
-    const CAP: i32 = px(3);
-    if low != high {
-        let ink = color.stroke_width(12);
-        sheet.draw(&PathElement::new([(x, low), (x, high)], ink))?;
-        for end in [low, high] {
-            sheet.draw(&PathElement::new([(x - CAP, end), (x + CAP, end)], ink))?;
-        }
-    }
-    sheet.draw(&Circle::new((x, y), px(3), color.filled()))
-}
-
-/// Draws a straight line that helps the eye.
-pub(super) fn guide(sheet: &Sheet<'_>, ends: [(i32, i32); 2]) -> Drawn {
-    sheet.draw(&PathElement::new(ends, palette::GUIDE.stroke_width(8)))
+/// Stroke of a line of a chart.
+pub(super) fn line(color: RGBColor) -> ShapeStyle {
+    color.stroke_width(15)
 }

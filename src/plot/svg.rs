@@ -32,18 +32,10 @@ pub(super) struct Placed {
 impl Svg {
     /// The figure whose elements are `body`, on a canvas of `size` units.
     pub(super) fn new(figure: &str, source: &Source<'_>, size: (u32, u32), body: &str) -> Self {
-        let program = source.program;
-        let metadata = vec![
-            ("Title", source.sweep.title.clone().unwrap_or_default()),
-            ("Software", format!("phase {}", program.version)),
-            ("Commit", program.commit.clone()),
-            ("Figure", figure.to_owned()),
-            (
-                "Seeds",
-                ranges(source.table.rows.iter().map(|row| row.seed).collect()),
-            ),
-        ];
-        Self::with_metadata(metadata, size, body)
+        let title = source.sweep.title.clone().unwrap_or_default();
+        let seeds = ranges(source.table.rows.iter().map(|row| row.seed).collect());
+        let about = [("Title", title), ("Seeds", seeds)];
+        Self::about(&about, figure, source.program, size, body)
     }
 
     /// The same for a figure of a single run.
@@ -64,14 +56,9 @@ impl Svg {
         size: (u32, u32),
         body: &str,
     ) -> Self {
-        let metadata = vec![
-            ("Title", scene.title.clone().unwrap_or_default()),
-            ("Software", format!("phase {}", program.version)),
-            ("Commit", program.commit.clone()),
-            ("Figure", figure.to_owned()),
-            ("Seeds", scene.seed.to_string()),
-        ];
-        Self::with_metadata(metadata, size, body)
+        let title = scene.title.clone().unwrap_or_default();
+        let about = [("Title", title), ("Seeds", scene.seed.to_string())];
+        Self::about(&about, figure, program, size, body)
     }
 
     /// The same for a figure of what the program itself does.
@@ -82,26 +69,29 @@ impl Svg {
         size: (u32, u32),
         body: &str,
     ) -> Self {
-        let metadata = vec![
-            ("Title", title),
+        Self::about(&[("Title", title)], figure, program, size, body)
+    }
+
+    /// The figure, `about` being what its metadata begin with: the title, and what else there is.
+    fn about(
+        about: &[(&'static str, String)],
+        figure: &str,
+        program: &Program,
+        size: (u32, u32),
+        body: &str,
+    ) -> Self {
+        let mut metadata = about.to_vec();
+        metadata.extend([
             ("Software", format!("phase {}", program.version)),
             ("Commit", program.commit.clone()),
             ("Figure", figure.to_owned()),
-        ];
-        Self::with_metadata(metadata, size, body)
-    }
-
-    /// The figure with keys and values of its metadata, the title first.
-    fn with_metadata(metadata: Vec<(&'static str, String)>, size: (u32, u32), body: &str) -> Self {
-        let lines: Vec<String> = metadata
-            .iter()
-            .map(|(key, value)| format!("{key}: {}", escape(value)))
+        ]);
+        let title = escape(&text::plain(&about[0].1));
+        let lines = metadata.iter();
+        let lines: String = lines
+            .map(|(key, value)| format!("{key}: {}\n", escape(value)))
             .collect();
-        let title = escape(&text::plain(&metadata[0].1));
-        let head = format!(
-            "<title>{title}</title>\n<metadata>\n{}\n</metadata>\n",
-            lines.join("\n")
-        );
+        let head = format!("<title>{title}</title>\n<metadata>\n{lines}</metadata>\n");
         Self {
             document: canvas::document(size, &head, body),
             metadata,

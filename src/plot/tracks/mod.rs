@@ -5,15 +5,15 @@
 
 mod view;
 
-use super::scale::{Direction, Room, Scale};
-use super::style::{self, Drawn, LABEL, MARGIN, SMALL, Sheet, TICK, TITLE, WIDTH, letters, px};
+use super::axes::Plot;
+use super::page::{Frame, Page, Plan};
+use super::scale::Span;
+use super::style::{Drawn, Sheet, px};
 use super::svg::Svg;
-use super::{PlotError, canvas, palette, text};
+use super::{PlotError, palette};
 use crate::record::RunRecord;
-use plotters::drawing::IntoDrawingArea;
 use plotters::element::{Circle, PathElement, Polygon};
-use plotters::style::text_anchor::{HPos, VPos};
-use plotters::style::{BLACK, Color, FontTransform, WHITE};
+use plotters::style::{BLACK, Color, WHITE};
 use view::{Sight, View};
 
 /// Greatest height of the panel.
@@ -30,11 +30,6 @@ const NOTABLE_SPIN: f64 = 0.02;
 const MOST_SPHERES: usize = 32;
 /// Stroke of a path.
 const STROKE: u32 = 18;
-/// Distance of the lines of the words.
-const LINE: i32 = px(19);
-
-/// Room right of the panel, for half of the last number.
-const RIGHT: i32 = px(12);
 
 /// Draws the tracks of a run.
 ///
@@ -53,18 +48,19 @@ pub fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
         notable: 0.0,
     };
     tracks.notable = NOTABLE_SPIN * tracks.fastest();
-    let layout = Layout::new(&tracks);
-    let size = (layout.size.0 as u32, layout.size.1 as u32);
-    let mut body = String::new();
-    {
-        let sheet = canvas::Canvas::new(&mut body, size).into_drawing_area();
-        tracks.draw_outline(&sheet, &layout)?;
-        for sphere in tracks.shown() {
-            tracks.draw_sphere(&sheet, &layout, sphere)?;
+    let page = tracks.page();
+    let (size, body) = page.draw(|sheet| {
+        let axes = page.axes(sheet, 0)?;
+        let plot = axes.plot();
+        for line in &tracks.sight.outline {
+            let ink = palette::HATCH.stroke_width(30);
+            plot.draw(&PathElement::new(line.as_slice(), ink))?;
         }
-        layout.draw_frame(&sheet)?;
-        tracks.draw_words(&sheet, &layout)?;
-    }
+        for sphere in tracks.shown() {
+            tracks.draw_sphere(sheet, plot, sphere)?;
+        }
+        axes.draw()
+    })?;
     Ok(Svg::of_record("tracks", record, size, &body))
 }
 
@@ -132,23 +128,39 @@ impl Tracks<'_> {
         surfaces.chain(centres).fold(0.0, f64::max)
     }
 
-    fn draw_outline(&self, sheet: &Sheet<'_>, layout: &Layout) -> Drawn {
-        self.sight.outline.iter().try_for_each(|line| {
-            let points: Vec<(i32, i32)> = line.iter().map(|&point| layout.at(point)).collect();
-            sheet.draw(&PathElement::new(points, palette::HATCH.stroke_width(30)))
+    fn page(&self) -> Page {
+        let [across, up] = self.sight.ranges;
+        let (height, aspect) = match self.view {
+            View::Time { .. } => (OVER_TIME, None),
+            View::Plane { .. } => (HEIGHT, Some((across.1 - across.0) / (up.1 - up.0))),
+        };
+        Page::new(Plan {
+            title: self.record.scene.title.as_deref(),
+            frames: vec![Frame {
+                head: Vec::new(),
+                x: Span::linear(across),
+                y: Span::linear(up),
+            }],
+            columns: 1,
+            height,
+            aspect,
+            labels: self.view.labels(),
+            notes: &[self.caption()],
+            ..Plan::default()
         })
     }
 
-    fn draw_sphere(&self, sheet: &Sheet<'_>, layout: &Layout, sphere: usize) -> Drawn {
+    fn draw_sphere(&self, sheet: &Sheet<'_>, plot: &Plot<'_>, sphere: usize) -> Drawn {
         let color = palette::DISTINCT[sphere % palette::DISTINCT.len()];
         let last = self.record.trajectory.len() - 1;
         let radius = 1e3 * self.record.radius[sphere];
-        let path = thinned((0..=last).map(|frame| layout.at(self.place(frame, sphere))));
+        let at = |frame| plot.map_coordinate(&self.place(frame, sphere));
+        let path = thinned((0..=last).map(at));
         if let View::Time { .. } = self.view {
             let edge = |shift: f64| {
                 move |frame| {
                     let (time, place) = self.place(frame, sphere);
-                    layout.at((time, place + shift))
+                    plot.map_coordinate(&(time, place + shift))
                 }
             };
             let mut band = thinned((0..=last).map(edge(radius)));
@@ -156,45 +168,23 @@ impl Tracks<'_> {
             sheet.draw(&Polygon::new(band, color.mix(0.22)))?;
             return sheet.draw(&PathElement::new(path, color.stroke_width(STROKE)));
         }
-        let size = layout.length(radius);
+        // Pictures of a plane are to scale.
+        let size = plot.map_coordinate(&(radius, 0.0)).0 - plot.map_coordinate(&(0.0, 0.0)).0;
         for &frame in &self.instants.0 {
-            let centre = layout.at(self.place(frame, sphere));
+            let centre = at(frame);
             let fill = if frame == 0 { 0.55 } else { 0.08 };
             sheet.draw(&Circle::new(centre, size, color.mix(fill).filled()))?;
             sheet.draw(&Circle::new(centre, size, color.mix(0.6).stroke_width(6)))?;
         }
-        let end = layout.at(self.place(last, sphere));
+        let end = at(last);
         sheet.draw(&Circle::new(end, size, color.stroke_width(STROKE)))?;
         sheet.draw(&PathElement::new(path, color.stroke_width(STROKE)))?;
         for frame in [0, last] {
             if self.has_arrow(frame, sphere) {
-                let centre = layout.at(self.place(frame, sphere));
+                let centre = at(frame);
                 let counter_clockwise = self.turning(frame, sphere) > 0.0;
                 draw_turn(sheet, centre, 0.6 * f64::from(size), counter_clockwise)?;
             }
-        }
-        Ok(())
-    }
-
-    fn draw_words(&self, sheet: &Sheet<'_>, layout: &Layout) -> Drawn {
-        let [x, y] = self.view.labels();
-        let [(left, top), (right, bottom)] = layout.panel;
-        let middle = (left + right) / 2;
-        let label = letters(LABEL, HPos::Center, VPos::Top);
-        let mut below = bottom + 2 * TICK + SMALL + px(8);
-        sheet.draw_text(&x, &label, (middle, below))?;
-        let turned = label.transform(FontTransform::Rotate270);
-        sheet.draw_text(&y, &turned, (MARGIN, (top + bottom) / 2))?;
-        for (index, line) in layout.title.iter().enumerate() {
-            let style = letters(TITLE, HPos::Center, VPos::Top);
-            let place = (layout.size.0 / 2, MARGIN + index as i32 * LINE);
-            sheet.draw_text(line, &style, place)?;
-        }
-        below += LABEL + px(9);
-        for line in &layout.caption {
-            let style = letters(SMALL, HPos::Center, VPos::Top);
-            sheet.draw_text(line, &style, (layout.size.0 / 2, below))?;
-            below += LINE;
         }
         Ok(())
     }
@@ -293,103 +283,4 @@ fn draw_turn(sheet: &Sheet<'_>, centre: (i32, i32), radius: f64, counter_clockwi
     sheet.draw(&PathElement::new(arc.clone(), WHITE.stroke_width(30)))?;
     sheet.draw(&PathElement::new(arc, BLACK.mix(0.8).stroke_width(12)))?;
     sheet.draw(&Polygon::new(triangle, BLACK.mix(0.8)))
-}
-
-/// Where the parts of the figure go, in units of the canvas.
-struct Layout {
-    size: (i32, i32),
-    panel: style::Corners,
-    ranges: [(f64, f64); 2],
-    scales: [Scale; 2],
-    title: Vec<String>,
-    caption: Vec<String>,
-}
-
-impl Layout {
-    fn new(tracks: &Tracks<'_>) -> Self {
-        let ranges = tracks.sight.ranges;
-        let [across, up] = ranges.map(|(low, high)| high - low);
-        let left = MARGIN + LABEL + px(8) + 2 * TICK + px(34);
-        let room = WIDTH - left - MARGIN - RIGHT;
-        let (width, height) = match tracks.view {
-            View::Time { .. } => (room, OVER_TIME),
-            View::Plane { .. } => {
-                let scale = (f64::from(room) / across).min(f64::from(HEIGHT) / up);
-                ((scale * across) as i32, (scale * up) as i32)
-            }
-        };
-        let whole = |length: i32| (length + px(2) - 1) / px(2) * px(2);
-        let size = whole(left + width + MARGIN + RIGHT);
-        let lines = |words: &str, letters: i32| {
-            let mut lines = text::wrap(words, f64::from(letters), f64::from(size - 2 * MARGIN));
-            lines.retain(|line| !line.is_empty());
-            lines
-        };
-        let title = lines(tracks.record.scene.title.as_deref().unwrap_or(""), TITLE);
-        let caption = lines(&tracks.caption(), SMALL);
-        let top = MARGIN + LINE * title.len() as i32 + px(6);
-        let words = 2 * TICK + SMALL + px(8) + LABEL + px(9) + LINE * caption.len() as i32;
-        let scale = |direction: usize, length: i32, way: Direction| {
-            let room = Room {
-                length: f64::from(length),
-                size: f64::from(SMALL),
-                direction: way,
-            };
-            let (low, high) = ranges[direction];
-            Scale::new(low, high, false, &[], room)
-        };
-        Self {
-            size: (size, whole(top + height + words + MARGIN - px(4))),
-            panel: [(left, top), (left + width, top + height)],
-            ranges,
-            scales: [
-                scale(0, width, Direction::Horizontal),
-                scale(1, height, Direction::Vertical),
-            ],
-            title,
-            caption,
-        }
-    }
-
-    /// Where a place is on the canvas.
-    fn at(&self, (x, y): (f64, f64)) -> (i32, i32) {
-        let [(left, top), (right, bottom)] = self.panel;
-        let [across, up] = [self.scales[0].fraction(x), self.scales[1].fraction(y)];
-        (
-            left + (across * f64::from(right - left)).round() as i32,
-            bottom - (up * f64::from(bottom - top)).round() as i32,
-        )
-    }
-
-    /// A length on the canvas, of a picture to scale.
-    fn length(&self, millimetres: f64) -> i32 {
-        let [(left, _), (right, _)] = self.panel;
-        let (low, high) = self.ranges[0];
-        (millimetres / (high - low) * f64::from(right - left)).round() as i32
-    }
-
-    /// The frame, and the ticks with their numbers.
-    fn draw_frame(&self, sheet: &Sheet<'_>) -> Drawn {
-        style::outline(sheet, self.panel, style::frame())?;
-        let [(left, _), (_, bottom)] = self.panel;
-        for (value, label) in self.scales[0].ticks() {
-            let x = self.at((*value, self.ranges[1].0)).0;
-            sheet.draw(&PathElement::new(
-                [(x, bottom), (x, bottom + TICK)],
-                style::frame(),
-            ))?;
-            let style = letters(SMALL, HPos::Center, VPos::Top);
-            sheet.draw_text(label, &style, (x, bottom + 2 * TICK))?;
-        }
-        for (value, label) in self.scales[1].ticks() {
-            let y = self.at((self.ranges[0].0, *value)).1;
-            sheet.draw(&PathElement::new(
-                [(left - TICK, y), (left, y)],
-                style::frame(),
-            ))?;
-            let style = letters(SMALL, HPos::Right, VPos::Center);
-            sheet.draw_text(label, &style, (left - 2 * TICK, y))?;
-        }
-        Ok(())
-    }
 }

@@ -1,5 +1,6 @@
 //! Where the spheres of a run are seen from, and what of the tank is in sight.
 
+use crate::plot::chart::ends;
 use crate::record::RunRecord;
 
 /// Names of the coordinates.
@@ -81,13 +82,6 @@ impl View {
     }
 }
 
-/// The smallest and the largest of some values.
-pub(super) fn ends(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-        (low.min(value), high.max(value))
-    })
-}
-
 /// What is in sight: the ranges of both directions and the outline of the tank therein.
 pub(super) struct Sight {
     /// Lowest and highest value, to the right and upward.
@@ -120,19 +114,16 @@ impl Sight {
         let to_scale = matches!(view, View::Plane { .. });
         let span = ranges.map(|(low, high)| high - low);
         let longest = span[0].max(span[1]);
-        for (direction, (low, high)) in ranges.iter_mut().enumerate() {
-            let (span, least) = if to_scale {
-                (span[direction], LEAST_ASPECT * longest)
-            } else {
-                (span[direction], 0.0)
+        for (direction, range) in ranges.iter_mut().enumerate() {
+            let more = match (to_scale, direction) {
+                (true, _) => {
+                    let lacking = LEAST_ASPECT * longest - span[direction];
+                    PADDING * longest + 0.5 * lacking.max(0.0)
+                }
+                (false, 0) => 0.0,
+                (false, _) => PADDING * span[direction],
             };
-            let padding = if !to_scale && direction == 0 {
-                0.0
-            } else {
-                PADDING * if to_scale { longest } else { span }
-            };
-            let more = padding + 0.5 * (least - span).max(0.0);
-            (*low, *high) = (*low - more, *high + more);
+            *range = (range.0 - more, range.1 + more);
         }
         let outline = walls
             .iter()

@@ -1,37 +1,37 @@
-//! The grid of a figure: which axes it shows where, and the point in every cell.
+//! An axis of a figure over a grid: its values as shown, its cells, its label.
 
-use super::{PlotError, Source};
-use crate::classify::{LabelTable, Point};
+use crate::classify::LabelTable;
+use crate::plot::scale::{Span, Ticks, number};
 use crate::scene::Scene;
 use crate::sweep::{Axis, Sweep};
 
 /// An axis of a figure.
 #[derive(Clone, Debug)]
-pub(super) struct GridAxis {
+pub(in crate::plot) struct GridAxis {
     /// Path of the key.
-    pub(super) key: String,
+    pub(in crate::plot) key: String,
     /// Values in the key's unit, ascending.
-    pub(super) values: Vec<f64>,
+    pub(in crate::plot) values: Vec<f64>,
     /// Shown value over value.
-    pub(super) factor: f64,
+    pub(in crate::plot) factor: f64,
     /// Of an axis over one of several shares: the sum of the others. Shown is its part of all.
-    pub(super) other_shares: Option<f64>,
+    pub(in crate::plot) other_shares: Option<f64>,
     /// Symbol with markup, and unit, of the shown values.
-    pub(super) symbol: String,
-    pub(super) unit: String,
+    pub(in crate::plot) symbol: String,
+    pub(in crate::plot) unit: String,
     /// Its index among the sweep's axes.
-    pub(super) index: usize,
+    pub(in crate::plot) index: usize,
 }
 
 impl GridAxis {
     /// The axis of that index among those of the sweep.
-    pub(super) fn new(index: usize, sweep: &Sweep, table: &LabelTable) -> Self {
+    pub(in crate::plot) fn new(index: usize, sweep: &Sweep, table: &LabelTable) -> Self {
         let values = table.rows.iter().map(|row| row.values[index]);
         Self::over(index, &sweep.axes, &sweep.scene, values)
     }
 
     /// The axis of that index among `axes` over keys of a scene, with more values than its own.
-    pub(super) fn over(
+    pub(in crate::plot) fn over(
         index: usize,
         axes: &[Axis],
         scene: &Scene,
@@ -68,7 +68,7 @@ impl GridAxis {
     }
 
     /// Label of the axis.
-    pub(super) fn label(&self) -> String {
+    pub(in crate::plot) fn label(&self) -> String {
         if self.unit.is_empty() {
             self.symbol.clone()
         } else {
@@ -77,19 +77,19 @@ impl GridAxis {
     }
 
     /// `symbol = value unit`, the head of a panel.
-    pub(super) fn at(&self, value: f64) -> String {
-        let number = super::scale::number(self.show(value));
+    pub(in crate::plot) fn at(&self, value: f64) -> String {
+        let number = number(self.show(value));
         let text = format!("{} = {number} {}", self.symbol, self.unit);
         text.trim_end().to_owned()
     }
 
     /// Values as shown.
-    pub(super) fn shown(&self) -> Vec<f64> {
+    pub(in crate::plot) fn shown(&self) -> Vec<f64> {
         self.values.iter().map(|&value| self.show(value)).collect()
     }
 
     /// A value as shown.
-    pub(super) fn show(&self, value: f64) -> f64 {
+    pub(in crate::plot) fn show(&self, value: f64) -> f64 {
         match self.other_shares {
             Some(others) => value / (value + others),
             None => value * self.factor,
@@ -97,7 +97,7 @@ impl GridAxis {
     }
 
     /// Whether the values are spaced by ratios rather than by differences.
-    pub(super) fn logarithmic(&self) -> bool {
+    pub(in crate::plot) fn logarithmic(&self) -> bool {
         let (Some(&low), Some(&high)) = (self.values.first(), self.values.last()) else {
             return false;
         };
@@ -117,7 +117,7 @@ impl GridAxis {
 
     /// Edges of the cells, one more than values, as shown: midway between neighbours (in the
     /// logarithm where the spacing is logarithmic).
-    pub(super) fn edges(&self) -> Vec<f64> {
+    pub(in crate::plot) fn edges(&self) -> Vec<f64> {
         let logarithmic = self.logarithmic();
         let values: Vec<f64> = self.shown();
         let forward = |value: f64| if logarithmic { libm::log(value) } else { value };
@@ -140,10 +140,21 @@ impl GridAxis {
         edges.into_iter().map(back).collect()
     }
 
-    /// The value at a fraction of the axis, as shown.
-    pub(super) fn along(&self, fraction: f64) -> f64 {
+    /// Its range, with ticks at its values where they fit.
+    pub(in crate::plot) fn span(&self) -> Span {
         let edges = self.edges();
-        let (low, high) = (edges[0], edges[edges.len() - 1]);
+        Span {
+            low: edges[0],
+            high: edges[edges.len() - 1],
+            logarithmic: self.logarithmic(),
+            ticks: Ticks::Values(self.shown()),
+            letters: None,
+        }
+    }
+
+    /// The value at a fraction of the axis, as shown.
+    pub(in crate::plot) fn along(&self, fraction: f64) -> f64 {
+        let Span { low, high, .. } = self.span();
         if self.logarithmic() {
             low * libm::pow(high / low, fraction)
         } else {
@@ -152,7 +163,7 @@ impl GridAxis {
     }
 
     /// Which of the values is that of a point of the grid.
-    pub(super) fn position(&self, values: &[f64]) -> Option<usize> {
+    pub(in crate::plot) fn position(&self, values: &[f64]) -> Option<usize> {
         let value = values[self.index];
         self.values.iter().position(|&other| other == value)
     }
@@ -193,165 +204,16 @@ fn other_shares(index: usize, scene: &Scene) -> f64 {
 fn share_of(axis: &Axis, scene: &Scene) -> Option<String> {
     let index = share_index(axis)?;
     let radius = scene.spheres.radius.shares().get(index)?.radius;
-    let radius = super::scale::number(radius * 1e3);
+    let radius = number(radius * 1e3);
     Some(format!("share of grains of $r$ = {radius} mm"))
 }
 
-/// One of the small multiples; its cells hold points of a sweep, or of something else.
-#[derive(Clone, Debug)]
-pub(super) struct Panel<P = Point> {
-    /// What stands above it.
-    pub(super) head: Option<String>,
-    /// Values of the axes it is for, on `columns` and `rows` of the grid.
-    pub(super) column: Option<f64>,
-    pub(super) row: Option<f64>,
-    /// Its points; cell (x, y) is at `x + y * number of x values`.
-    pub(super) cells: Vec<Option<P>>,
-}
-
-/// The axes of a figure and the points in its cells.
-#[derive(Clone, Debug)]
-pub(super) struct Grid<P = Point> {
-    pub(super) x: GridAxis,
-    pub(super) y: Option<GridAxis>,
-    /// Axis of the small multiples.
-    pub(super) columns: Option<GridAxis>,
-    /// A second such axis.
-    pub(super) rows: Option<GridAxis>,
-    /// Panels, row by row.
-    pub(super) panels: Vec<Panel<P>>,
-}
-
-impl Grid {
-    /// Chooses the axes as the sweep's plot settings say and sorts the table into cells.
-    pub(super) fn new(source: &Source<'_>) -> Result<Self, PlotError> {
-        let (sweep, table) = (source.sweep, source.table);
-        check(sweep, table)?;
-        let places = places(sweep)?;
-        let axis = |place: usize| places[place].map(|index| GridAxis::new(index, sweep, table));
-        let mut grid = Self {
-            x: axis(0).ok_or(PlotError::NoAxis)?,
-            y: axis(1),
-            columns: axis(2),
-            rows: axis(3),
-            panels: Vec::new(),
-        };
-        grid.fill(table.points());
-        Ok(grid)
+/// The vertical axis of a figure that has none: from 0 to 1, without ticks.
+pub(in crate::plot) fn strip() -> Span {
+    Span {
+        ticks: Ticks::Given(Vec::new()),
+        ..Span::linear((0.0, 1.0))
     }
-
-    fn fill(&mut self, points: Vec<Point>) {
-        let (horizontal, vertical) = self.cells();
-        let values = |axis: &Option<GridAxis>| match axis {
-            Some(axis) => axis.values.iter().copied().map(Some).collect(),
-            None => vec![None],
-        };
-        let columns: Vec<Option<f64>> = values(&self.columns);
-        for row in values(&self.rows) {
-            self.panels.extend(columns.iter().map(|&column| {
-                Panel {
-                    head: self
-                        .columns
-                        .as_ref()
-                        .zip(column)
-                        .map(|(axis, value)| axis.at(value)),
-                    column,
-                    row,
-                    cells: vec![None; horizontal * vertical],
-                }
-            }));
-        }
-        for point in points {
-            let place = |axis: &Option<GridAxis>| match axis {
-                Some(axis) => axis.position(&point.values),
-                None => Some(0),
-            };
-            let places = (
-                self.x.position(&point.values),
-                place(&self.y),
-                place(&self.columns),
-                place(&self.rows),
-            );
-            if let (Some(x), Some(y), Some(column), Some(row)) = places {
-                self.panels[column + row * columns.len()].cells[x + y * horizontal] = Some(point);
-            }
-        }
-    }
-}
-
-impl<P> Grid<P> {
-    /// Number of cells of a panel, horizontally and vertically.
-    pub(super) fn cells(&self) -> (usize, usize) {
-        let vertical = self.y.as_ref().map_or(1, |axis| axis.values.len());
-        (self.x.values.len(), vertical)
-    }
-
-    /// Whether something stands above panels.
-    pub(super) fn has_heads(&self) -> bool {
-        self.panels.iter().any(|panel| panel.head.is_some())
-    }
-}
-
-pub(super) fn check(sweep: &Sweep, table: &LabelTable) -> Result<(), PlotError> {
-    let names: Vec<&str> = sweep.axes.iter().map(|axis| axis.name.as_str()).collect();
-    if names != table.axes {
-        return Err(PlotError::OtherAxes {
-            sweep: names.join(", "),
-            table: table.axes.join(", "),
-        });
-    }
-    if table.rows.is_empty() {
-        return Err(PlotError::EmptyTable);
-    }
-    for row in &table.rows {
-        let finite = row.values.iter().all(|value| value.is_finite());
-        if row.values.len() != names.len() || !finite {
-            return Err(PlotError::BadRow { id: row.id.clone() });
-        }
-    }
-    Ok(())
-}
-
-/// Indices of the axes shown as x, y, columns and rows: those that the settings name, then the
-/// others in order.
-pub(super) fn places(sweep: &Sweep) -> Result<[Option<usize>; 4], PlotError> {
-    let settings = &sweep.plot;
-    let named = [&settings.x, &settings.y, &settings.panels];
-    let mut places = [None; 4];
-    for (place, name) in named.into_iter().enumerate() {
-        let Some(name) = name else { continue };
-        let index = find(&sweep.axes, name)?;
-        if places.contains(&Some(index)) {
-            return Err(PlotError::AxisTwice { name: name.clone() });
-        }
-        places[place] = Some(index);
-    }
-    let taken = places;
-    let mut others = (0..sweep.axes.len()).filter(|index| !taken.contains(&Some(*index)));
-    for place in &mut places {
-        if place.is_none() {
-            *place = others.next();
-        }
-    }
-    match others.next() {
-        Some(_) => Err(PlotError::TooManyAxes),
-        None => Ok(places),
-    }
-}
-
-fn find(axes: &[Axis], name: &str) -> Result<usize, PlotError> {
-    let known = || {
-        axes.iter()
-            .map(|axis| axis.name.as_str())
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
-    axes.iter()
-        .position(|axis| axis.name == name || axis.key == name)
-        .ok_or_else(|| PlotError::UnknownAxis {
-            name: name.to_owned(),
-            known: known(),
-        })
 }
 
 #[cfg(test)]
