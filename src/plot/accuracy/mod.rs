@@ -1,0 +1,40 @@
+//! Figures of a study of accuracy.
+
+mod changes;
+mod work_precision;
+
+use super::PlotError;
+use super::svg::Svg;
+use crate::record::Program;
+use crate::study::accuracy::{AccuracyStudy, Evaluation};
+use crate::study::comparison::Comparison;
+
+/// A figure with its name, or why it cannot be drawn.
+pub type Named = (&'static str, Result<Svg, PlotError>);
+
+/// All figures that a study has: error against time, and where labels change.
+pub fn draw_all(
+    study: &AccuracyStudy,
+    comparison: Option<&Comparison>,
+    evaluation: &Evaluation,
+    program: &Program,
+) -> Vec<Named> {
+    let mut figures = vec![(
+        "work-precision",
+        work_precision::draw(study, evaluation, program),
+    )];
+    if let Some(comparison) = comparison.filter(|it| !it.axes().is_empty() && it.seeds() > 1) {
+        let drawn = changes::draw(study, comparison, evaluation, program);
+        figures.push(("label-changes", drawn));
+    }
+    figures
+}
+
+/// Colour of a line by its number.
+fn color(line: usize, lines: usize) -> plotters::style::RGBColor {
+    use super::palette;
+    match lines <= palette::LINES.len() {
+        true => palette::LINES[line % palette::LINES.len()],
+        false => palette::DISTINCT[line % palette::DISTINCT.len()],
+    }
+}
