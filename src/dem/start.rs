@@ -2,7 +2,7 @@
 
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
-use crate::scene::{Geometry, Radii, Scene, Start};
+use crate::scene::{Geometry, Radii, Scene, Start, StartSphere};
 use rand::Rng;
 
 /// Why the spheres of a scene cannot be placed.
@@ -65,30 +65,14 @@ pub fn place(scene: &Scene) -> Result<Particles, StartError> {
             speed,
             spin,
         } => {
-            let room = Room::of_scene(scene, [*z_min, *z_max]).ok_or(StartError::NoTank)?;
-            let mut random = scene.random_stream("positions");
-            particles.position = scatter(&particles.radius, &room, &mut random)?;
+            place_at_random(&mut particles, scene, [*z_min, *z_max])?;
             let mut random = scene.random_stream("velocities");
             for i in 0..count {
                 particles.velocity[i] = within(*speed, &mut random);
                 spins[i] = within(*spin, &mut random);
             }
         }
-        Start::List { spheres } => {
-            if spheres.len() != count {
-                return Err(StartError::Count {
-                    what: "start.spheres",
-                    found: spheres.len(),
-                    count,
-                });
-            }
-            for (i, sphere) in spheres.iter().enumerate() {
-                particles.position.push(sphere.position.into());
-                particles.velocity[i] = sphere.velocity.into();
-                spins[i] = sphere.spin.into();
-                particles.radius[i] = sphere.radius.unwrap_or(particles.radius[i]);
-            }
-        }
+        Start::List { spheres } => place_listed(&mut particles, &mut spins, spheres)?,
         Start::Feed {
             position,
             velocity,
@@ -108,6 +92,40 @@ pub fn place(scene: &Scene) -> Result<Particles, StartError> {
     }
     complete(&mut particles, scene, spins);
     Ok(particles)
+}
+
+/// Gives the spheres random positions between two heights (m).
+fn place_at_random(
+    particles: &mut Particles,
+    scene: &Scene,
+    heights: [f64; 2],
+) -> Result<(), StartError> {
+    let room = Room::of_scene(scene, heights).ok_or(StartError::NoTank)?;
+    let mut random = scene.random_stream("positions");
+    particles.position = scatter(&particles.radius, &room, &mut random)?;
+    Ok(())
+}
+
+/// Places the spheres as they are listed. One that lists no radius keeps its own.
+fn place_listed(
+    particles: &mut Particles,
+    spins: &mut [Vector],
+    spheres: &[StartSphere],
+) -> Result<(), StartError> {
+    if spheres.len() != spins.len() {
+        return Err(StartError::Count {
+            what: "start.spheres",
+            found: spheres.len(),
+            count: spins.len(),
+        });
+    }
+    for (i, sphere) in spheres.iter().enumerate() {
+        particles.position.push(sphere.position.into());
+        particles.velocity[i] = sphere.velocity.into();
+        spins[i] = sphere.spin.into();
+        particles.radius[i] = sphere.radius.unwrap_or(particles.radius[i]);
+    }
+    Ok(())
 }
 
 /// The fixed spheres of a scene: the walls, then the door.
