@@ -79,25 +79,18 @@ impl Simulation {
     pub fn with_skin(scene: &Scene, skin: f64) -> Result<Self, BuildError> {
         let spheres = start::place(scene)?;
         let alike = spheres.radius.windows(2).all(|two| two[0] == two[1]);
-        let largest = spheres.largest_radius();
-        let scalars = |of: &Particles| {
-            [&of.radius, &of.mass, &of.inertia].map(|values| of_moving(values, of).to_vec())
-        };
-        let mut waiting_scalars = None;
+        let skin = skin * spheres.largest_radius();
         let mut particles = start::fixed(scene);
-        let feed = match scene.start {
+        let mut scalars = None;
+        let mut feed = None;
+        match scene.start {
             Start::Feed { interval, .. } => {
-                waiting_scalars = Some(scalars(&spheres));
-                Some(Feed::new(
-                    waiting(&spheres, scene),
-                    (interval / scene.time.dt).round() as u64,
-                ))
+                scalars = Some(scalars_of(&spheres));
+                let interval = (interval / scene.time.dt).round() as u64;
+                feed = Some(Feed::new(waiting(&spheres, scene), interval));
             }
-            _ => {
-                particles.append(spheres);
-                None
-            }
-        };
+            _ => particles.append(spheres),
+        }
         let present = particles.len() - particles.fixed;
         let process = Process::of_scene(scene, feed, present);
         let sorted = process.is_none() && present >= order::MANY;
@@ -106,22 +99,14 @@ impl Simulation {
                 .chain(0..present as u32)
                 .collect();
         }
-        // Spheres that are alike stand in any order; to have them once saves memory.
+        // Spheres that are alike have the same values in any order: one copy saves memory.
         let [radius, mass, inertia] = match sorted && alike {
             true => Default::default(),
-            false => waiting_scalars.unwrap_or_else(|| scalars(&particles)),
+            false => scalars.unwrap_or_else(|| scalars_of(&particles)),
         };
-        let tank = scene.tank.as_ref();
         let setup = Setup {
-            walls: tank.map(TankWall::of_tank).unwrap_or_default(),
-            effects: scene.dem.effects.build(&particles.radius),
-            shielded: scene.dem.effects.updraught.is_some(),
-            limits: Limits::new(scene, &particles),
-            dt: scene.time.dt,
-            integrator: scene.time.integrator,
-            neighbours: scene.dem.neighbours,
-            skin: skin * largest,
             sorted,
+            ..setup(scene, &particles, skin)
         };
         let mut engine = engine(scene, setup, particles)?;
         if scene.output.ledger {
@@ -255,6 +240,29 @@ impl Simulation {
     pub fn elastic_energy(&mut self) -> f64 {
         self.engine.contacts().elastic_energy
     }
+}
+
+/// What a scene says of a system besides its laws and its spheres, with the skin of the neighbour
+/// list (m). Spheres are not sorted in memory.
+fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
+    let tank = scene.tank.as_ref();
+    Setup {
+        walls: tank.map(TankWall::of_tank).unwrap_or_default(),
+        effects: scene.dem.effects.build(&particles.radius),
+        shielded: scene.dem.effects.updraught.is_some(),
+        limits: Limits::new(scene, particles),
+        dt: scene.time.dt,
+        integrator: scene.time.integrator,
+        neighbours: scene.dem.neighbours,
+        skin,
+        sorted: false,
+    }
+}
+
+/// Radii, masses and moments of inertia of the spheres that move.
+fn scalars_of(particles: &Particles) -> [Vec<f64>; 3] {
+    [&particles.radius, &particles.mass, &particles.inertia]
+        .map(|values| of_moving(values, particles).to_vec())
 }
 
 /// The spheres of a scene that come in later.
