@@ -147,7 +147,12 @@ impl Process {
         }
         self.discharge(engine);
         let at_rest = match &mut self.rest {
-            Some(rest) => rest.since(engine.particles(), self.feed.is_empty(), step),
+            Some(rest) if self.feed.is_empty() => rest.since(engine.particles(), step),
+            // Nothing is at rest before all spheres are in.
+            Some(rest) => {
+                rest.reset();
+                None
+            }
             None => None,
         };
         if !self.open_door(engine, step, at_rest) {

@@ -37,10 +37,10 @@ impl RestWatch {
         self.since = None;
     }
 
-    /// Looks at the spheres. The step since which they have been slow, if they are at rest by now;
-    /// never before all are `in`.
-    pub(super) fn since(&mut self, particles: &Particles, all_in: bool, step: u64) -> Option<u64> {
-        if !(all_in && self.are_slow(particles)) {
+    /// Looks at the spheres, when all have come in. Returns the step since which they have been
+    /// slow, if they are at rest by now.
+    pub(super) fn since(&mut self, particles: &Particles, step: u64) -> Option<u64> {
+        if !self.are_slow(particles) {
             self.since = None;
             return None;
         }
