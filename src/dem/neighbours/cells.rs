@@ -1,5 +1,7 @@
 //! Cells in a box about all spheres.
 
+use super::Reach;
+use super::search::Storage;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 
@@ -11,15 +13,21 @@ pub(super) struct Cells {
     first: Vec<u32>,
     cell_of: Vec<u32>,
     index: Vec<u32>,
-    /// Empty if spheres stand in about that order anyway.
+    /// Copies in the order of the cells; empty if spheres are read in place.
     position: Vec<Vector>,
     radius: Vec<f64>,
 }
 
 impl Cells {
-    /// Sorts the spheres into cells of that width or wider (m); in `columns`, whatever their
-    /// height.
-    pub(super) fn fill(&mut self, particles: &Particles, width: f64, columns: bool, copied: bool) {
+    /// Sorts the spheres into cells of that width or wider (m). Cells of columns hold spheres of
+    /// any height.
+    pub(super) fn fill(
+        &mut self,
+        particles: &Particles,
+        width: f64,
+        reach: Reach,
+        storage: Storage,
+    ) {
         let count = particles.len();
         let (low, high) = bounds(&particles.position);
         let extent = high - low;
@@ -27,7 +35,10 @@ impl Cells {
         let most = 4 * count + 64;
         let mut width = width;
         loop {
-            let height = if columns { 0.0 } else { extent.z };
+            let height = match reach {
+                Reach::Contact => extent.z,
+                Reach::Column => 0.0,
+            };
             self.shape = [extent.x, extent.y, height]
                 .map(|extent| ((extent / width) as usize).saturating_add(1));
             let [nx, ny, nz] = self.shape;
@@ -48,11 +59,11 @@ impl Cells {
                     (cell(offset.x, nx), cell(offset.y, ny), cell(offset.z, nz));
                 ((layer * ny + row) * nx + column) as u32
             }));
-        self.sort(particles, copied);
+        self.sort(particles, storage);
     }
 
     /// Counting sort by cell; within a cell spheres stay in order of their index.
-    fn sort(&mut self, particles: &Particles, copied: bool) {
+    fn sort(&mut self, particles: &Particles, storage: Storage) {
         let count = particles.len();
         let cells = self.shape.iter().product::<usize>();
         self.first.clear();
@@ -64,6 +75,7 @@ impl Cells {
             self.first[cell + 1] += self.first[cell];
         }
         self.index.resize(count, 0);
+        let copied = storage == Storage::Copied;
         let copies = if copied { count } else { 0 };
         self.radius.resize(copies, 0.0);
         self.position.resize(copies, Vector::ZERO);

@@ -1,7 +1,7 @@
 //! What is true of a block of pairs, and will be for a few steps.
 
 use super::{NearPair, Particles};
-use crate::particles::block::{BLOCK, Column, Columns, ROWS, row};
+use crate::particles::block::{BLOCK, Column, Columns, ROWS};
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8};
 
 /// What is true of eight pairs, as bits.
@@ -55,7 +55,7 @@ impl Glance {
         let pairs = &self.pairs;
         self.offset.fill::<S>(
             #[inline(always)]
-            |k| row(simd, position, pairs[k].i()) - row(simd, position, pairs[k].j()),
+            |k| pairs[k].difference(simd, position),
         );
         if self.common_radius.is_none() {
             let [one, other] = &mut self.radius;

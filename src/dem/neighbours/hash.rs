@@ -1,5 +1,6 @@
 //! Cells in a chained hash table, for spheres that may be anywhere.
 
+use super::Reach;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 
@@ -24,13 +25,16 @@ pub(super) struct HashedCells {
 }
 
 impl HashedCells {
-    /// Sorts the spheres into cells; in `columns`, whatever their height.
-    pub(super) fn fill(&mut self, particles: &Particles, width: f64, columns: bool) {
+    /// Sorts the spheres into cells. Cells of columns hold spheres of any height.
+    pub(super) fn fill(&mut self, particles: &Particles, width: f64, reach: Reach) {
         let inverse = 1.0 / width;
         let along = |value: f64| (value * inverse).floor() as i64;
         self.place.clear();
         self.place.extend(particles.position.iter().map(|centre| {
-            let layer = if columns { 0 } else { along(centre.z) };
+            let layer = match reach {
+                Reach::Contact => along(centre.z),
+                Reach::Column => 0,
+            };
             [along(centre.x), along(centre.y), layer]
         }));
         self.flat = [0, 1, 2].map(|axis| {

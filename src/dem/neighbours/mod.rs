@@ -21,13 +21,13 @@ mod pair;
 mod search;
 mod shield;
 
-pub use near::Near;
+pub use near::{Near, Purpose};
 pub use pair::NearPair;
 pub(in crate::dem) use pair::keep_pairs;
 
 use self::anchor::Anchor;
 use self::few::{FEW, FewSpheres};
-use self::search::Search;
+use self::search::{Search, Storage};
 use super::threads::in_parallel;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
@@ -231,46 +231,57 @@ impl VerletList {
             Reach::Contact => 0.0,
             Reach::Column => SQRT_2 * (2.0 * largest + self.skin),
         };
-        if few {
-            let turned = match self.reach {
-                Reach::Column if self.least == 0.0 => {
-                    let most = TURN * self.skin / self.half_diagonal;
-                    self.anchor.turn(self.life, most)
-                }
-                _ => (0.0, 1.0),
-            };
-            self.few.fill(particles, turned);
-        } else {
-            let columns = self.reach == Reach::Column;
-            let reach = 2.0 * largest + self.skin;
-            self.search.fill(particles, reach, columns, !self.sorted);
-        }
         self.start.clear();
         self.neighbour.clear();
         self.owner.clear();
         self.start.push(0);
-        if threads == 1 || !self.sorted {
-            for i in 0..count {
-                let first = self.neighbour.len();
-                let found = &mut self.neighbour;
-                if few {
-                    let of = (i, particles.first_partner(i));
-                    self.few
-                        .find(self.level, of, (self.reach, self.skin), found);
-                } else {
-                    find_partners(self.reach, self.skin, &self.search, i, particles, found);
-                    self.neighbour[first..].sort_unstable();
-                }
-                self.end_entries();
-            }
+        if few {
+            self.find_few(particles);
         } else {
-            self.find_on_threads(particles, threads);
+            let storage = match self.sorted {
+                true => Storage::InPlace,
+                false => Storage::Copied,
+            };
+            let distance = 2.0 * largest + self.skin;
+            self.search.fill(particles, distance, self.reach, storage);
+            match self.sorted && threads > 1 {
+                true => self.find_on_threads(particles, threads),
+                false => self.find_all(particles),
+            }
         }
         if self.sorted {
             self.search.forget();
         }
         self.builds += 1;
         self.outdated = false;
+    }
+
+    /// Finds the partners of a few spheres.
+    fn find_few(&mut self, particles: &Particles) {
+        let turned = match self.reach {
+            Reach::Column if self.least == 0.0 => {
+                let most = TURN * self.skin / self.half_diagonal;
+                self.anchor.turn(self.life, most)
+            }
+            _ => (0.0, 1.0),
+        };
+        self.few.fill(particles, turned);
+        for i in 0..particles.len() {
+            let of = (i, particles.first_partner(i));
+            let reach = (self.reach, self.skin);
+            self.few.find(self.level, of, reach, &mut self.neighbour);
+            self.end_entries();
+        }
+    }
+
+    /// Finds the partners of all spheres among those that the search suggests.
+    fn find_all(&mut self, particles: &Particles) {
+        for i in 0..particles.len() {
+            let (first, found) = (self.neighbour.len(), &mut self.neighbour);
+            find_partners(self.reach, self.skin, &self.search, i, particles, found);
+            found[first..].sort_unstable();
+            self.end_entries();
+        }
     }
 
     /// Ends the entries of the next sphere.
@@ -314,7 +325,7 @@ impl VerletList {
 pub fn visit_pairs(particles: &Particles, mut visit: impl FnMut(usize, usize)) {
     let length = 2.0 * particles.largest_radius();
     let mut search = Search::new(Neighbours::HashedCells { length });
-    search.fill(particles, length, false, true);
+    search.fill(particles, length, Reach::Contact, Storage::Copied);
     for i in 0..particles.len() {
         let first = particles.first_partner(i) as u32;
         search.near(i, particles, |j, _, _| {

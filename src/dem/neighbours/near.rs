@@ -37,12 +37,26 @@ const LONG_LIFE: u64 = 64;
 /// The part of the margin that a turn of all spheres may take.
 const TURN: f64 = 0.4;
 
+/// What near pairs serve.
+#[derive(Clone, Copy, Debug)]
+pub struct Purpose {
+    /// Whether pairs may touch.
+    pub contacts: bool,
+    /// Whether spheres shield one another.
+    pub shield: bool,
+}
+
+impl Purpose {
+    /// No pair matters.
+    pub const NONE: Self = Self {
+        contacts: false,
+        shield: false,
+    };
+}
+
 /// The inner list.
 pub struct Near {
-    /// Whether pairs may touch.
-    contacts: bool,
-    /// Whether spheres shield one another.
-    shield: bool,
+    purpose: Purpose,
     /// How far the offset of a pair may change (m).
     margin: f64,
     /// What is asked for at least, and the smallest that it may then be (m).
@@ -68,10 +82,9 @@ pub struct Near {
 
 impl Near {
     /// A list that is not made yet; its margin (m) starts from a guess.
-    pub fn new(contacts: bool, shield: bool, margin: f64) -> Self {
+    pub fn new(purpose: Purpose, margin: f64) -> Self {
         Self {
-            contacts,
-            shield,
+            purpose,
             margin,
             least: 0.0,
             smallest: 0.0,
@@ -96,7 +109,7 @@ impl Near {
     /// The distance (m) beyond which a new list may leave pairs out: more than the margin where
     /// spheres are turned first.
     pub fn reach(&self) -> f64 {
-        match self.shield {
+        match self.purpose.shield {
             true => (1.0 + TURN) * self.margin,
             false => self.margin,
         }
@@ -118,14 +131,9 @@ impl Near {
         std::mem::replace(&mut self.pairs, pairs)
     }
 
-    /// Takes the pairs out, to be returned.
-    pub fn take_pairs(&mut self) -> Vec<NearPair> {
-        std::mem::take(&mut self.pairs)
-    }
-
-    /// Takes the pairs back.
-    pub fn return_pairs(&mut self, pairs: Vec<NearPair>) {
-        self.pairs = pairs;
+    /// The pairs, to be put into another order.
+    pub(in crate::dem) fn pairs_mut(&mut self) -> &mut Vec<NearPair> {
+        &mut self.pairs
     }
 
     /// Asks for a margin (m) of at least that. Whether the list has it already.
@@ -187,7 +195,7 @@ impl Near {
     /// for a Verlet list of that skin (m).
     pub fn adapt(&mut self, steps: u64, time: f64, skin: f64) {
         self.life = time;
-        let life = if self.shield {
+        let life = if self.purpose.shield {
             COLUMN_LIFE
         } else {
             CONTACT_LIFE
@@ -200,14 +208,18 @@ impl Near {
         }
         self.smallest = self.least.max(0.02 * skin);
         let [most_of_long, most] = MOST_OF_SKIN;
-        let most = if self.shield { most_of_long } else { most };
+        let most = if self.purpose.shield {
+            most_of_long
+        } else {
+            most
+        };
         self.margin = (self.margin).clamp(self.smallest, self.smallest.max(most * skin));
     }
 
     /// Whether the list held for so many steps that looking for near pairs with a smaller margin
     /// pays: every pair that is near costs as much as one that touches.
     pub fn is_too_wide(&self, steps: u64) -> bool {
-        self.contacts && steps >= LONG_LIFE && self.margin > self.smallest
+        self.purpose.contacts && steps >= LONG_LIFE && self.margin > self.smallest
     }
 
     /// Makes the list again from a valid Verlet list, on that many threads of the current pool.
@@ -219,7 +231,7 @@ impl Near {
         threads: usize,
     ) {
         self.anchor.drop(particles);
-        if self.shield {
+        if self.purpose.shield {
             // A pair inside the box, or that comes inside, is no longer than this.
             self.half_diagonal = SQRT_2 * 2.0 * particles.largest_radius() + self.margin;
             // A margin that is asked for must hold in full from the start.
@@ -229,11 +241,11 @@ impl Near {
                 .turn(life, TURN * self.margin / self.half_diagonal);
         }
         let entries = list.pairs();
-        if threads == 1 || self.shield {
+        if threads == 1 || self.purpose.shield {
             self.find_among(level, list, particles, 0..entries);
         } else {
             let mut helpers = std::mem::take(&mut self.helpers);
-            helpers.resize_with(threads - 1, || Self::new(self.contacts, false, 0.0));
+            helpers.resize_with(threads - 1, || Self::new(self.purpose, 0.0));
             for helper in &mut helpers {
                 helper.margin = self.margin;
             }
@@ -272,7 +284,7 @@ impl Near {
         particles: &Particles,
         entries: Range<usize>,
     ) {
-        let shield = self.shield;
+        let shield = self.purpose.shield;
         let (mut near, mut open, mut touching) = (0, 0, 0);
         let Shield {
             counts,
@@ -307,15 +319,13 @@ impl Near {
                     shields_second |= (facts.shields_second & all) << at;
                 }
             }
-            for (side, shields) in [shields_first, shields_second].into_iter().enumerate() {
-                for k in ones(shields) {
-                    counts[glance.pairs[k].sides()[side] as usize] += 1;
-                }
-            }
+            add_shields(counts, &glance.pairs, [shields_first, shields_second]);
         }
-        self.pairs.truncate(if self.contacts { near } else { 0 });
+        self.pairs
+            .truncate(if self.purpose.contacts { near } else { 0 });
         self.touching = touching;
-        self.shielding.begin(if self.shield { open } else { 0 });
+        self.shielding
+            .begin(if self.purpose.shield { open } else { 0 });
     }
 
     /// Counts the spheres that shield each one at the present positions.
@@ -327,6 +337,17 @@ impl Near {
     /// The latest counts, where spheres shield one another.
     pub fn shielding(&self) -> &[u32] {
         &self.shielding.counts
+    }
+}
+
+/// Counts a shield for the first spheres of some pairs, and for the second spheres of others, as
+/// bits select them.
+#[inline(always)]
+fn add_shields(counts: &mut [u32], pairs: &[NearPair], shields: [u64; 2]) {
+    for (side, shields) in shields.into_iter().enumerate() {
+        for k in ones(shields) {
+            counts[pairs[k].sides()[side] as usize] += 1;
+        }
     }
 }
 

@@ -1,7 +1,8 @@
 //! Pairs of spheres in lists.
 
-use crate::particles::block::ROWS;
-use fearless_simd::{Simd, SimdBase, SimdMask, mask64x8, u64x8};
+use crate::particles::block::{ROWS, row};
+use crate::particles::vector::Vector;
+use fearless_simd::{Simd, SimdBase, SimdMask, f64x4, mask64x8, u64x8};
 use std::cmp::Ordering;
 
 /// A pair that may touch: two indices in one number, in the order of which pairs stand in a list.
@@ -47,7 +48,13 @@ impl NearPair {
         Self::new((word >> 32) as u32, word as u32)
     }
 
-    /// Both.
+    /// The vector of the first sphere less that of the second.
+    #[inline(always)]
+    pub(in crate::dem) fn difference<S: Simd>(self, simd: S, vectors: &[Vector]) -> f64x4<S> {
+        row(simd, vectors, self.i()) - row(simd, vectors, self.j())
+    }
+
+    /// Both spheres.
     pub fn sides(self) -> [u32; 2] {
         [self.i(), self.j()]
     }

@@ -1,10 +1,20 @@
 //! The search for candidate pairs, before distances are computed.
 
+use super::Reach;
 use super::cells::Cells;
 use super::hash::HashedCells;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 use crate::scene::Neighbours;
+
+/// Where a search reads the spheres of a cell.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Storage {
+    /// In copies, which are in the order of the cells.
+    Copied,
+    /// In place, as spheres are in about that order anyway.
+    InPlace,
+}
 
 /// A way to find the spheres that may be near a sphere.
 #[derive(Clone, Debug)]
@@ -33,17 +43,23 @@ impl Search {
         matches!(self, Self::Cells(_, None))
     }
 
-    /// Sorts the spheres, whose pairs reach no farther than `reach` (m); in `columns`, at any
-    /// height. Places are `copied` into the order of the cells, unless spheres stand in about that
-    /// order.
-    pub(super) fn fill(&mut self, particles: &Particles, reach: f64, columns: bool, copied: bool) {
+    /// Sorts the spheres into cells for pairs of this reach, at most `distance` (m) long: their
+    /// horizontal distance, if they reach at any height.
+    pub(super) fn fill(
+        &mut self,
+        particles: &Particles,
+        distance: f64,
+        reach: Reach,
+        storage: Storage,
+    ) {
         // A hair wider: rounding must not put the partners of a pair two cells apart.
         let wide = |width: f64| width * (1.0 + 1e-9);
         match self {
             Self::Cells(cells, width) => {
-                cells.fill(particles, wide(width.unwrap_or(reach)), columns, copied);
+                let width = wide(width.unwrap_or(distance));
+                cells.fill(particles, width, reach, storage);
             }
-            Self::Hashed(cells, width) => cells.fill(particles, wide(*width), columns),
+            Self::Hashed(cells, width) => cells.fill(particles, wide(*width), reach),
             Self::AllPairs => {}
         }
     }

@@ -2,7 +2,7 @@
 //! in each.
 
 use super::{NearPair, Particles, WORD};
-use crate::particles::block::{ROWS, ones, row, turned};
+use crate::particles::block::{ROWS, ones, turned};
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
 /// The count of spheres that shield each one, kept up with the pairs whose part in it may change.
@@ -70,7 +70,7 @@ fn who_shields<S: Simd>(
     let position = &particles.position[..];
     let [dx, dy, dz] = turned::<S>(
         #[inline(always)]
-        |k| row(simd, position, pairs[k].i()) - row(simd, position, pairs[k].j()),
+        |k| pairs[k].difference(simd, position),
     );
     let (dx, dy) = (dx.abs(), dy.abs());
     let within = |diameter: f64x8<S>| dx.simd_lt(diameter) & dy.simd_lt(diameter);

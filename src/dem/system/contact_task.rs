@@ -1,13 +1,14 @@
-//! Forces at contacts, block by block: which of them touch, and what acts on whom. One thread
-//! computes all, or each those of its own spheres.
+//! Forces at contacts, block by block: which of them touch, and the forces that result. One thread
+//! computes all of them, or each thread those on its own spheres.
 
+use super::candidates::{AtWalls, Candidates};
 use super::contact_block::ContactBlock;
 use super::contact_laws::Laws;
 use super::contact_state::SphereProperties;
 use super::lanes::whole;
 use super::partners::Partners;
 use super::sums::Sums;
-use super::touching::{Entries, LOOK, Touching};
+use super::touching::{LOOK, Touching};
 use super::wall_contacts::NearSphere;
 use crate::dem::neighbours::NearPair;
 use crate::dem::profile::{self, Part, Profile};
@@ -29,8 +30,17 @@ pub(super) struct ContactSettings<N, T> {
     pub(super) alike: Option<SphereProperties>,
     /// Whether nearly all near pairs touch. The others are then computed too, with a force of zero.
     pub(super) mostly_touch: bool,
-    /// Whether the histories of pairs exceed the caches.
+    /// Whether the histories of pairs exceed the caches, and are prefetched.
     pub(super) far: bool,
+}
+
+impl<N, T> ContactSettings<N, T> {
+    /// The sphere of a pair that moves: the first, if both do.
+    fn moving_sphere(&self, partners: &Partners<'_>, pair: NearPair) -> usize {
+        let [i, j] = pair.sides().map(|it| it + partners.first);
+        let sphere = if i < self.fixed { j } else { i };
+        sphere as usize
+    }
 }
 
 /// Candidates for contacts, each with its history.
@@ -57,12 +67,17 @@ impl<C, H> ContactSlice<'_, C, H> {
     }
 }
 
-/// Walls, each with the spheres near it.
-pub(super) type AtWalls<'a, H> =
-    [Option<(TankWall, ContactSlice<'a, NearSphere, H>)>; TankWall::MOST];
-
 /// A sphere whose contact is beyond the overlap limit, and the overlap (m).
 pub(super) type TooDeep = Option<(usize, f64)>;
+
+/// Which pairs of a thread.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum PairKind {
+    /// Those whose first sphere belongs to another thread.
+    Crossing,
+    /// Those whose first sphere is its own.
+    Own,
+}
 
 /// Buffers of a thread for its contacts.
 pub(super) struct Buffers<H> {
@@ -86,8 +101,6 @@ impl<H: History> Buffers<H> {
 pub(super) struct ContactTask<'a, H> {
     pub(super) partners: Partners<'a>,
     pub(super) sums: Sums<'a>,
-    /// Whether sums begin anew.
-    pub(super) clear: bool,
     pub(super) buffers: &'a mut Buffers<H>,
     /// Pairs whose first sphere belongs to another thread, which computes its force and keeps the
     /// pair's history. This is a copy.
@@ -99,7 +112,30 @@ pub(super) struct ContactTask<'a, H> {
     pub(super) too_deep: [TooDeep; 1 + TankWall::MOST],
 }
 
-impl<H: History> ContactTask<'_, H> {
+impl<'a, H: History> ContactTask<'a, H> {
+    /// The work of a thread that computes all of these contacts.
+    pub(super) fn of_all(
+        partners: Partners<'a>,
+        sums: Sums<'a>,
+        candidates: Candidates<'a, H>,
+        buffers: &'a mut Buffers<H>,
+    ) -> Self {
+        Self {
+            partners,
+            sums,
+            buffers,
+            crossing: ContactSlice::none(),
+            pairs: candidates.pairs,
+            walls: candidates.walls,
+            too_deep: [None; 1 + TankWall::MOST],
+        }
+    }
+
+    /// The first contact beyond the overlap limit, pairs before walls.
+    pub(super) fn first_too_deep(&self) -> TooDeep {
+        self.too_deep.into_iter().flatten().next()
+    }
+
     /// Adds the forces and torques of all its contacts, in the order of the list.
     ///
     /// The hot loops are compiled once per instruction set, and no more than once: this is most of
@@ -121,15 +157,15 @@ impl<H: History> ContactTask<'_, H> {
         settings: &ContactSettings<N, T>,
         profile: &mut Option<Box<Profile>>,
     ) {
-        if self.clear {
+        if self.sums.clear {
             self.sums.force.fill(Vector::ZERO);
             self.sums.torque.fill(Vector::ZERO);
             profile::mark(profile, Part::Rest);
         }
         self.buffers.block.set_alike::<N, T>(settings.alike);
-        // In one loop, as all that stands in it is compiled for every instruction set.
-        for crossing in [true, false] {
-            self.pair_forces::<S, N, T>(simd, settings, crossing);
+        // In one loop, so that the code in it is compiled once for each instruction set.
+        for kind in [PairKind::Crossing, PairKind::Own] {
+            self.pair_forces::<S, N, T>(simd, settings, kind);
         }
         if !N::ACTS {
             return;
@@ -145,24 +181,25 @@ impl<H: History> ContactTask<'_, H> {
         }
     }
 
+    /// Forces of pairs of this kind.
     #[inline(always)]
     fn pair_forces<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
         settings: &ContactSettings<N, T>,
-        crossing: bool,
+        kind: PairKind,
     ) {
         let ContactSettings {
             laws,
-            fixed,
             alike,
             mostly_touch,
             far,
+            ..
         } = settings;
         let partners = &self.partners;
-        let slice = match crossing {
-            true => &mut self.crossing,
-            false => &mut self.pairs,
+        let slice = match kind {
+            PairKind::Crossing => &mut self.crossing,
+            PairKind::Own => &mut self.pairs,
         };
         debug_assert!(slice.contacts.len() <= slice.histories.len());
         let Buffers {
@@ -185,25 +222,14 @@ impl<H: History> ContactTask<'_, H> {
                 };
                 block.gather_pairs::<S, N, T>(simd, lanes, histories, partners);
                 block.apply_laws(laws);
-                match lanes.entries {
-                    Entries::Listed(entries) => block.store_histories(
-                        simd,
-                        histories,
-                        #[inline(always)]
-                        |k| entries[k] as usize,
-                    ),
-                    Entries::From(first) => {
-                        block.store_histories(simd, &mut histories[first..first + BLOCK], |k| k);
-                    }
-                }
+                block.store_pair_histories(simd, histories, lanes.entries);
                 block.scatter_to_pairs::<S, T>(simd, lanes, &mut self.sums);
-                if let Some((k, overlap)) = block.first_too_deep(lanes.count) {
-                    let [i, j] = lanes.pairs[k].sides().map(|it| it + partners.first);
-                    let sphere = if i < *fixed { j } else { i } as usize;
-                    // The thread of the first sphere reports a pair that crosses.
-                    if !crossing {
-                        self.too_deep[0].get_or_insert((sphere, overlap));
-                    }
+                // The thread of the first sphere reports a pair that crosses.
+                if let (Some((k, overlap)), PairKind::Own) =
+                    (block.first_too_deep(lanes.count), kind)
+                {
+                    let sphere = settings.moving_sphere(partners, lanes.pairs[k]);
+                    self.too_deep[0].get_or_insert((sphere, overlap));
                 }
             }
         }

@@ -6,20 +6,20 @@
 //! thread, and there is nothing to wait for. What such a pair remembers, both have. Where each
 //! moves its spheres at once, such pairs are computed of copies of the spheres around the boundary.
 
-use super::contact_task::{AtWalls, Buffers, ContactSettings, ContactSlice, ContactTask, TooDeep};
+use super::candidates::{AtWalls, Candidates};
+use super::contact_task::{Buffers, ContactSettings, ContactSlice, ContactTask, TooDeep};
 use super::partners::{Copies, Partners};
 use super::stream::Stream;
 use super::sums::Sums;
 use super::wall_contacts::WallContacts;
 use crate::dem::bodies::Spheres;
 use crate::dem::neighbours::NearPair;
-use crate::dem::threads::{in_parallel, split};
+use crate::dem::threads::in_parallel;
 use crate::dem::walls::TankWall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{History, TangentialLaw};
 use crate::particles::block::BLOCK;
 use crate::particles::bodies::Bodies;
-use crate::particles::vector::Vector;
 use fearless_simd::Level;
 use std::ops::Range;
 
@@ -51,6 +51,18 @@ pub(super) struct ThreadContacts<'a, H> {
     pub(super) pairs: ContactSlice<'a, NearPair, H>,
     pub(super) walls: AtWalls<'a, H>,
     pub(super) buffers: &'a mut Buffers<H>,
+}
+
+impl<'a, H> ThreadContacts<'a, H> {
+    /// Those of a thread that computes all.
+    pub(super) fn all(candidates: Candidates<'a, H>, buffers: &'a mut Buffers<H>) -> Self {
+        Self {
+            crossing: ContactSlice::none(),
+            pairs: candidates.pairs,
+            walls: candidates.walls,
+            buffers,
+        }
+    }
 }
 
 impl<H: History> Division<H> {
@@ -131,13 +143,16 @@ impl<H: History> Division<H> {
     /// The spheres and contacts of each thread, out of all contacts.
     fn thread_contacts<'a>(
         regions: &'a mut [Region<H>],
-        mut pairs: ContactSlice<'a, NearPair, H>,
-        mut walls: AtWalls<'a, H>,
+        candidates: Candidates<'a, H>,
     ) -> impl Iterator<Item = (Range<usize>, ThreadContacts<'a, H>)> {
+        let Candidates {
+            mut pairs,
+            mut walls,
+        } = candidates;
         regions.iter_mut().map(move |region| {
             let mut at_walls = walls.iter_mut().zip(&region.walls).map(|(wall, range)| {
-                let (wall, known) = wall.as_mut()?;
-                Some((*wall, known.split(range.len())))
+                let (wall, near) = wall.as_mut()?;
+                Some((*wall, near.split(range.len())))
             });
             let contacts = ThreadContacts {
                 crossing: ContactSlice {
@@ -152,26 +167,20 @@ impl<H: History> Division<H> {
         })
     }
 
-    /// Evaluates the forces of all contacts; `clear` says whether others are to be forgotten first.
-    /// Says of the first contact that is too deep.
+    /// Adds the forces of all contacts to the sums of all spheres. Returns the first contact that
+    /// is too deep.
     pub(super) fn evaluate<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,
         settings: &ContactSettings<N, T>,
         partners: Partners<'_>,
-        [mut force, mut torque]: [&mut [Vector]; 2],
-        clear: bool,
-        (pairs, walls): (ContactSlice<'_, NearPair, H>, AtWalls<'_, H>),
+        mut sums: Sums<'_>,
+        candidates: Candidates<'_, H>,
     ) -> TooDeep {
-        let thread_contacts = Self::thread_contacts(&mut self.regions, pairs, walls);
+        let thread_contacts = Self::thread_contacts(&mut self.regions, candidates);
         let tasks = thread_contacts.map(|(spheres, of)| ContactTask {
             partners,
-            sums: Sums {
-                first: spheres.start,
-                force: split(&mut force, spheres.len()),
-                torque: split(&mut torque, spheres.len()),
-            },
-            clear,
+            sums: sums.split(spheres.len()),
             buffers: of.buffers,
             crossing: of.crossing,
             pairs: of.pairs,
@@ -185,12 +194,11 @@ impl<H: History> Division<H> {
         first_too_deep(tasks.iter().map(|task| task.too_deep))
     }
 
-    /// What each thread does where it moves its spheres at once.
+    /// The work of each thread, if it moves its spheres in the same pass.
     pub(super) fn streams<'a>(
         &'a mut self,
         mut all: Spheres<'a>,
-        pairs: ContactSlice<'a, NearPair, H>,
-        walls: AtWalls<'a, H>,
+        candidates: Candidates<'a, H>,
         bodies: &'a mut [Bodies],
     ) -> Vec<Stream<'a, H>> {
         let Self {
@@ -202,7 +210,7 @@ impl<H: History> Division<H> {
         let around: Vec<_> = boundaries.iter().map(around).collect();
         let before = std::iter::once(None).chain(around.iter().copied());
         let after = around.iter().copied().chain(std::iter::once(None));
-        let thread_contacts = Self::thread_contacts(regions, pairs, walls).zip(bodies);
+        let thread_contacts = Self::thread_contacts(regions, candidates).zip(bodies);
         let streams = thread_contacts.zip(before.zip(after));
         let streams = streams.map(|(((spheres, contacts), bodies), copies)| {
             Stream::new(all.split(spheres.len()), contacts, bodies, copies)
@@ -226,7 +234,7 @@ pub(super) fn first_too_deep(
     all.flatten().next()
 }
 
-/// Threads that there are, one where the work is not divided.
+/// Number of threads: one if the work is not divided.
 pub(super) fn threads<H>(division: Option<&Division<H>>) -> usize {
     division.map_or(1, |it| it.regions.len())
 }

@@ -40,9 +40,9 @@ impl PropertyColumns {
         }
     }
 
-    /// Fetches it of the sphere of every lane.
+    /// Gathers those of the sphere of every lane, as far as the laws need them.
     #[inline(always)]
-    pub(super) fn take<N: NormalLaw, T: TangentialLaw>(
+    pub(super) fn gather<N: NormalLaw, T: TangentialLaw>(
         &mut self,
         partners: &Partners<'_>,
         sphere: impl Fn(usize) -> u32,

@@ -4,11 +4,16 @@
 //! So work is summed up kick by kick, from the forces that the kicks use. What the balance then
 //! misses is what the scheme makes of conservative forces, not an error of the sum.
 
-use super::candidates::Candidates;
-use super::contact_laws::ContactForce;
-use super::wall_contacts::{NearSphere, WallContacts};
+use super::adaptive::IslandContacts;
+use super::contact_block::EarlierRows;
+use super::contact_laws::Laws;
+use super::contact_state::ContactState;
+use super::partners::Partners;
+use super::wall_contacts::NearSphere;
 use super::{Engine, System};
+use crate::dem::neighbours::NearPair;
 use crate::dem::profile::Part;
+use crate::dem::walls::TankWall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{History, Spring, TangentialLaw};
 use crate::particles::reorder::reorder;
@@ -198,77 +203,94 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.mark(Part::Ledger);
     }
 
-    /// Notes all contacts, before their forces are evaluated: histories are not moved on.
-    pub(super) fn note_all_contacts(&mut self, candidates: &Candidates) {
+    /// Notes all contacts, before their forces are evaluated: histories are only read.
+    pub(super) fn note_all_contacts(&mut self) {
+        self.forget_contacts_in_books();
+        let laws = self.laws();
+        let (true, Some(ledger)) = (N::ACTS, &mut self.ledger) else {
+            return;
+        };
+        let mut notes = Notes::new(laws, &self.particles, &self.earlier, &mut ledger.books);
+        let pairs = self.neighbours.near.pairs().iter();
+        for (&pair, history) in pairs.zip(&self.pair_history) {
+            notes.add_pair(pair, history.spring());
+        }
+        for wall in &self.walls {
+            for (sphere, history) in wall.near.iter().zip(&wall.histories) {
+                notes.add_at_wall(wall.wall, sphere.i, history.spring());
+            }
+        }
+    }
+
+    /// Forgets the contacts that were noted, if books are kept.
+    pub(super) fn forget_contacts_in_books(&mut self) {
         if let Some(ledger) = &mut self.ledger {
             ledger.books.resize(self.particles.len());
             ledger.books.clear();
         }
-        self.note_contacts(candidates);
     }
 
-    /// Notes these contacts, as [`note_all_contacts`](Self::note_all_contacts).
-    pub(super) fn note_contacts(&mut self, candidates: &Candidates) {
-        if !N::ACTS {
-            return;
-        }
-        let Some(mut ledger) = self.ledger.take() else {
+    /// Notes the contacts of an island, as [`note_all_contacts`](Self::note_all_contacts) does.
+    pub(super) fn note_island(&mut self, contacts: &IslandContacts) {
+        let laws = self.laws();
+        let (true, Some(ledger)) = (N::ACTS, &mut self.ledger) else {
             return;
         };
-        self.note_pairs(candidates, &mut ledger);
-        for (wall, near) in self.walls.iter().zip(&candidates.walls) {
-            self.note_wall(wall, near, &mut ledger);
+        let mut notes = Notes::new(laws, &self.particles, &self.earlier, &mut ledger.books);
+        for (&pair, &entry) in contacts.pairs.iter().zip(&contacts.entries) {
+            notes.add_pair(pair, self.pair_history[entry as usize].spring());
         }
-        self.ledger = Some(ledger);
-    }
-
-    fn note_pairs(&self, candidates: &Candidates, ledger: &mut Ledger) {
-        let laws = self.laws();
-        for (pair, entry) in candidates.pairs() {
-            let (i, j) = (pair.i(), pair.j());
-            let spring = match Self::HAS_HISTORY {
-                true => self.pair_history[entry].spring(),
-                false => Spring::default(),
-            };
-            let contact = laws.pair_force(&self.contact_state(i, j), spring);
-            if contact.touches {
-                let [damping, tangential] = self.damping_and_friction(&contact);
-                let [one, other] = contact.torque;
-                ledger.books.add(i, damping, tangential, one);
-                ledger.books.add(j, -damping, -tangential, other);
+        for (wall, near) in self.walls.iter().zip(&contacts.walls) {
+            for &NearSphere { i, entry } in near {
+                notes.add_at_wall(wall.wall, i, wall.histories[entry as usize].spring());
             }
         }
     }
+}
 
-    fn note_wall(&self, wall: &WallContacts<T::History>, near: &[NearSphere], ledger: &mut Ledger) {
-        let laws = self.laws();
-        for &NearSphere { i, entry } in near {
-            let spring = wall.histories[entry as usize].spring();
-            let contact = laws.wall_force(wall.wall, &self.state_at_wall(i), spring);
-            if contact.touches {
-                let [damping, tangential] = self.damping_and_friction(&contact);
-                ledger.books.add(i, damping, tangential, contact.torque[0]);
-            }
+/// What contacts are noted with.
+struct Notes<'a, N, T> {
+    laws: Laws<N, T>,
+    spheres: Partners<'a>,
+    books: &'a mut Books,
+}
+
+impl<'a, N: NormalLaw, T: TangentialLaw> Notes<'a, N, T> {
+    fn new(
+        laws: Laws<N, T>,
+        particles: &'a Particles,
+        earlier: &'a [EarlierRows],
+        books: &'a mut Books,
+    ) -> Self {
+        let earlier = match laws.loading.age > 0.0 {
+            true => earlier,
+            false => &[],
+        };
+        Self {
+            laws,
+            spheres: Partners::all(particles, earlier),
+            books,
         }
     }
 
-    /// Of the force at a contact what the damping does, and the tangential law.
-    fn damping_and_friction(&self, contact: &ContactForce) -> [Vector; 2] {
-        let ContactForce {
-            normal,
-            velocity,
-            force,
-            ..
-        } = *contact;
-        let elastic = self
-            .normal
-            .force(contact.overlap, 0.0, contact.contact_radius, 0.0);
-        if !T::ROTATES {
-            return [force - normal * elastic, Vector::ZERO];
+    fn add_pair(&mut self, pair: NearPair, spring: Spring) {
+        let (i, j) = (pair.i(), pair.j());
+        let state = ContactState::of_pair(&self.spheres, i, j);
+        let contact = self.laws.pair_force(&state, spring);
+        if contact.touches {
+            let [damping, tangential] = self.laws.damping_and_friction(&contact);
+            let [one, other] = contact.torque;
+            self.books.add(i, damping, tangential, one);
+            self.books.add(j, -damping, -tangential, other);
         }
-        let along = force.dot(normal);
-        let sideways = velocity.perpendicular_to(normal) * -self.normal.sideways_drag();
-        let damping = normal * (along - elastic) + sideways;
-        [damping, force - normal * along - sideways]
+    }
+
+    fn add_at_wall(&mut self, wall: TankWall, i: u32, spring: Spring) {
+        let state = ContactState::at_wall(&self.spheres, i);
+        let contact = self.laws.wall_force(wall, &state, spring);
+        if contact.touches {
+            let [damping, tangential] = self.laws.damping_and_friction(&contact);
+            self.books.add(i, damping, tangential, contact.torque[0]);
+        }
     }
 }

@@ -1,6 +1,5 @@
 //! When lists of neighbours are made anew, and what becomes of the histories of their contacts.
 
-use super::contact_laws::Laws;
 use super::contact_state::SphereProperties;
 use super::division::threads;
 use super::wall_contacts::WallContacts;
@@ -64,15 +63,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Ok(())
     }
 
-    /// The properties of all spheres, if they are alike to the laws.
-    pub(super) fn alike(particles: &Particles) -> Option<SphereProperties> {
-        SphereProperties::of_all(particles, Laws::<N, T>::NEEDS_EFFECTIVE_MASS)
-    }
-
     /// Fits everything that has an entry per sphere to the spheres that there are now.
     pub(super) fn renumber(&mut self) {
         if self.neighbours.list.is_some() {
-            self.alike = Self::alike(&self.particles);
+            self.alike = SphereProperties::of_all::<N, T>(&self.particles);
         }
         self.neighbours.stale = true;
     }

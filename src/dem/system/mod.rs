@@ -3,6 +3,7 @@
 mod adaptive;
 mod candidates;
 mod contact_block;
+mod contact_geometry;
 mod contact_laws;
 mod contact_state;
 mod contact_task;
@@ -31,10 +32,11 @@ use self::division::Division;
 use self::integrate::Before;
 use self::ledger::Ledger;
 pub(in crate::dem) use self::ledger::Work;
+use self::moves::Drift;
 pub(in crate::dem) use self::state::EngineState;
 use self::wall_contacts::WallContacts;
 use super::guard::Limits;
-use super::neighbours::{Near, NearPair, Reach, VerletList};
+use super::neighbours::{Near, NearPair, Purpose, Reach, VerletList};
 use super::profile::{self, Part, Profile};
 use super::state::StateError;
 use super::walls::TankWall;
@@ -109,6 +111,17 @@ pub(in crate::dem) struct Setup {
     pub(in crate::dem) neighbours: Neighbours,
     /// Whether spheres are sorted in memory; their numbers then follow them.
     pub(in crate::dem) sorted: bool,
+}
+
+impl Setup {
+    /// Near pairs for a system with this normal law, not found yet.
+    fn near<N: NormalLaw>(&self) -> Near {
+        let purpose = Purpose {
+            contacts: N::ACTS,
+            shield: self.shielded,
+        };
+        Near::new(purpose, 0.3 * self.skin)
+    }
 }
 
 /// A simulation compiled for its contact laws.
@@ -194,7 +207,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     ) -> Self {
         Self {
             step: StepState::default(),
-            neighbours: NeighbourState::new(&setup, N::ACTS),
+            neighbours: NeighbourState::new::<N>(&setup),
             pair_history: Vec::new(),
             walls: setup.walls.iter().copied().map(WallContacts::new).collect(),
             loading: Loading::present(setup.dt),
@@ -203,7 +216,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             workspace: Workspace::default(),
             ledger: None,
             profile: None,
-            alike: Self::alike(&particles),
+            alike: SphereProperties::of_all::<N, T>(&particles),
             buffers: Buffers::new(),
             bodies: Vec::new(),
             division: None,
@@ -231,23 +244,38 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 }
 
 impl NeighbourState {
-    /// Of a system whose spheres act on one another at contacts, or not.
-    fn new(setup: &Setup, touch: bool) -> Self {
+    /// For a system with this normal law.
+    fn new<N: NormalLaw>(setup: &Setup) -> Self {
         let reach = match setup.shielded {
             true => Reach::Column,
             false => Reach::Contact,
         };
-        let interact = touch || setup.shielded;
+        let interact = N::ACTS || setup.shielded;
         Self {
             list: interact.then(|| {
                 let list = VerletList::new(reach, setup.skin, setup.neighbours);
                 if setup.sorted { list.of_sorted() } else { list }
             }),
-            near: Near::new(touch, setup.shielded, 0.3 * setup.skin),
+            near: setup.near::<N>(),
             stale: true,
             age: Age::default(),
             near_age: Age::default(),
             spare_pairs: Vec::new(),
+        }
+    }
+
+    /// Adds the time (s) of a drift to the ages of the lists.
+    fn let_pass(&mut self, time: f64) {
+        self.age.time += time;
+        self.near_age.time += time;
+    }
+
+    /// A drift (s) that ends now. It checks whether the near pairs hold, if there are lists.
+    fn drift(&self, dt: f64) -> Drift {
+        let is_listed = self.list.is_some();
+        Drift {
+            dt,
+            allowance: is_listed.then(|| self.near.allowance(self.near_age.time)),
         }
     }
 }
@@ -339,7 +367,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
 
     fn forget_contacts(&mut self) {
         self.neighbours.list = None;
-        self.neighbours.near = Near::new(false, false, 0.0);
+        self.neighbours.near = Near::new(Purpose::NONE, 0.0);
         self.pair_history = Vec::new();
         self.neighbours.spare_pairs = Vec::new();
         self.walls.clear();

@@ -18,6 +18,26 @@ const AT_HAND: usize = 4 * BLOCK;
 /// The first sphere that was too fast after each of at most two kicks.
 pub(super) type FirstTooFast = [Option<TooFast>; 2];
 
+/// A motion of all spheres.
+#[derive(Clone, Copy)]
+pub(super) struct Motion<'a> {
+    /// How long each kick is (s).
+    pub(super) kicks: &'a [f64],
+    /// How long the drift after the kicks is (s), if there is one.
+    pub(super) drift: Option<f64>,
+    /// Whether forces and torques are set to zero afterwards.
+    pub(super) clear: bool,
+}
+
+impl Motion<'_> {
+    /// Spheres stay where they are, with their velocities and forces.
+    pub(super) const NONE: Self = Self {
+        kicks: &[],
+        drift: None,
+        clear: false,
+    };
+}
+
 /// What is done to each sphere, in this order.
 pub(super) struct Moves<'a> {
     /// Add to its force and torque.

@@ -51,9 +51,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Takes the near pairs that remember something, with their histories, to new places. These are
     /// most of the memory of a large scene, so all of it happens in their arrays.
     fn follow_pairs(&mut self, places: &[u32]) {
-        let mut pairs = self.neighbours.near.take_pairs();
+        let pairs = self.neighbours.near.pairs_mut();
         let histories = &mut self.pair_history;
         if !Self::HAS_HISTORY {
+            pairs.clear();
             histories.clear();
             return;
         }
@@ -91,6 +92,5 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
             histories[at] = history;
         }
-        self.neighbours.near.return_pairs(pairs);
     }
 }

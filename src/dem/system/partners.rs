@@ -59,8 +59,12 @@ impl<'a> Partners<'a> {
         }
     }
 
-    /// These spheres, and their forces and torques.
-    pub(super) fn of(spheres: &'a mut Spheres<'_>) -> (Self, [&'a mut [Vector]; 2]) {
+    /// These spheres, with the velocities and spins that load springs; and their forces and
+    /// torques.
+    pub(super) fn of(
+        spheres: &'a mut Spheres<'_>,
+        earlier: &'a [EarlierRows],
+    ) -> (Self, [&'a mut [Vector]; 2]) {
         let partners = Self {
             first: spheres.first as u32,
             position: spheres.position,
@@ -70,7 +74,7 @@ impl<'a> Partners<'a> {
             mass: spheres.mass,
             inverse_mass: spheres.inverse_mass,
             inertia: spheres.inertia,
-            earlier: &[],
+            earlier,
         };
         (partners, [spheres.force, spheres.torque])
     }

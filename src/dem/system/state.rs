@@ -3,9 +3,10 @@
 //! Lists, skins and margins are not part of it: no bit of the motion depends on them, and they are
 //! made anew. A contact without a history stands for one whose history is empty.
 
+use super::contact_state::SphereProperties;
 use super::ledger::Books;
 use super::wall_contacts::WallContacts;
-use super::{Age, Near, NearPair, Setup, System, VerletList};
+use super::{Age, NearPair, Setup, System, VerletList};
 use crate::dem::order;
 use crate::dem::state::StateError;
 use crate::forces::contact::NormalLaw;
@@ -198,8 +199,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         if self.neighbours.list.is_none() {
             return Ok(());
         }
-        self.alike = Self::alike(&self.particles);
-        self.neighbours.near = Near::new(N::ACTS, self.setup.shielded, 0.3 * self.setup.skin);
+        self.alike = SphereProperties::of_all::<N, T>(&self.particles);
+        self.neighbours.near = self.setup.near::<N>();
         self.forget_lists();
         let pairs = histories.iter().map(|&(i, j, _)| (i, j));
         self.neighbours.near.set_pairs(pairs);

@@ -11,9 +11,10 @@
 //! array.
 
 use super::System;
+use super::candidates::Candidates;
 use super::contact_task::{ContactSettings, ContactSlice, ContactTask, TooDeep};
 use super::division::{ThreadContacts, first_too_deep, threads};
-use super::moves::{Drift, FirstTooFast, Found, Moves};
+use super::moves::{FirstTooFast, Found, Moves};
 use super::partners::Partners;
 use super::sums::Sums;
 use super::touching::LOOK;
@@ -59,51 +60,37 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             && division.is_none_or(|it| it.has_narrow_boundaries())
     }
 
-    /// Adds up all forces, with near pairs that hold, then kicks for these times (s), drifts for a
-    /// time (s), and clears the forces. Returns the first sphere beyond its speed limit, and notes
-    /// whether a contact is too deep.
+    /// Adds up all forces, kicks for these times (s), drifts for a time (s), and clears the forces.
+    /// The near pairs must hold. Returns the first sphere beyond its speed limit, and notes whether
+    /// a contact is too deep.
     pub(super) fn stream(&mut self, kicks: &[f64], drift: f64) -> FirstTooFast {
         if !std::mem::replace(&mut self.step.forces_are_zero, true) {
             self.particles.clear_forces();
         }
-        self.neighbours.age.time += drift;
-        self.neighbours.near_age.time += drift;
+        self.neighbours.let_pass(drift);
         debug_assert!(
             self.loading.age == 0.0,
             "springs are loaded by present velocities"
         );
-        let candidates = self.take_candidates();
         let settings = self.settings();
+        let near = &self.neighbours.near;
         let moves = Moves {
             effects: &self.setup.effects,
             kicks,
-            drift: Some(Drift {
-                dt: drift,
-                allowance: Some(
-                    self.neighbours
-                        .near
-                        .allowance(self.neighbours.near_age.time),
-                ),
-            }),
+            drift: Some(self.neighbours.drift(drift)),
             clear: true,
             limits: &self.setup.limits,
             dt: self.setup.dt,
         };
-        let reference = self.neighbours.near.anchor().position();
-        let spheres = Spheres::new(&mut self.particles, reference);
-        let (pairs, walls) = candidates.with_histories(&mut self.pair_history, &mut self.walls);
         self.bodies
             .resize_with(threads(self.division.as_ref()), Bodies::new);
         let bodies = &mut self.bodies[..];
+        let spheres = Spheres::new(&mut self.particles, near.anchor().position());
+        let candidates = Candidates::all(near.pairs(), &mut self.pair_history, &mut self.walls);
         let mut streams = match &mut self.division {
-            Some(division) => division.streams(spheres, pairs, walls, bodies),
+            Some(division) => division.streams(spheres, candidates, bodies),
             None => {
-                let all = ThreadContacts {
-                    crossing: ContactSlice::none(),
-                    pairs,
-                    walls,
-                    buffers: &mut self.buffers,
-                };
+                let all = ThreadContacts::all(candidates, &mut self.buffers);
                 vec![Stream::new(spheres, all, &mut bodies[0], (None, None))]
             }
         };
@@ -118,8 +105,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.step.too_deep = first_too_deep(streams.iter().map(|it| it.too_deep));
         let found = streams.iter().map(|it| it.found);
         let found = found.fold(Found::default(), Found::and);
-        drop(streams);
-        self.return_candidates(candidates);
         self.neighbours.stale |= found.far;
         found.too_fast
     }
@@ -210,16 +195,16 @@ impl<'a, H: History> Stream<'a, H> {
             *next = Some((*wall, known.split(count)));
         }
         let first = self.spheres.first;
-        let (partners, [force, torque]) = Partners::of(&mut self.spheres);
+        let (partners, [force, torque]) = Partners::of(&mut self.spheres, &[]);
         let partners = copies.unwrap_or(partners);
         let mut task = ContactTask {
             partners,
             sums: Sums {
                 first: first.wrapping_sub(partners.first as usize),
+                clear: false,
                 force,
                 torque,
             },
-            clear: false,
             buffers: self.contacts.buffers,
             crossing,
             pairs,

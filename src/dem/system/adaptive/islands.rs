@@ -1,8 +1,8 @@
 //! Which spheres may touch one another within a step.
 
 use crate::dem::neighbours::NearPair;
-use crate::dem::system::candidates::Candidates;
 use crate::dem::system::wall_contacts::NearSphere;
+use crate::dem::walls::TankWall;
 
 /// Spheres that may touch one another within a step, directly or through others, and all that they
 /// may touch.
@@ -11,15 +11,26 @@ pub(super) struct Island {
     /// Their indices, in rising order.
     pub(super) spheres: Vec<u32>,
     /// Their contacts, possible ones included.
-    pub(super) candidates: Candidates,
+    pub(super) contacts: IslandContacts,
+}
+
+/// Contacts of an island, possible ones included.
+#[derive(Default)]
+pub(in crate::dem::system) struct IslandContacts {
+    /// Pairs, in the order of the list.
+    pub(in crate::dem::system) pairs: Vec<NearPair>,
+    /// Where the histories of these pairs are among those of all near pairs.
+    pub(in crate::dem::system) entries: Vec<u32>,
+    /// Spheres near each wall.
+    pub(in crate::dem::system) walls: [Vec<NearSphere>; TankWall::MOST],
 }
 
 impl Island {
     fn clear(&mut self) {
         self.spheres.clear();
-        self.candidates.pairs.clear();
-        self.candidates.entries.clear();
-        self.candidates.walls.iter_mut().for_each(Vec::clear);
+        self.contacts.pairs.clear();
+        self.contacts.entries.clear();
+        self.contacts.walls.iter_mut().for_each(Vec::clear);
     }
 }
 
@@ -113,16 +124,16 @@ impl Islands {
         for (pair, entry) in pairs.iter().zip(0..) {
             if self.holds_pair(pair.i(), pair.j(), fixed) {
                 let first = self.first(pair.j());
-                let candidates = &mut self.island(first).candidates;
-                candidates.pairs.push(*pair);
-                candidates.entries.push(entry);
+                let contacts = &mut self.island(first).contacts;
+                contacts.pairs.push(*pair);
+                contacts.entries.push(entry);
             }
         }
         for (wall, near) in walls.enumerate() {
             for &sphere in near {
                 if !self.is_free(sphere.i as usize) && sphere.i as usize >= fixed {
                     let first = self.first(sphere.i);
-                    self.island(first).candidates.walls[wall].push(sphere);
+                    self.island(first).contacts.walls[wall].push(sphere);
                 }
             }
         }
