@@ -1,9 +1,8 @@
-//! Blocks of contacts: the laws, for many pairs at once.
+//! Blocks of contacts: the laws for many pairs at once.
 //!
-//! For all pairs of a block, touching or not, the laws are computed in a loop that the compiler
-//! turns into vector instructions; a pair that does not touch gets a force of zero. Then the forces
-//! are added up one by one in the order of the list. Adding zero to a sum that began at +0 changes
-//! no bit of it.
+//! The laws are computed for all pairs of a block, in a loop that the compiler turns into vector
+//! instructions. A pair that does not touch gets a force of zero. Then the forces are added one by
+//! one in the order of the list. Adding zero to a sum that began at +0 changes no bit of it.
 
 mod gather;
 mod scatter;
@@ -21,7 +20,7 @@ use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
 use std::marker::PhantomData;
 
-/// Stands for an overlap within the limit; no touching pair has a negative one.
+/// Marks an overlap within the limit. No touching pair has a negative overlap.
 const NOT_DEEP: f64 = -1.0;
 
 /// Velocity and spin of a sphere before an evaluation of forces, in rows.
@@ -35,10 +34,10 @@ pub(super) struct ContactBlock<H> {
     velocity: Columns,
     /// Spins of both (rad/s).
     spin: [Columns; 2],
-    /// The same of before, if springs are loaded by those.
+    /// Earlier velocities and spins, if springs are loaded by these.
     earlier_velocity: Columns,
     earlier_spin: [Columns; 2],
-    /// What does not change from step to step, of both.
+    /// Properties of both, which do not change from step to step.
     properties: [PropertyColumns; 2],
     /// Whether all spheres are alike.
     alike: bool,
@@ -48,13 +47,13 @@ pub(super) struct ContactBlock<H> {
     inverse_distance: Column,
     contact_radius: Column,
     effective_mass: Column,
-    /// Contacts with a wall, now and before.
+    /// Contacts with a wall, present and earlier.
     wall_contact: WallContactColumns,
     earlier_wall_contact: WallContactColumns,
     /// Forces of springs (N).
     spring: Columns,
-    /// Of loaded springs: forces of dashpots (N), limits of friction (N), squares of both forces
-    /// (N2), 1 / their roots, and levers in radii.
+    /// For friction with a history: forces of dashpots (N), limits of friction (N), squared forces
+    /// of spring and dashpot (N2), the inverse roots of these squares, and levers in radii.
     drag: Columns,
     limit: Column,
     squared: Column,
@@ -64,7 +63,7 @@ pub(super) struct ContactBlock<H> {
     torque: [Columns; 2],
     /// Overlap of a pair beyond the limit (m), else [`NOT_DEEP`].
     too_deep: Column,
-    memory: PhantomData<H>,
+    history: PhantomData<H>,
 }
 
 impl<H: History> ContactBlock<H> {
@@ -96,14 +95,14 @@ impl<H: History> ContactBlock<H> {
             squared: [0.0; BLOCK],
             inverse_root: [0.0; BLOCK],
             lever: [0.0; BLOCK],
-            memory: PhantomData,
+            history: PhantomData,
             force: Columns::ZERO,
             torque: pair(),
             too_deep: [NOT_DEEP; BLOCK],
         }
     }
 
-    /// Sets the properties of all spheres, if they are alike: they are then not gathered.
+    /// Sets the properties of all spheres, if they are alike. These are then not gathered.
     pub(super) fn set_alike<N: NormalLaw, T: TangentialLaw>(
         &mut self,
         alike: Option<SphereProperties>,
@@ -126,7 +125,7 @@ impl<H: History> ContactBlock<H> {
         &mut self,
         laws: &Laws<N, T>,
     ) {
-        // Two loops, as a branch in one would keep it from being turned into vector instructions.
+        // Two loops, because a branch in a loop would prevent vector instructions.
         match Self::HAS_HISTORY && laws.loading.age > 0.0 {
             true => self.apply_laws_as::<N, T, true>(laws),
             false => self.apply_laws_as::<N, T, false>(laws),
@@ -160,8 +159,8 @@ impl<H: History> ContactBlock<H> {
         }
     }
 
-    /// The two at a contact, of which the second has the properties `other`, with their earlier
-    /// motion if springs are loaded by that.
+    /// The state of a contact whose second partner has the properties `other`. It includes the
+    /// earlier motion if springs are loaded by that.
     #[inline(always)]
     fn contact_state<T: TangentialLaw, const EARLIER: bool>(
         &self,

@@ -1,7 +1,7 @@
 //! The geometry of one contact: overlap, normal and levers, of two spheres or of a sphere and a
 //! wall.
 //!
-//! There are no branches, because these functions stand in loops over blocks of contacts.
+//! These functions have no branches, because loops over blocks of contacts call them.
 
 use super::contact_laws::Laws;
 use super::contact_state::{ContactState, SphereProperties};

@@ -1,7 +1,7 @@
 //! The force and torques at one contact, of two spheres or of a sphere and a wall.
 //!
-//! There are no branches, because these functions stand in loops over blocks of contacts, of which
-//! some touch and some do not.
+//! These functions have no branches, because loops over blocks of contacts call them, and some of
+//! these contacts do not touch.
 
 use super::contact_geometry::{ContactGeometry, Roots};
 use super::contact_state::ContactState;

@@ -1,4 +1,4 @@
-//! Position, motion and properties of the two at a contact.
+//! Position, motion and properties of the two partners of a contact.
 
 use super::contact_laws::Laws;
 use super::partners::Partners;
@@ -21,7 +21,7 @@ pub(super) struct ContactState {
     pub(super) properties: [SphereProperties; 2],
     /// 1 / (r1 + r2) (1/m).
     pub(super) inverse_sum: f64,
-    /// Their earlier motion, if springs are loaded by that and not by the present one.
+    /// The earlier motion, if springs are loaded by that and not by the present one.
     pub(super) earlier: Option<EarlierMotion>,
 }
 
@@ -75,7 +75,7 @@ impl ContactState {
     }
 }
 
-/// What of a sphere does not change with time.
+/// Properties of a sphere, which do not change with time.
 #[derive(Clone, Copy, Default)]
 pub(super) struct SphereProperties {
     /// Radius (m).
@@ -123,7 +123,7 @@ impl SphereProperties {
     }
 }
 
-/// Relative velocity (m/s) and spins (rad/s) before.
+/// Earlier relative velocity (m/s) and spins (rad/s).
 #[derive(Clone, Copy)]
 pub(super) struct EarlierMotion {
     pub(super) velocity: Vector,

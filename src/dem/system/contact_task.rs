@@ -5,10 +5,10 @@ use super::candidates::{AtWalls, Candidates};
 use super::contact_block::ContactBlock;
 use super::contact_laws::Laws;
 use super::contact_state::SphereProperties;
-use super::lanes::whole;
+use super::lanes::full_block;
 use super::partners::Partners;
 use super::sums::Sums;
-use super::touching::{LOOK, Touching};
+use super::touching::{CHUNK, Touching};
 use super::wall_contacts::NearSphere;
 use crate::dem::neighbours::NearPair;
 use crate::dem::profile::{self, Part, Profile};
@@ -20,7 +20,7 @@ use crate::particles::block::BLOCK;
 use crate::particles::vector::Vector;
 use fearless_simd::{Level, Simd};
 
-/// What a contact force depends on besides the two spheres and their history.
+/// Everything on which a contact force depends, besides the two spheres and their history.
 #[derive(Clone, Copy)]
 pub(super) struct ContactSettings<N, T> {
     pub(super) laws: Laws<N, T>,
@@ -31,7 +31,7 @@ pub(super) struct ContactSettings<N, T> {
     /// Whether nearly all near pairs touch. The others are then computed too, with a force of zero.
     pub(super) mostly_touch: bool,
     /// Whether the histories of pairs exceed the caches, and are prefetched.
-    pub(super) far: bool,
+    pub(super) prefetched: bool,
 }
 
 impl<N, T> ContactSettings<N, T> {
@@ -46,7 +46,7 @@ impl<N, T> ContactSettings<N, T> {
 /// Candidates for contacts, each with its history.
 pub(super) struct ContactSlice<'a, C, H> {
     pub(super) contacts: &'a [C],
-    /// Of each of them.
+    /// The history of each contact.
     pub(super) histories: &'a mut [H],
 }
 
@@ -58,7 +58,7 @@ impl<C, H> ContactSlice<'_, C, H> {
         }
     }
 
-    /// Takes that many from the front, or all if there are fewer.
+    /// Takes this number from the front, or all if there are fewer.
     pub(super) fn split(&mut self, count: usize) -> Self {
         Self {
             contacts: split_shared(&mut self.contacts, count),
@@ -83,8 +83,8 @@ enum PairKind {
 pub(super) struct Buffers<H> {
     block: ContactBlock<H>,
     touching: Touching,
-    /// Pairs by the indices of [`Partners`].
-    counted: [NearPair; LOOK],
+    /// Pairs with the indices of [`Partners`].
+    local: [NearPair; CHUNK],
 }
 
 impl<H: History> Buffers<H> {
@@ -92,7 +92,7 @@ impl<H: History> Buffers<H> {
         Box::new(Self {
             block: ContactBlock::new(),
             touching: Touching::new(),
-            counted: [NearPair::default(); LOOK],
+            local: [NearPair::default(); CHUNK],
         })
     }
 }
@@ -102,10 +102,10 @@ pub(super) struct ContactTask<'a, H> {
     pub(super) partners: Partners<'a>,
     pub(super) sums: Sums<'a>,
     pub(super) buffers: &'a mut Buffers<H>,
-    /// Pairs whose first sphere belongs to another thread, which computes its force and keeps the
-    /// pair's history. This is a copy.
+    /// Pairs whose first sphere belongs to another thread. That thread computes the force on it and
+    /// keeps the history, of which this is a copy.
     pub(super) crossing: ContactSlice<'a, NearPair, H>,
-    /// Pairs whose first sphere is one of these.
+    /// Pairs whose first sphere belongs to this thread.
     pub(super) pairs: ContactSlice<'a, NearPair, H>,
     pub(super) walls: AtWalls<'a, H>,
     /// The first contact beyond the overlap limit among pairs and at each wall.
@@ -138,9 +138,8 @@ impl<'a, H: History> ContactTask<'a, H> {
 
     /// Adds the forces and torques of all its contacts, in the order of the list.
     ///
-    /// The hot loops are compiled once per instruction set, and no more than once: this is most of
-    /// what a build has to do. Wider vectors change no bit: every lane computes what the scalar
-    /// code would.
+    /// The hot loops are compiled once per instruction set, which takes most of the time of a
+    /// build. Wider vectors change no bit: every lane computes what the scalar code would.
     pub(super) fn add_contacts<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,
@@ -193,7 +192,7 @@ impl<'a, H: History> ContactTask<'a, H> {
             laws,
             alike,
             mostly_touch,
-            far,
+            prefetched,
             ..
         } = settings;
         let partners = &self.partners;
@@ -205,12 +204,12 @@ impl<'a, H: History> ContactTask<'a, H> {
         let Buffers {
             block,
             touching,
-            counted,
+            local,
         } = &mut *self.buffers;
-        touching.far = *far;
+        touching.prefetched = *prefetched;
         let histories = &mut *slice.histories;
-        for (first, near) in (0..).step_by(LOOK).zip(slice.contacts.chunks(LOOK)) {
-            let near = partners.counted(near, counted);
+        for (first, near) in (0..).step_by(CHUNK).zip(slice.contacts.chunks(CHUNK)) {
+            let near = partners.local_pairs(near, local);
             let found = match *mostly_touch {
                 true => near.len(),
                 false => touching.find(simd, near, first, histories, partners, *alike),
@@ -251,13 +250,13 @@ impl<'a, H: History> ContactTask<'a, H> {
         let block = &mut self.buffers.block;
         let blocks = (near.contacts.chunks(BLOCK)).zip(near.histories.chunks_mut(BLOCK));
         let partners = &self.partners;
-        let (mut rest, mut counted) = (
+        let (mut rest, mut local) = (
             [NearSphere::default(); BLOCK],
             [NearSphere::default(); BLOCK],
         );
         for (spheres, histories) in blocks {
-            let lanes = whole(spheres, &mut rest);
-            let lanes = partners.counted_at_wall(lanes, &mut counted);
+            let lanes = full_block(spheres, &mut rest);
+            let lanes = partners.local_spheres(lanes, &mut local);
             block.gather_spheres::<S, N, T>(simd, lanes, histories, partners);
             match wall {
                 TankWall::Floor(wall) | TankWall::Side(wall) => {

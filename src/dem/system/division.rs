@@ -1,10 +1,11 @@
 //! One simulation on several threads.
 //!
 //! Each thread computes the forces on a range of indices, which in a sorted scene is a region of
-//! space. A pair whose spheres are those of two threads is computed by both, and each adds to its
-//! own sphere, before its other pairs: so every sum is in the order of the list, as with one
-//! thread, and there is nothing to wait for. What such a pair remembers, both have. Where each
-//! moves its spheres at once, such pairs are computed of copies of the spheres around the boundary.
+//! space. If the spheres of a pair belong to two threads, both compute the pair, and each adds the
+//! force to its own sphere. Such pairs come before the other pairs of the thread. So every sum
+//! keeps the order of the list, and no thread waits for another. Each of the two threads keeps a
+//! copy of the pair's history. If threads move their spheres in the same pass, these pairs read
+//! copies of the spheres around the boundary.
 
 use super::candidates::{AtWalls, Candidates};
 use super::contact_task::{Buffers, ContactSettings, ContactSlice, ContactTask, TooDeep};
@@ -23,17 +24,17 @@ use crate::particles::bodies::Bodies;
 use fearless_simd::Level;
 use std::ops::Range;
 
-/// Boundaries are narrow if at most one in this number of spheres is copied for them.
+/// Boundaries are narrow if at most one in this number of spheres is copied.
 const NARROW: usize = 8;
 
-/// Which thread computes what.
+/// The division of spheres and contacts among threads.
 pub(super) struct Division<H> {
     regions: Vec<Region<H>>,
-    /// Before each but the first: from the first to the last sphere of pairs across the boundary.
+    /// One before each region but the first: the range that holds all pairs across the boundary.
     boundaries: Vec<Copies>,
 }
 
-/// What one thread computes.
+/// The part of one thread.
 struct Region<H> {
     spheres: Range<usize>,
     /// Near pairs whose first sphere is one of these.
@@ -101,7 +102,7 @@ impl<H: History> Division<H> {
             }
         };
         let bounds: Vec<usize> = (0..=threads).map(bound).collect();
-        // There is no boundary before the first one.
+        // There is no boundary before the first region.
         let mut none = Copies::default();
         let boundaries = std::iter::once(&mut none).chain(&mut self.boundaries);
         let mut regions: Vec<_> = (self.regions.iter_mut().zip(boundaries))
@@ -133,7 +134,7 @@ impl<H: History> Division<H> {
         });
     }
 
-    /// Whether copies of the spheres around the boundaries are few.
+    /// Whether few spheres around the boundaries are copied.
     pub(super) fn has_narrow_boundaries(&self) -> bool {
         let copies: usize = self.boundaries.iter().map(|it| it.spheres.len()).sum();
         let spheres = self.regions.last().map_or(0, |it| it.spheres.end);
@@ -297,8 +298,8 @@ mod tests {
         }
     }
 
-    /// Spheres of a cubic lattice with so many in a layer, in contact with the next one along each
-    /// axis.
+    /// Pairs of a lattice with `layer` spheres in each layer, where a sphere touches the next one
+    /// in its layer and the one above.
     fn lattice(layer: u32, layers: u32) -> Vec<NearPair> {
         let count = layer * layers;
         let pairs = (0..count).flat_map(|i| [1, layer].map(|step| (i, i + step)));

@@ -1,4 +1,4 @@
-//! One evaluation: the forces and torques of everything, at the present positions and velocities.
+//! One evaluation of all forces and torques, at the present positions and velocities.
 
 use super::candidates::Candidates;
 use super::contact_laws::Laws;
@@ -6,7 +6,7 @@ use super::contact_task::{ContactSettings, ContactTask};
 use super::moves::{FirstTooFast, Motion};
 use super::partners::Partners;
 use super::sums::Sums;
-use super::touching::come_from_far;
+use super::touching::exceed_caches;
 use super::{NeighbourState, System};
 use crate::dem::bodies::Spheres;
 use crate::dem::profile::{self, Part};
@@ -30,7 +30,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.check_overlaps()
     }
 
-    /// Looks for near pairs if the present ones do not hold.
+    /// Finds the near pairs again, if the present ones do not hold.
     fn hold_near(&mut self) -> Result<(), Instability> {
         let NeighbourState {
             near,
@@ -81,7 +81,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.step.too_deep = self.step.too_deep.or(too_deep);
     }
 
-    /// Evaluates all forces, and moves all spheres. Returns the first sphere beyond its speed limit.
+    /// Evaluates all forces and moves all spheres. Returns the first sphere beyond its speed limit.
     ///
     /// If an overlap is too deep in a large scene, its spheres are moved all the same, whatever the
     /// number of threads.
@@ -110,7 +110,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Ok(too_fast)
     }
 
-    /// Forces and torques of all but contacts.
+    /// Evaluates forces and torques of the effects alone.
     pub(super) fn evaluate_effects(&mut self) {
         self.particles.clear_forces();
         self.apply_effects();
@@ -137,7 +137,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
-    /// Makes effects ready for the present positions.
+    /// Prepares the effects for the present positions.
     pub(super) fn prepare_effects(&mut self) {
         if self.setup.shielded {
             let (near, particles) = (&mut self.neighbours.near, &self.particles);
@@ -181,14 +181,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
-    /// What a contact force depends on besides the two spheres and their history.
+    /// Everything on which a contact force depends, besides the two spheres and their history.
     pub(super) fn settings(&self) -> ContactSettings<N, T> {
         ContactSettings {
             laws: self.laws(),
             fixed: self.particles.fixed as u32,
             alike: self.alike,
             mostly_touch: self.neighbours.near.mostly_touch(),
-            far: come_from_far(&self.pair_history),
+            prefetched: exceed_caches(&self.pair_history),
         }
     }
 }

@@ -21,7 +21,7 @@ use std::ops::Range;
 enum Next {
     /// Another step, at once.
     Step,
-    /// Somebody who may look at the spheres.
+    /// A pause, in which the spheres may be read.
     Pause,
 }
 
@@ -38,7 +38,7 @@ impl Before {
         self.spin.clone_from(&particles.spin);
     }
 
-    /// Writes them in rows, of spheres that turn.
+    /// Writes them in rows, for spheres that rotate.
     fn to_rows(&self, rows: &mut Vec<EarlierRows>) {
         rows.clear();
         let spheres = self.velocity.iter().zip(&self.spin);
@@ -78,7 +78,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         };
         self.bodies
             .resize_with(threads(self.division.as_ref()), Bodies::new);
-        let found = moves.of_all(
+        let found = moves.apply(
             Spheres::new(&mut self.particles, reference),
             &mut self.bodies,
             self.level,
@@ -108,13 +108,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.move_all(0..0, motion);
     }
 
-    /// Reports a sphere beyond its speed limit in this step, or else in the next one if it has begun.
+    /// Reports a sphere beyond its speed limit in this step, or in the next one if that has begun.
     pub(super) fn check_speeds(&mut self, too_fast: FirstTooFast) -> Result<(), Instability> {
         let mut steps = (self.step.number..).zip(too_fast);
         let Some((step, it)) = steps.find_map(|(step, it)| Some((step, it?))) else {
             return Ok(());
         };
-        // The state belongs to no whole step: the guard was broken part-way.
+        // The guard was broken in the middle of a step.
         (self.step.number, self.step.first_half_done) = (step, false);
         let Setup { limits, dt, .. } = &self.setup;
         Err(limits.speed_broken(step, *dt, it))
@@ -147,8 +147,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.neighbours.near_age.steps += 1;
     }
 
-    /// Forces at the start, where no scheme has a latest one. No time goes by, so that contacts do
-    /// not load their springs.
+    /// Evaluates the forces at the start, before which there are no latest ones. No time passes, so
+    /// that contacts do not load their springs.
     fn evaluate_start(&mut self) -> Result<(), Instability> {
         let loading = std::mem::replace(&mut self.loading, Loading::present(0.0));
         let result = self.evaluate();
@@ -161,7 +161,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.begin_step();
         let dt = self.setup.dt;
         let too_fast = if self.ledger.is_some() {
-            // The energy balance looks at the spheres in between.
+            // The energy balance reads the spheres between kick and drift.
             self.evaluate()?;
             let too_fast = self.kick(dt);
             self.note_kick(dt);
@@ -200,7 +200,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return self.check_speeds(too_fast);
         }
         // The order of spheres follows from where they are after whole steps.
-        let begins_next = next == Next::Step && !self.looks_at_order();
+        let begins_next = next == Next::Step && !self.checks_order();
         let motion = match begins_next {
             true => Motion {
                 kicks: &[half, half],
@@ -232,7 +232,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.evaluate_start()?;
         }
         let (dt, half) = (self.setup.dt, 0.5 * self.setup.dt);
-        // From one middle to the next springs are loaded by the velocity between them.
+        // Springs are loaded from one middle to the next by the velocity between them.
         let duration = if self.step.number == 1 { half } else { dt };
         self.loading = Loading::earlier(duration, half);
         self.drift(half);

@@ -1,8 +1,8 @@
-//! Where the energy goes: the work of damping, of tangential forces and of the air.
+//! The energy balance: the work of damping, of tangential forces and of the air.
 //!
 //! A kick by a force F turns v into v' and adds F (v + v') / 2 dt to the kinetic energy, exactly.
-//! So work is summed up kick by kick, from the forces that the kicks use. What the balance then
-//! misses is what the scheme makes of conservative forces, not an error of the sum.
+//! So the work is summed kick by kick, from the forces that the kicks use. The residual of the
+//! balance is then the error of the scheme for conservative forces, not an error of the sum.
 
 use super::adaptive::IslandContacts;
 use super::contact_block::EarlierRows;
@@ -28,13 +28,13 @@ pub(in crate::dem) struct Work {
     pub(in crate::dem) damping: f64,
     /// Of tangential forces.
     pub(in crate::dem) tangential: f64,
-    /// Of what the air does, the damping of spins included.
+    /// Of the air, including the damping of spins.
     pub(in crate::dem) air: f64,
-    /// Energy of spheres that came in, less that of those that left.
+    /// Energy of spheres that came in, minus that of spheres that left.
     pub(in crate::dem) brought: f64,
 }
 
-/// Work so far, and the components of the latest forces that do it.
+/// The work so far, and the components of the latest forces that do it.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Books {
     pub(super) work: Work,
@@ -47,7 +47,7 @@ pub(super) struct Books {
 }
 
 impl Books {
-    /// What contacts fill, and what the air does.
+    /// The components of contacts, and those of the air.
     fn components(&mut self) -> ([&mut Vec<Vector>; 3], [&mut Vec<Vector>; 2]) {
         let contacts = [
             &mut self.damping,
@@ -57,7 +57,7 @@ impl Books {
         (contacts, [&mut self.air, &mut self.air_torque])
     }
 
-    /// Whether they may be those of these spheres; before the first step they are empty.
+    /// Whether the books may belong to these spheres. Before the first step they are empty.
     pub(super) fn fit(&self, particles: &Particles) -> bool {
         let parts = [
             &self.damping,
@@ -71,7 +71,7 @@ impl Books {
             && (self.air_torque.len() == first || !particles.rotate())
     }
 
-    /// Makes room for that many spheres.
+    /// Makes room for this number of spheres.
     pub(super) fn resize(&mut self, spheres: usize) {
         let (contacts, air) = self.components();
         for forces in contacts.into_iter().chain(air) {
@@ -79,14 +79,14 @@ impl Books {
         }
     }
 
-    /// Forgets the contacts of all spheres.
+    /// Clears the contact forces of all spheres.
     fn clear(&mut self) {
         for forces in self.components().0 {
             forces.fill(Vector::ZERO);
         }
     }
 
-    /// Forgets the contacts of one sphere.
+    /// Clears the contact forces of one sphere.
     pub(super) fn clear_sphere(&mut self, i: u32) {
         for forces in self.components().0 {
             forces[i as usize] = Vector::ZERO;
@@ -106,7 +106,7 @@ impl Books {
         }
     }
 
-    /// Follows spheres into a new order.
+    /// Puts the spheres into a new order.
     pub(super) fn reorder(&mut self, order: &[u32]) {
         self.resize(order.len());
         let (contacts, air) = self.components();
@@ -123,7 +123,7 @@ impl Books {
         self.tangential_torque[i] += torque;
     }
 
-    /// Notes what effects of the air added to forces and torques.
+    /// Notes what the effects of the air added to forces and torques.
     pub(super) fn note_air(&mut self, before: [&[Vector]; 2], particles: &Particles) {
         let after = [&particles.force, &particles.torque];
         for ((air, before), after) in self.components().1.into_iter().zip(before).zip(after) {
@@ -157,8 +157,8 @@ pub(super) struct Ledger {
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Energy of the spheres and the tangential springs, and of the springs alone (J), if books are
-    /// kept.
+    /// Energy of the spheres and the tangential springs, and of the springs alone (J), if a ledger
+    /// is kept.
     pub(super) fn energy_in_books(&mut self) -> Option<[f64; 2]> {
         self.ledger.as_ref()?;
         let contacts = self.contacts();
@@ -180,13 +180,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         ])
     }
 
-    /// Notes that spheres came or left since there was that energy.
+    /// Notes that spheres came or left since the energy was measured as `before`.
     pub(super) fn note_exchange(&mut self, before: Option<[f64; 2]>) {
         let Some(before) = before else { return };
         let after = self.energy_in_books();
         if let (Some(ledger), Some(after)) = (&mut self.ledger, after) {
             ledger.books.work.brought += after[0] - before[0];
-            // Springs that are gone have rubbed nothing.
+            // The energy of springs that are gone was not dissipated by friction.
             ledger.books.work.tangential -= after[1] - before[1];
         }
     }
@@ -205,7 +205,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Notes all contacts, before their forces are evaluated: histories are only read.
     pub(super) fn note_all_contacts(&mut self) {
-        self.forget_contacts_in_books();
+        self.clear_contacts_in_books();
         let laws = self.laws();
         let (true, Some(ledger)) = (N::ACTS, &mut self.ledger) else {
             return;
@@ -222,8 +222,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
-    /// Forgets the contacts that were noted, if books are kept.
-    pub(super) fn forget_contacts_in_books(&mut self) {
+    /// Clears the contact forces of all spheres, if a ledger is kept.
+    pub(super) fn clear_contacts_in_books(&mut self) {
         if let Some(ledger) = &mut self.ledger {
             ledger.books.resize(self.particles.len());
             ledger.books.clear();
@@ -248,7 +248,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 }
 
-/// What contacts are noted with.
+/// Adds contacts to the books.
 struct Notes<'a, N, T> {
     laws: Laws<N, T>,
     spheres: Partners<'a>,

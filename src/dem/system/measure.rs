@@ -1,4 +1,4 @@
-//! What the contacts hold: energies, and how many there are.
+//! Energies and number of the contacts.
 
 use super::{Contacts, System};
 use crate::dem::walls::Wall;
@@ -7,8 +7,8 @@ use crate::forces::friction::TangentialLaw;
 use crate::particles::Particles;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// What the contacts hold. This reads positions alone, and builds the list at most earlier than
-    /// a step would: no bit of the motion depends on when the list is built.
+    /// Energies and number of the contacts. At most the list is built earlier than a step would
+    /// build it, on which no bit of the motion depends.
     pub(super) fn measure_contacts(&mut self) -> Contacts {
         if !N::ACTS || self.neighbours.list.is_none() {
             return Contacts::default();

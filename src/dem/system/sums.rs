@@ -19,7 +19,7 @@ pub(super) struct Sums<'a> {
 }
 
 impl<'a> Sums<'a> {
-    /// Takes those of that many spheres from the front.
+    /// Takes those of this number of spheres from the front.
     pub(super) fn split(&mut self, count: usize) -> Sums<'a> {
         let first = self.first;
         self.first += count;

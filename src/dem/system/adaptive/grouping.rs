@@ -94,9 +94,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         radius * radius * inverse
     }
 
-    /// Squared frequency (1/s2) and damping rate (1/s) of an impact of that overlap (m) and speed
-    /// (m/s) at its deepest, if it may gain so much speed (m/s). `yielding` is 1 / m_eff and
-    /// `turning` what rotation adds to it (1/kg).
+    /// Squared frequency (1/s2) and damping rate (1/s) of an impact at its deepest. It has this
+    /// overlap (m) and speed (m/s), and may gain the speed `gain` (m/s). `yielding` is 1 / m_eff,
+    /// and `turning` is what rotation adds to it (1/kg).
     fn rates(
         &self,
         overlap: f64,
@@ -120,8 +120,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let along = yielding + turning;
         let squared = (normal.stiffness(overlap, effective_radius) * yielding)
             .max(tangential.stiffness(overlap, effective_radius) * along);
-        // Sliding that stops faster than the contact swings is not resolved: it trembles, within
-        // what friction can carry.
+        // Sliding that stops faster than the contact oscillates is not resolved. Its force
+        // oscillates within the limit of friction.
         let friction = (tangential.damping(&grip) * along).min(squared.sqrt());
         let damping = normal.damping(overlap, effective_radius, effective_mass) * yielding;
         [squared, damping.max(friction)]

@@ -37,18 +37,18 @@ impl Island {
 /// The parts into which contacts divide the spheres.
 #[derive(Default)]
 pub(super) struct Islands {
-    /// Another sphere of the same island, on the way to the first of it.
+    /// Another sphere of the same island, on the path to the first sphere of it.
     parent: Vec<u32>,
-    /// Whether a sphere touches anything, or may.
+    /// Whether a sphere touches anything or may touch it.
     active: Vec<bool>,
-    /// The island of each sphere that is the first of one.
+    /// The island of each sphere that is the first of an island.
     island_of: Vec<u32>,
     islands: Vec<Island>,
     used: usize,
 }
 
 impl Islands {
-    /// Makes every sphere a part of its own, which touches nothing.
+    /// Makes every sphere an island of its own, which touches nothing.
     pub(super) fn reset(&mut self, spheres: usize) {
         self.parent.clear();
         self.parent.extend(0..spheres as u32);
@@ -61,8 +61,8 @@ impl Islands {
         self.active[sphere as usize] = true;
     }
 
-    /// Notes that two spheres may touch, of which the first `fixed` do not move: they join no
-    /// parts.
+    /// Notes that two spheres may touch. The first `fixed` spheres do not move, and join no
+    /// islands.
     pub(super) fn join(&mut self, i: u32, j: u32, fixed: usize) {
         self.touch(j);
         if (i as usize) < fixed {
@@ -73,7 +73,7 @@ impl Islands {
         self.parent[i.max(j) as usize] = i.min(j);
     }
 
-    /// The first sphere of the part.
+    /// The first sphere of the island of a sphere.
     fn first(&mut self, sphere: u32) -> u32 {
         let mut i = sphere;
         while self.parent[i as usize] != i {
@@ -84,12 +84,13 @@ impl Islands {
         i
     }
 
-    /// Whether a sphere touches nothing, and will not.
+    /// Whether a sphere touches nothing, now or within the step.
     pub(super) fn is_free(&self, sphere: usize) -> bool {
         !self.active[sphere]
     }
 
-    /// Whether the contact of two spheres is one of an island; of a pair the second always moves.
+    /// Whether the contact of two spheres belongs to an island. The second sphere of a pair always
+    /// moves.
     pub(super) fn holds_pair(&mut self, i: u32, j: u32, fixed: usize) -> bool {
         if (i as usize) < fixed {
             return self.active[j as usize];
@@ -97,7 +98,7 @@ impl Islands {
         self.active[i as usize] && self.active[j as usize] && self.first(i) == self.first(j)
     }
 
-    /// Puts what may touch into islands, in the order of the indices.
+    /// Puts spheres that may touch and their contacts into islands, in the order of the indices.
     pub(super) fn collect<'a>(
         &mut self,
         pairs: &[NearPair],

@@ -15,19 +15,20 @@ use crate::forces::friction::TangentialLaw;
 use crate::particles::Particles;
 use crate::simulation::Instability;
 
-/// How often a step is tried, each time with more room. One that needs more is on its way to a
-/// guard.
+/// How often a step is tried, each time with larger groups. A step that needs more attempts will
+/// break a guard.
 const ATTEMPTS: u32 = 20;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// One step of synchronised Verlet, cut into as many sub-steps as the contacts need, for each
-    /// group of touching spheres by itself: the others move in one go. What acts besides contacts
-    /// is taken from the middle of the whole step.
+    /// group of touching spheres by itself. All other spheres move in one step. Forces other than
+    /// those of contacts are evaluated in the middle of the whole step.
     ///
-    /// A sphere belongs to a group if it touches another one or might within the step, by its
-    /// predicted displacement. If contacts move a sphere farther, the step is repeated with twice
-    /// that distance. So no contact is missed.
+    /// A sphere belongs to a group if it touches another one, or may do so within the step
+    /// according to its predicted displacement. If contacts move a sphere farther, the step is
+    /// repeated with twice that distance. So no contact is missed.
     pub(super) fn adaptive_verlet(&mut self) -> Result<(), Instability> {
+        // Taken out, because the methods of a step borrow the whole system beside it.
         let mut work = std::mem::take(&mut self.workspace);
         let result = self.adaptive_step(&mut work);
         self.workspace = work;
@@ -42,7 +43,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         work.held.velocity.clone_from(&work.start.velocity);
         work.held.spin.clone_from(&work.start.spin);
         if Self::HAS_HISTORY {
-            // Of fixed spheres it stays zero.
+            // The motion of fixed spheres stays zero.
             self.earlier.clear();
             self.earlier
                 .resize(self.particles.len(), Default::default());
@@ -61,7 +62,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             if let (Some(ledger), Some(books)) = (&mut self.ledger, books) {
                 ledger.books.work = books;
             }
-            // The lists may be made anew, and histories with them.
+            // The lists may be built again, and histories with them.
             self.hold_for(reach)?;
             self.keep_histories(&mut work.start);
         }
@@ -90,14 +91,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         outcome
     }
 
-    /// Forces and torques of all but contacts, in the middle of the step as predicted, and
-    /// how far the spheres may get in the step. Leaves the spheres where they were.
+    /// Evaluates the forces and torques of the effects at the predicted middle of the step, and how
+    /// far the spheres may move in the step. Leaves the spheres where they were.
     fn slow_forces(&mut self, work: &mut Workspace<T::History>) -> Result<(), Instability> {
         let dt = self.setup.dt;
         if self.neighbours.stale {
             self.refresh()?;
         }
-        self.forget_contacts_in_books();
+        self.clear_contacts_in_books();
         self.evaluate_effects();
         let reach = work.find_reach(&self.particles, dt);
         self.hold_for(reach)?;
@@ -115,12 +116,12 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Ok(())
     }
 
-    /// Sees to it that the near pairs hold while no sphere goes farther than `reach` (m).
+    /// Makes the near pairs hold while no sphere moves farther than `reach` (m).
     fn hold_for(&mut self, reach: f64) -> Result<(), Instability> {
         let Some(list) = &mut self.neighbours.list else {
             return Ok(());
         };
-        // Twice what is needed, to be of use for more than one step.
+        // Twice what is needed, so that they hold for more than one step.
         let margin = 4.0 * reach;
         list.require(2.0 * margin);
         let wide = self.neighbours.near.require(margin);

@@ -18,7 +18,7 @@ use crate::particles::vector::Vector;
 use crate::simulation::Instability;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Moves the spheres of an island by a step, in that many parts.
+    /// Moves the spheres of an island by a step, in this number of sub-steps.
     pub(super) fn move_island(
         &mut self,
         island: &Island,
@@ -36,7 +36,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
         }
         for sub_step in 0..sub_steps {
-            // From one middle to the next, at first from the start to the middle.
+            // Springs are loaded from one middle to the next, and at first from the start to the
+            // middle.
             let duration = if sub_step == 0 { half } else { time };
             self.loading = Loading::earlier(duration, half);
             for &i in &island.spheres {
@@ -75,8 +76,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             work.held.torque.extend(torques);
         }
         self.add_island_forces(&island.contacts);
-        // Forces of spheres that move are those of the last middle still, and the next step finds
-        // what is too deep, if it matters.
+        // Forces must remain those of the last middle. An overlap that is too deep is found by the
+        // next step.
         let particles = &mut self.particles;
         for (i, &force) in spheres().zip(&work.held.force) {
             particles.force[i] = force;
@@ -88,7 +89,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Moves a sphere to the middle of a sub-step, and gives it the velocity and spin that the
-    /// latest forces predict there; its own are held.
+    /// latest forces predict there. Its own velocity and spin are held.
     fn predict(&mut self, i: usize, half: f64, work: &mut Workspace<T::History>) {
         let particles = &mut self.particles;
         particles.position[i] += particles.velocity[i] * half;
@@ -144,8 +145,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 }
 
-/// Copies of the histories of an island's contacts, in the order of these contacts: the kernels
-/// expect them so, and the originals stand among those of all contacts.
+/// Copies of the histories of an island's contacts. The kernels expect the history of each contact
+/// at the index of the contact, and the originals lie among those of all contacts.
 struct IslandHistories<H> {
     pairs: Vec<H>,
     walls: [Vec<H>; TankWall::MOST],

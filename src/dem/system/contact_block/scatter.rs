@@ -49,8 +49,8 @@ impl<H: History> ContactBlock<H> {
         }
     }
 
-    /// Adds forces and torques of a wall to the sums of these spheres, of which the first `contacts`
-    /// count.
+    /// Adds forces and torques of a wall to the sums of the first `contacts` of these spheres. The
+    /// other lanes repeat a sphere, and add zero.
     #[inline(always)]
     pub(in crate::dem::system) fn scatter_to_spheres<S: Simd, T: TangentialLaw<History = H>>(
         &mut self,
