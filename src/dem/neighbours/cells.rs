@@ -19,7 +19,7 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// Sorts the spheres into cells of that width or wider (m). Cells of columns hold spheres of
+    /// Sorts the spheres into cells of this width or wider (m). Cells of columns hold spheres of
     /// any height.
     pub(super) fn fill(
         &mut self,
@@ -31,7 +31,7 @@ impl Cells {
         let count = particles.len();
         let (low, high) = bounds(&particles.position);
         let extent = high - low;
-        // Cells beyond a few per sphere would only cost time and memory.
+        // More than a few cells per sphere would only cost time and memory.
         let most = 4 * count + 64;
         let mut width = width;
         loop {
@@ -45,7 +45,7 @@ impl Cells {
             if nx.saturating_mul(ny).saturating_mul(nz) <= most {
                 break;
             }
-            // The smallest of numbers would not grow.
+            // A width of zero would not grow.
             width = (1.25 * width).max(f64::MIN_POSITIVE);
         }
         let inverse = 1.0 / width;
@@ -96,7 +96,7 @@ impl Cells {
         self.first[0] = 0;
     }
 
-    /// Calls `visit` with the sorted range of every row of cells about sphere `i`.
+    /// Calls `visit` with the sorted range of every row of cells around sphere `i`.
     #[inline]
     fn rows_about(&self, i: usize, mut visit: impl FnMut(std::ops::Range<usize>)) {
         let [nx, ny, nz] = self.shape;
@@ -112,7 +112,7 @@ impl Cells {
     }
 
     /// Calls `visit` with index, centre and radius of the spheres in the cell of sphere `i` and in
-    /// those about it.
+    /// the cells around it.
     #[inline]
     pub(super) fn near(
         &self,
@@ -123,7 +123,7 @@ impl Cells {
         self.rows_about(i, |row| {
             let index = &self.index[row.clone()];
             if self.position.is_empty() {
-                // Of two neighbours the one of lower index is not asked for.
+                // A sphere of lower index is no partner that is asked for.
                 for &j in index.iter().filter(|&&j| j as usize > i) {
                     let at = j as usize;
                     visit(j, particles.position[at], particles.radius[at]);

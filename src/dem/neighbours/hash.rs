@@ -7,11 +7,11 @@ use crate::particles::vector::Vector;
 /// No sphere.
 const NONE: u32 = u32::MAX;
 
-/// The place of a cell: how many cells it is from the origin, along x, y and z.
+/// The coordinates of a cell, counted in cells from the origin along x, y and z.
 type Place = [i64; 3];
 
-/// Spheres in cells of one width. A cell is a chain that begins at the entry of its hash; cells of
-/// equal hash share one, so every sphere keeps the place of its cell.
+/// Spheres in cells of one width. A cell is a chain that begins at the entry of its hash. Cells of
+/// equal hash share a chain, so every sphere keeps the coordinates of its cell.
 #[derive(Clone, Debug, Default)]
 pub(super) struct HashedCells {
     /// The first sphere of each chain; a power of two of them.
@@ -55,7 +55,7 @@ impl HashedCells {
     }
 
     /// Calls `visit` with index, centre and radius of the spheres in the cell of sphere `i` and in
-    /// those about it.
+    /// the cells around it.
     #[inline]
     pub(super) fn near(
         &self,

@@ -1,4 +1,4 @@
-//! The search for candidate pairs, before distances are computed.
+//! The search for candidate pairs, before their distances are computed.
 
 use super::Reach;
 use super::cells::Cells;
@@ -24,7 +24,7 @@ pub(super) enum Search {
     Cells(Cells, Option<f64>),
     /// Cells of this width (m) in a hash table.
     Hashed(HashedCells, f64),
-    /// No choice at all.
+    /// Every sphere may be near every other.
     AllPairs,
 }
 
@@ -52,7 +52,7 @@ impl Search {
         reach: Reach,
         storage: Storage,
     ) {
-        // A hair wider: rounding must not put the partners of a pair two cells apart.
+        // Slightly wider, so that rounding cannot put the partners of a pair two cells apart.
         let wide = |width: f64| width * (1.0 + 1e-9);
         match self {
             Self::Cells(cells, width) => {
@@ -64,7 +64,7 @@ impl Search {
         }
     }
 
-    /// Gives back the memory of cells.
+    /// Frees the memory of cells.
     pub(super) fn forget(&mut self) {
         if let Self::Cells(cells, _) = self {
             *cells = Cells::default();
@@ -72,7 +72,7 @@ impl Search {
     }
 
     /// Calls `visit` with index, centre and radius of all spheres that may be near sphere `i`, and
-    /// of others, in no order.
+    /// of other spheres, in no order.
     #[inline]
     pub(super) fn near(
         &self,
@@ -83,7 +83,7 @@ impl Search {
         match self {
             Self::Cells(cells, _) => cells.near(i, particles, visit),
             Self::Hashed(cells, _) => cells.near(i, particles, visit),
-            // A pair is looked at once, from the sphere of lower index: half of all.
+            // Each pair is visited once, from the sphere of lower index.
             Self::AllPairs => {
                 for j in particles.first_partner(i)..particles.len() {
                     visit(j as u32, particles.position[j], particles.radius[j]);
