@@ -30,11 +30,11 @@ pub enum BuildError {
     LawsDoNotGoTogether,
 }
 
-/// First skin of a neighbour list for contacts, in radii of the largest sphere: where lists are
-/// long-lived and not yet long.
+/// First skin of a neighbour list for contacts, in radii of the largest sphere. The list then holds
+/// for many steps and is still short.
 const CONTACT_SKIN: f64 = 0.5;
 
-/// The same with the columns of an updraught's shield, whose list grows less with its skin.
+/// The same for the columns of an updraught's shield, whose list grows less with its skin.
 const COLUMN_SKIN: f64 = 1.0;
 
 /// A running simulation.
@@ -42,14 +42,14 @@ pub struct Simulation {
     pub(super) engine: Box<dyn Engine>,
     /// Absent where no sphere comes or goes.
     pub(super) process: Option<Process>,
-    /// Radius (m), mass (kg) and moment of inertia (kg m2) of every sphere of the scene, those
-    /// included that are not in yet; empty where all are alike and sorted.
+    /// Radius (m), mass (kg) and moment of inertia (kg m2) of every sphere of the scene, including
+    /// those that are not in yet. Empty if all are alike and sorted.
     pub(super) radius: Vec<f64>,
     pub(super) mass: Vec<f64>,
     pub(super) inertia: Vec<f64>,
     dt: f64,
     pub(super) steps_per_frame: u64,
-    /// What a frame borrows.
+    /// Columns of positions, velocities and spins, which a frame borrows.
     pub(super) components: [[Vec<f64>; 3]; 3],
     /// The threads that the engine runs on, if there are several.
     pool: Option<ThreadPool>,
@@ -64,7 +64,7 @@ impl Simulation {
         let skin = match (scene.dem.neighbours, &scene.dem.effects.updraught) {
             (Neighbours::VerletList, None) => CONTACT_SKIN,
             (Neighbours::VerletList, Some(_)) => COLUMN_SKIN,
-            // Found anew in every step.
+            // These lists are built in every step.
             _ => 0.0,
         };
         Self::with_skin(scene, skin)
@@ -143,7 +143,7 @@ impl Simulation {
         };
         let end = self.engine.step() + steps;
         let result = process.advance(self.engine.as_mut(), end);
-        // A guard names a sphere by its place in memory.
+        // A guard names a sphere by its index in memory.
         result.map_err(|instability| Instability {
             sphere: self.engine.particles().number[instability.sphere] as usize,
             ..instability
@@ -162,7 +162,7 @@ impl Simulation {
         Some(process.counts(self.radius.len()))
     }
 
-    /// What happened once so far, in a scene where spheres come or go.
+    /// Events that happened so far, in a scene where spheres come or go.
     pub fn milestones(&self) -> &[Milestone] {
         self.process.as_ref().map_or(&[], Process::milestones)
     }
@@ -189,8 +189,9 @@ impl Simulation {
         self.engine.use_baseline_instructions();
     }
 
-    /// Advances on that many threads from now on, where it pays: in scenes of [`MANY`](order::MANY)
-    /// spheres or more, where none comes or goes. The bits do not depend on it.
+    /// Advances on this number of threads from now on, in scenes where that pays: those of
+    /// [`MANY`](order::MANY) spheres or more, where none comes or goes. The bits do not depend on
+    /// it.
     ///
     /// # Errors
     /// If the system gives no threads.
@@ -242,7 +243,7 @@ impl Simulation {
     }
 }
 
-/// What a scene says of a system besides its laws and its spheres, with the skin of the neighbour
+/// What a scene specifies for a system besides its laws and spheres, with the skin of the neighbour
 /// list (m). Spheres are not sorted in memory.
 fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
     let tank = scene.tank.as_ref();

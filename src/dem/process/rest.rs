@@ -3,26 +3,26 @@
 use crate::particles::Particles;
 use crate::scene::Rest;
 
-/// One sphere at rest may have the limit of all spheres over this number, or over the number of
+/// The limit for one sphere is the limit for all spheres over this number, or over the number of
 /// spheres if that is smaller.
 const PARTS: usize = 100;
 
 /// Watches the kinetic energy of all spheres and of every single one.
 ///
-/// A total alone says nothing of single spheres: a few that still flow are lost in the sum.
+/// The total alone is not enough: a few spheres that still flow would be lost in the sum.
 pub(super) struct RestWatch {
     /// Largest kinetic energy of all spheres at rest together (J), spins included.
     all: f64,
     /// Largest kinetic energy of one sphere at rest (J), its spin included.
     one: f64,
-    /// Steps for which all spheres must stay below these.
+    /// Steps for which all spheres must stay below both limits.
     hold: u64,
-    /// Step since which they have.
+    /// Step since which they have been below both limits.
     pub(super) since: Option<u64>,
 }
 
 impl RestWatch {
-    /// A watch over a scene of `count` spheres, those included that are not in yet.
+    /// A watch over a scene of `count` spheres, including those that are not in yet.
     pub(super) fn new(rest: &Rest, count: usize, dt: f64) -> Self {
         Self {
             all: rest.kinetic_energy,
@@ -32,7 +32,7 @@ impl RestWatch {
         }
     }
 
-    /// Begins anew.
+    /// Starts to wait again.
     pub(super) fn reset(&mut self) {
         self.since = None;
     }
