@@ -1,7 +1,7 @@
 //! Tests on a block of pairs, whose results hold for a few steps.
 
 use super::{NearPair, Particles};
-use crate::particles::block::{BLOCK, Column, Columns, ROWS};
+use crate::particles::block::{BLOCK, Column, Columns, ROWS, row};
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8};
 
 /// Results of the tests on eight pairs, as bits.
@@ -55,7 +55,7 @@ impl Glance {
         let pairs = &self.pairs;
         self.offset.fill::<S>(
             #[inline(always)]
-            |k| pairs[k].difference(simd, position),
+            |k| row(simd, position, pairs[k].i()) - row(simd, position, pairs[k].j()),
         );
         if self.common_radius.is_none() {
             let [one, other] = &mut self.radius;

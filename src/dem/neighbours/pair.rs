@@ -1,8 +1,7 @@
 //! Pairs of spheres in lists.
 
-use crate::particles::block::{ROWS, row};
-use crate::particles::vector::Vector;
-use fearless_simd::{Simd, SimdBase, SimdMask, f64x4, mask64x8, u64x8};
+use crate::particles::block::ROWS;
+use fearless_simd::{Simd, SimdBase, SimdMask, mask64x8, u64x8};
 use std::cmp::Ordering;
 
 /// A pair that may touch. Both indices form one number, and lists are sorted by this number.
@@ -46,12 +45,6 @@ impl NearPair {
     #[inline(always)]
     pub(in crate::dem) fn of_word(word: u64) -> Self {
         Self::new((word >> 32) as u32, word as u32)
-    }
-
-    /// The vector of the first sphere less that of the second.
-    #[inline(always)]
-    pub(in crate::dem) fn difference<S: Simd>(self, simd: S, vectors: &[Vector]) -> f64x4<S> {
-        row(simd, vectors, self.i()) - row(simd, vectors, self.j())
     }
 
     /// Both spheres.

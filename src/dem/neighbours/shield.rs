@@ -2,7 +2,7 @@
 //! tested in each step.
 
 use super::{NearPair, Particles, WORD};
-use crate::particles::block::{ROWS, ones, turned};
+use crate::particles::block::{ROWS, ones, row, turned};
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
 /// For each sphere the number of spheres that shield it, updated for the pairs whose part in it may
@@ -71,7 +71,7 @@ fn who_shields<S: Simd>(
     let position = &particles.position[..];
     let [dx, dy, dz] = turned::<S>(
         #[inline(always)]
-        |k| pairs[k].difference(simd, position),
+        |k| row(simd, position, pairs[k].i()) - row(simd, position, pairs[k].j()),
     );
     let (dx, dy) = (dx.abs(), dy.abs());
     let within = |diameter: f64x8<S>| dx.simd_lt(diameter) & dy.simd_lt(diameter);

@@ -4,7 +4,7 @@
 use super::contact_state::SphereProperties;
 use super::partners::Partners;
 use crate::dem::neighbours::{NearPair, keep_pairs};
-use crate::particles::block::{BLOCK, ROWS, turned};
+use crate::particles::block::{BLOCK, ROWS, row, turned};
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask32x8, mask64x8, u32x8};
 use prefetch_index::prefetch_index;
 
@@ -200,7 +200,7 @@ fn touches<S: Simd>(
     let (position, radius) = (partners.position, partners.radius);
     let [x, y, z] = turned::<S>(
         #[inline(always)]
-        |k| pairs[k].difference(simd, position),
+        |k| row(simd, position, pairs[k].i()) - row(simd, position, pairs[k].j()),
     );
     let sum = match alike {
         Some(properties) => f64x8::splat(simd, properties.radius + properties.radius),

@@ -74,13 +74,13 @@ impl<H: History> ContactBlock<H> {
                 self.offset.fill_from::<S>(
                     at,
                     #[inline(always)]
-                    |k| pairs[k].difference(simd, position),
+                    |k| row(simd, position, pairs[k].i()) - row(simd, position, pairs[k].j()),
                 );
             }
             self.velocity.fill_from::<S>(
                 at,
                 #[inline(always)]
-                |k| pairs[k].difference(simd, velocity),
+                |k| row(simd, velocity, pairs[k].i()) - row(simd, velocity, pairs[k].j()),
             );
             // Spheres that are alike have the same lever. Laws then need only the sum of both
             // spins, which is written to the first.
