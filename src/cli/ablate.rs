@@ -7,9 +7,7 @@ use super::{accuracy, folders, format, plot};
 use phase::plot::ablation as figure;
 use phase::record::Program;
 use phase::store;
-use phase::study::ablation::{
-    Ablated, Ablation, AblationError, Finding, Skipped, write_ablation,
-};
+use phase::study::ablation::{Ablated, Ablation, AblationError, Finding, Skipped, write_ablation};
 use phase::study::comparison::{Comparing, Cost, Report, RunRow, read_runs};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -47,7 +45,9 @@ pub(crate) struct Arguments {
 fn two_or_more(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(number) if (2..=10_000).contains(&number) => Ok(number),
-        _ => Err("must be a whole number from 2 to 10000: one seed tells nothing from noise".into()),
+        _ => {
+            Err("must be a whole number from 2 to 10000: one seed tells nothing from noise".into())
+        }
     }
 }
 
@@ -64,7 +64,11 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let signature = ("ablation.csv", "a table of ablations", &b"without,"[..]);
     let file = arguments.file.with_file_name(format!(
         "{}-ablation",
-        arguments.file.file_stem().unwrap_or_default().to_string_lossy()
+        arguments
+            .file
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
     ));
     let place = Place::open(&file, options, signature, console)?;
     let table = Comparing::table(&place.folder);
@@ -174,7 +178,11 @@ impl Done {
             let sweep = &self.ablation.comparison.settings[0].sweep;
             let drawn = figure::draw(&self.ablated, &cost, sweep, &Program::current());
             let drawn = drawn.map_err(Failure::failed)?;
-            plot::write(&drawn, |end| place.file(&format!("ablation.{end}")), console)?;
+            plot::write(
+                &drawn,
+                |end| place.file(&format!("ablation.{end}")),
+                console,
+            )?;
         }
         Ok(())
     }

@@ -40,15 +40,17 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let signature = ("accuracy.csv", "a table of accuracy", &b"setting,"[..]);
     let place = Place::open(&arguments.file, options, signature, console)?;
     match &study.subject {
-        Subject::Scene(comparison) => {
-            of_scene(&study, comparison, options, &place, console)
-        }
+        Subject::Scene(comparison) => of_scene(&study, comparison, options, &place, console),
         Subject::Case(settings) => {
             let evaluation = study.run_cases(options.workers(), place.stop);
             let Some(evaluation) = evaluation.map_err(Failure::failed)? else {
                 return Ok(place.exit(settings.len(), 0));
             };
-            let failed = evaluation.outcomes.iter().filter(|it| it.missing > 0).count();
+            let failed = evaluation
+                .outcomes
+                .iter()
+                .filter(|it| it.missing > 0)
+                .count();
             conclude(&study, None, &evaluation, options, &place, console)?;
             console.answer(&Answer {
                 folder: place.folder.root().to_owned(),
@@ -125,7 +127,10 @@ pub(super) fn run(
     let axes: &[Axis] = comparison.axes();
     let name = |job: &Job| describe(axes, &job.values, job.seed);
     let ended = |job: &Job, record: &RunRecord| {
-        let label = comparison.measurement.measure(record).map(|it| it.label.name);
+        let label = comparison
+            .measurement
+            .measure(record)
+            .map(|it| it.label.name);
         format!("{}: {}", label.unwrap_or("not measured"), name(job))
     };
     let is_known = |job: &Job| ids.contains(&job.id);
@@ -174,9 +179,16 @@ fn conclude(
 
 /// A line for every setting, and the sentence.
 fn text(evaluation: &Evaluation) -> String {
-    let longest = evaluation.outcomes.iter().map(|it| it.name.chars().count()).max();
+    let longest = evaluation
+        .outcomes
+        .iter()
+        .map(|it| it.name.chars().count())
+        .max();
     let width = longest.unwrap_or(0).max(7);
-    let mut lines = vec![format!("{:<width$}  time a run  evaluations  error", "setting")];
+    let mut lines = vec![format!(
+        "{:<width$}  time a run  evaluations  error",
+        "setting"
+    )];
     for outcome in &evaluation.outcomes {
         lines.push(format!(
             "{:<width$}  {:>10}  {:>11}  {}",
@@ -190,7 +202,10 @@ fn text(evaluation: &Evaluation) -> String {
         }
     }
     for order in &evaluation.orders {
-        lines.push(format!("order of {} in {}: {:.2}", order.method, order.key, order.order));
+        lines.push(format!(
+            "order of {} in {}: {:.2}",
+            order.method, order.key, order.order
+        ));
     }
     for it in &evaluation.majorities {
         lines.push(format!(

@@ -58,7 +58,10 @@ impl Place {
         (table, kind, signature): (&str, &str, &[u8]),
         console: &Console,
     ) -> Result<Self, Failure> {
-        let root = options.out.clone().unwrap_or_else(|| sweep::default_folder(file));
+        let root = options
+            .out
+            .clone()
+            .unwrap_or_else(|| sweep::default_folder(file));
         let stop = interrupt::stop_on_signal(console)?;
         folders::make(&root)?;
         let folder = Folder::new(&root);

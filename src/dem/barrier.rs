@@ -1,22 +1,22 @@
-//! How fast a disc must be to squeeze through a wall of fixed ones, or too deep into it.
+//! How fast a disc must be to pass a wall of fixed discs, or to overlap it too deeply.
 
 use super::process::wall_pairs;
 use crate::scene::{FixedSphere, Geometry, Scene, Shape};
 
-/// The weakest place of a scene's walls, for the disc that they hold least.
+/// The weakest place of a scene's walls, and the disc that passes it most easily.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WeakestWall {
-    /// Speed above which the walls do not hold a disc (m/s).
+    /// Speed above which the walls do not hold the disc (m/s).
     pub speed: f64,
     /// Radius of that disc (m).
     pub radius: f64,
     /// The fixed discs at that place: one, or two side by side.
     pub fixed: [FixedSphere; 2],
-    /// What happens there.
+    /// How the wall fails.
     pub failure: WallFailure,
 }
 
-/// What happens at a wall that does not hold.
+/// How a wall fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WallFailure {
     /// The disc passes between the two fixed ones.
@@ -29,9 +29,9 @@ impl WeakestWall {
     /// The weakest place of the walls of discs of a scene, its door included. None without any, or
     /// without a contact law.
     ///
-    /// At the place where a wall fails, the disc overlaps fixed ones. What these contacts store
-    /// there it must bring along as kinetic energy. The damping, which makes it a little harder,
-    /// and discs that push from behind, which make it easier, are left out.
+    /// At the place where a wall fails, the disc overlaps fixed discs. Its kinetic energy must
+    /// equal the elastic energy of these contacts. Damping would require a little more, and discs
+    /// that push from behind less. Both are left out.
     pub fn of_scene(scene: &Scene) -> Option<Self> {
         scene.dem.contact.as_ref()?;
         let fixed = scene.dem.geometry.as_ref().map(Geometry::spheres)?;
@@ -73,9 +73,9 @@ fn gap([one, other]: [FixedSphere; 2]) -> [f64; 3] {
     std::array::from_fn(|axis| (1.0 - share) * one.position[axis] + share * other.position[axis])
 }
 
-/// The place (m) at which a disc that comes straight at the wall overlaps the first fixed disc as
-/// far as the overlap guard allows. None where it is beyond that disc's centre: the guard is never
-/// broken on the way there.
+/// The place (m) at which a disc that moves straight at the wall overlaps the first fixed disc as
+/// far as the overlap guard allows. None if the place is beyond that disc's centre, as the guard is
+/// then never broken.
 fn deepest(scene: &Scene, radius: f64, [one, other]: [FixedSphere; 2]) -> Option<[f64; 3]> {
     let overlap = scene.dem.guards.overlap * radius.min(one.radius);
     let above = radius + one.radius - overlap;
@@ -91,8 +91,8 @@ fn deepest(scene: &Scene, radius: f64, [one, other]: [FixedSphere; 2]) -> Option
     (above > 0.0).then(|| [x + above * normal[0], y, z + above * normal[1]])
 }
 
-/// The speed (m/s) at which a disc has the energy that its contacts with all `fixed` ones store at
-/// a place.
+/// The speed (m/s) at which the kinetic energy of a disc equals the elastic energy of its contacts
+/// with all `fixed` discs at a place.
 fn speed_to(scene: &Scene, radius: f64, place: [f64; 3], fixed: &[FixedSphere]) -> f64 {
     let contacts = fixed.iter().filter_map(|fixed| {
         let overlap = radius + fixed.radius - distance(fixed.position, place);

@@ -1,4 +1,4 @@
-//! Spheres in blocks, one column per quantity: what acts on single spheres is computed for all of a
+//! Spheres in blocks, one column per quantity. Effects on single spheres are computed for a whole
 //! block at once.
 
 use super::neighbours::Reference;
@@ -24,7 +24,7 @@ pub(super) struct Spheres<'a> {
     pub(super) inverse_mass: &'a [f64],
     pub(super) inertia: &'a [f64],
     pub(super) inverse_inertia: &'a [f64],
-    /// Where they were when near pairs were looked for; nothing where none are looked for.
+    /// Where they were when near pairs were found. Empty if there are no near pairs.
     pub(super) reference: &'a [Reference],
 }
 
@@ -47,7 +47,7 @@ impl<'a> Spheres<'a> {
         }
     }
 
-    /// How many they are.
+    /// Number of spheres.
     pub(super) fn len(&self) -> usize {
         self.position.len()
     }
@@ -72,7 +72,7 @@ impl<'a> Spheres<'a> {
         all.split(range.len())
     }
 
-    /// Takes that many from the front, or all if there are fewer.
+    /// Takes this number from the front, or all if there are fewer.
     pub(super) fn split(&mut self, count: usize) -> Self {
         let first = self.first;
         self.first += count.min(self.len());
@@ -94,7 +94,7 @@ impl<'a> Spheres<'a> {
 }
 
 impl Bodies {
-    /// Takes a block of spheres from a place on: masses, forces, and what else is asked for.
+    /// Reads a block of spheres from index `from` on: masses, forces, and what else is asked for.
     #[inline(always)]
     pub(super) fn take<S: Simd>(
         &mut self,
@@ -122,7 +122,7 @@ impl Bodies {
         }
     }
 
-    /// Gives the spheres from that place on what acts on them.
+    /// Writes the forces and torques of the block back to the spheres.
     #[inline(always)]
     pub(super) fn give<S: Simd>(
         &self,

@@ -6,12 +6,12 @@ use crate::particles::Particles;
 use crate::particles::vector::Vector;
 use crate::simulation::{FRAME_BLOCK, Flow, Frame, FrameView, Ledger};
 
-/// Spheres of a block of a sorted scene.
+/// Spheres in a block of a sorted scene.
 const SOME: usize = 1024;
 
 const _: () = assert!(SOME.is_multiple_of(FRAME_BLOCK));
 
-/// What of a frame is not of single spheres.
+/// The values of a frame that do not belong to single spheres.
 #[derive(Clone, Copy)]
 struct About {
     elastic_energy: f64,
@@ -66,7 +66,8 @@ impl Simulation {
         }
     }
 
-    /// Shows the same; of a sorted scene in blocks, as it may be too large to be in memory twice.
+    /// Shows the same, but a sorted scene in blocks, because it may be too large to be in memory
+    /// twice.
     pub(crate) fn with_frame<R>(&mut self, look: impl FnOnce(&dyn Frame) -> R) -> R {
         if self.is_sorted() {
             let about = self.about();
@@ -97,7 +98,7 @@ impl Simulation {
         }
     }
 
-    /// Whether spheres stand in memory in another order than in the scene.
+    /// Whether spheres have another order in memory than in the scene.
     fn is_sorted(&self) -> bool {
         self.process.is_none() && !self.particles().number.is_empty()
     }
@@ -123,7 +124,7 @@ impl Simulation {
     }
 }
 
-/// A frame of spheres that stand in memory in another order.
+/// A frame of spheres that have another order in memory.
 struct SortedFrame<'a> {
     particles: &'a Particles,
     /// Where the spheres are, in the order of the scene.

@@ -1,4 +1,4 @@
-//! Numerical guards: a run that breaks one is ended and reported, never mended.
+//! Numerical guards: a run that breaks one is ended and reported, never corrected.
 
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
@@ -10,8 +10,7 @@ use crate::simulation::{Guard, Instability};
 pub(super) struct Limits {
     /// Largest overlap, in radii of the smaller partner.
     pub(super) overlap: f64,
-    /// A sphere none of whose components of velocity is beyond this is slow enough, whichever it is
-    /// (m/s).
+    /// If no component of a velocity is beyond this (m/s), every sphere is within its speed limit.
     pub(super) slow: f64,
     displacement: f64,
     horizontal: f64,
@@ -57,7 +56,7 @@ impl Limits {
         limits
     }
 
-    /// The limits of these spheres instead of those before.
+    /// Sets the speed limit for these spheres.
     pub(super) fn fit(&mut self, radius: &[f64], dt: f64) {
         self.slow = f64::MAX;
         for &radius in radius {
@@ -65,13 +64,14 @@ impl Limits {
         }
     }
 
-    /// Heeds the limit of another sphere.
+    /// Includes the limit of another sphere.
     pub(super) fn add_sphere(&mut self, radius: f64, dt: f64) {
-        // A hair less than 1 / sqrt(3), for what rounding adds.
+        // Slightly less than 1 / sqrt(3), to allow for rounding.
         self.slow = self.slow.min(0.577 * self.largest_speed(radius, dt));
     }
 
-    /// The speed (m/s) of the largest displacement per step of a sphere of that radius (m).
+    /// The speed (m/s) at which a sphere of this radius (m) reaches the largest displacement per
+    /// step.
     fn largest_speed(&self, radius: f64, dt: f64) -> f64 {
         self.displacement * radius / dt
     }

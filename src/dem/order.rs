@@ -1,37 +1,36 @@
 //! The order of many spheres in memory: near in space, near in memory.
 //!
-//! A pair fetches its partners from memory. Where spheres stand in the order of a scene that was
-//! filled at random, partners are anywhere, and a bed of 55,000 spheres takes three times as long
-//! per sphere as one of 256, whose spheres are all at hand. So spheres of large scenes are sorted
-//! by cells as wide as the largest of them, and again when they have mixed.
+//! A pair reads its partners from memory. If spheres are in the random order of their scene,
+//! partners may be anywhere in memory. A bed of 55,000 spheres then takes three times as long per
+//! sphere as one of 256, which fits into the caches. So spheres of large scenes are sorted by cells
+//! as wide as the largest sphere, and sorted again when they have mixed.
 //!
-//! The order of indices is that in which forces are summed up. So it must follow from the motion
-//! alone: spheres are looked at after fixed numbers of steps, and their order is part of a
-//! checkpoint.
+//! Forces are summed in the order of indices. So this order must follow from the motion alone: it
+//! is checked after fixed numbers of steps, and is part of a checkpoint.
 
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 
-/// Spheres from which on they are sorted. Fewer fit into the caches of a processor, and keep the
-/// order of the scene.
+/// From this number on, spheres are sorted. Fewer spheres fit into the caches of a processor, and
+/// keep the order of the scene.
 pub const MANY: usize = 4096;
 
-/// Steps between two looks at the order.
+/// Steps between two checks of the order.
 pub(super) const INTERVAL: u64 = 250;
 
-/// Spheres are sorted again when one in this number stands in a cell before its predecessor's.
+/// Spheres are sorted again when one in this number lies in a cell before that of its predecessor.
 const TOLERATED: usize = 64;
 
-/// Rows of cells side by side that are gone through layer by layer, before the next ones: what a
-/// layer of so few rows holds is still in the cache when the layer above it asks for it.
+/// Rows of cells in a strip. A strip is traversed layer by layer before the next strip. One layer
+/// of it is still in the cache when the layer above is computed.
 const ROWS: u64 = 16;
 
 /// Cells along an axis; spheres beyond share the last one.
 const MOST: u64 = (1 << 20) - 1;
 
-/// The indices of all spheres in a new order; none while the present order is good enough. Fixed
+/// The indices of all spheres in a new order, or none while the present order is good enough. Fixed
 /// spheres keep their places. Spheres of one cell are sorted by their coordinates, so that the
-/// order does not depend on how the scene numbers them.
+/// order does not depend on their numbers in the scene.
 pub(super) fn found_anew(particles: &Particles) -> Option<Vec<u32>> {
     let moving = particles.fixed..particles.len();
     let position = &particles.position;
@@ -63,7 +62,8 @@ pub(super) fn found_anew(particles: &Particles) -> Option<Vec<u32>> {
     Some(fixed.chain(keys.into_iter().map(|(_, i)| i)).collect())
 }
 
-/// The order that takes spheres with the one numbers to the others; fixed ones keep their places.
+/// The order that takes spheres with the numbers `from` to the numbers `to`. Fixed spheres keep
+/// their places.
 pub(super) fn between(from: &[u32], to: &[u32], fixed: usize) -> Vec<u32> {
     let moving = |numbers: &[u32]| -> Vec<u32> {
         let numbers = numbers[fixed..].iter();
@@ -78,7 +78,7 @@ pub(super) fn between(from: &[u32], to: &[u32], fixed: usize) -> Vec<u32> {
     order
 }
 
-/// Whether every moving sphere has a number of its own, counted from 0.
+/// Whether the numbers of the moving spheres are a permutation, counted from 0.
 pub(super) fn is_one(numbers: &[u32], fixed: usize) -> bool {
     let numbers = numbers.get(fixed..).unwrap_or_default();
     let mut known = vec![false; numbers.len()];

@@ -30,8 +30,8 @@ pub enum Part {
     Kick,
     /// Moving spheres by their velocities.
     Drift,
-    /// What a step does besides: forces cleared, groups of touching spheres and their sub-steps,
-    /// velocities foretold.
+    /// The rest of a step: clearing forces, groups of touching spheres and their sub-steps,
+    /// predicted velocities.
     Rest,
     /// Feed, door, outlet, and the watches over them.
     Process,
@@ -98,7 +98,7 @@ impl Part {
         }
     }
 
-    /// Whether a scene has it at all; what it does not have costs nothing.
+    /// Whether a scene has this part. A part that it does not have costs nothing.
     pub fn is_in(self, scene: &Scene) -> bool {
         let touch = scene.dem.contact.is_some();
         let wall = |is_there: bool| touch && is_there;

@@ -31,11 +31,11 @@ pub enum BuildError {
     LawsDoNotGoTogether,
 }
 
-/// First skin of a neighbour list for contacts, in radii of the largest sphere: where lists are
-/// long-lived and not yet long.
+/// First skin of a neighbour list for contacts, in radii of the largest sphere. The list then holds
+/// for many steps and is still short.
 const CONTACT_SKIN: f64 = 0.5;
 
-/// The same with the columns of an updraught's shield, whose list grows less with its skin.
+/// The same for the columns of an updraught's shield, whose list grows less with its skin.
 const COLUMN_SKIN: f64 = 1.0;
 
 /// A running simulation.
@@ -43,14 +43,14 @@ pub struct Simulation {
     pub(super) engine: Box<dyn Engine>,
     /// Absent where no sphere comes or goes.
     pub(super) process: Option<Process>,
-    /// Radius (m), mass (kg) and moment of inertia (kg m2) of every sphere of the scene, those
-    /// included that are not in yet; empty where all are alike and sorted.
+    /// Radius (m), mass (kg) and moment of inertia (kg m2) of every sphere of the scene, including
+    /// those that are not in yet. Empty if all are alike and sorted.
     pub(super) radius: Vec<f64>,
     pub(super) mass: Vec<f64>,
     pub(super) inertia: Vec<f64>,
     dt: f64,
     pub(super) steps_per_frame: u64,
-    /// What a frame borrows.
+    /// Columns of positions, velocities and spins, which a frame borrows.
     pub(super) components: [[Vec<f64>; 3]; 3],
     /// The threads that the engine runs on, if there are several.
     pool: Option<ThreadPool>,
@@ -65,7 +65,7 @@ impl Simulation {
         let skin = match (scene.dem.neighbours, &scene.dem.effects.updraught) {
             (Neighbours::VerletList, None) => CONTACT_SKIN,
             (Neighbours::VerletList, Some(_)) => COLUMN_SKIN,
-            // Found anew in every step.
+            // These lists are built in every step.
             _ => 0.0,
         };
         Self::with_skin(scene, skin)
@@ -80,25 +80,18 @@ impl Simulation {
     pub fn with_skin(scene: &Scene, skin: f64) -> Result<Self, BuildError> {
         let spheres = start::place(scene)?;
         let alike = spheres.radius.windows(2).all(|two| two[0] == two[1]);
-        let largest = spheres.largest_radius();
-        let scalars = |of: &Particles| {
-            [&of.radius, &of.mass, &of.inertia].map(|values| of_moving(values, of).to_vec())
-        };
-        let mut waiting_scalars = None;
+        let skin = skin * spheres.largest_radius();
         let mut particles = start::fixed(scene);
-        let feed = match scene.start {
+        let mut scalars = None;
+        let mut feed = None;
+        match scene.start {
             Start::Feed { interval, .. } => {
-                waiting_scalars = Some(scalars(&spheres));
-                Some(Feed::new(
-                    waiting(&spheres, scene),
-                    (interval / scene.time.dt).round() as u64,
-                ))
+                scalars = Some(scalars_of(&spheres));
+                let interval = (interval / scene.time.dt).round() as u64;
+                feed = Some(Feed::new(waiting(&spheres, scene), interval));
             }
-            _ => {
-                particles.append(spheres);
-                None
-            }
-        };
+            _ => particles.append(spheres),
+        }
         let present = particles.len() - particles.fixed;
         let process = Process::of_scene(scene, feed, present);
         let sorted = process.is_none() && present >= order::MANY;
@@ -107,25 +100,14 @@ impl Simulation {
                 .chain(0..present as u32)
                 .collect();
         }
-        // Spheres that are alike stand in any order; to have them once saves memory.
+        // Spheres that are alike have the same values in any order: one copy saves memory.
         let [radius, mass, inertia] = match sorted && alike {
             true => Default::default(),
-            false => waiting_scalars.unwrap_or_else(|| scalars(&particles)),
+            false => scalars.unwrap_or_else(|| scalars_of(&particles)),
         };
-        let tank = scene.tank.as_ref();
         let setup = Setup {
-            walls: tank.map(TankWall::of_tank).unwrap_or_default(),
-            effects: scene.dem.effects.build(&Targets {
-                radii: &particles.radius,
-                density: scene.spheres.density,
-            }),
-            shielded: scene.dem.effects.updraught.is_some(),
-            limits: Limits::new(scene, &particles),
-            dt: scene.time.dt,
-            integrator: scene.time.integrator,
-            neighbours: scene.dem.neighbours,
-            skin: skin * largest,
             sorted,
+            ..setup(scene, &particles, skin)
         };
         let mut engine = engine(scene, setup, particles)?;
         if scene.output.ledger {
@@ -162,7 +144,7 @@ impl Simulation {
         };
         let end = self.engine.step() + steps;
         let result = process.advance(self.engine.as_mut(), end);
-        // A guard names a sphere by its place in memory.
+        // A guard names a sphere by its index in memory.
         result.map_err(|instability| Instability {
             sphere: self.engine.particles().number[instability.sphere] as usize,
             ..instability
@@ -181,7 +163,7 @@ impl Simulation {
         Some(process.counts(self.radius.len()))
     }
 
-    /// What happened once so far, in a scene where spheres come or go.
+    /// Events that happened so far, in a scene where spheres come or go.
     pub fn milestones(&self) -> &[Milestone] {
         self.process.as_ref().map_or(&[], Process::milestones)
     }
@@ -208,8 +190,9 @@ impl Simulation {
         self.engine.use_baseline_instructions();
     }
 
-    /// Advances on that many threads from now on, where it pays: in scenes of [`MANY`](order::MANY)
-    /// spheres or more, where none comes or goes. The bits do not depend on it.
+    /// Advances on this number of threads from now on, in scenes where that pays: those of
+    /// [`MANY`](order::MANY) spheres or more, where none comes or goes. The bits do not depend on
+    /// it.
     ///
     /// # Errors
     /// If the system gives no threads.
@@ -259,6 +242,32 @@ impl Simulation {
     pub fn elastic_energy(&mut self) -> f64 {
         self.engine.contacts().elastic_energy
     }
+}
+
+/// What a scene specifies for a system besides its laws and spheres, with the skin of the neighbour
+/// list (m). Spheres are not sorted in memory.
+fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
+    let tank = scene.tank.as_ref();
+    Setup {
+        walls: tank.map(TankWall::of_tank).unwrap_or_default(),
+        effects: scene.dem.effects.build(&Targets {
+            radii: &particles.radius,
+            density: scene.spheres.density,
+        }),
+        shielded: scene.dem.effects.updraught.is_some(),
+        limits: Limits::new(scene, particles),
+        dt: scene.time.dt,
+        integrator: scene.time.integrator,
+        neighbours: scene.dem.neighbours,
+        skin,
+        sorted: false,
+    }
+}
+
+/// Radii, masses and moments of inertia of the spheres that move.
+fn scalars_of(particles: &Particles) -> [Vec<f64>; 3] {
+    [&particles.radius, &particles.mass, &particles.inertia]
+        .map(|values| of_moving(values, particles).to_vec())
 }
 
 /// The spheres of a scene that come in later.

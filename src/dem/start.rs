@@ -2,7 +2,7 @@
 
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
-use crate::scene::{Geometry, Radii, Scene, Start};
+use crate::scene::{Geometry, Radii, Scene, Start, StartSphere};
 use rand::Rng;
 
 /// Why the spheres of a scene cannot be placed.
@@ -33,20 +33,20 @@ pub enum StartError {
     /// Numbers of spheres differ.
     #[error("{what} holds {found} spheres, spheres.count is {count}")]
     Count {
-        /// The list.
+        /// The key of the list.
         what: &'static str,
         /// Its length.
         found: usize,
-        /// What the scene says.
+        /// The number in the scene.
         count: usize,
     },
 }
 
-/// Random places tried for a sphere before the tank counts as full.
+/// Random positions tried for a sphere before the tank counts as full.
 const ATTEMPTS: usize = 100_000;
 
-/// The spheres of a scene at time zero, without fixed ones. Those of a feed are all where they will
-/// come in.
+/// The spheres of a scene at time zero, without fixed ones. All spheres of a feed are at the
+/// position where they will come in.
 ///
 /// # Errors
 /// If they cannot be placed.
@@ -65,30 +65,14 @@ pub fn place(scene: &Scene) -> Result<Particles, StartError> {
             speed,
             spin,
         } => {
-            let room = Room::of_scene(scene, [*z_min, *z_max]).ok_or(StartError::NoTank)?;
-            let mut random = scene.random_stream("positions");
-            particles.position = scatter(&particles.radius, &room, &mut random)?;
+            place_at_random(&mut particles, scene, [*z_min, *z_max])?;
             let mut random = scene.random_stream("velocities");
             for i in 0..count {
                 particles.velocity[i] = within(*speed, &mut random);
                 spins[i] = within(*spin, &mut random);
             }
         }
-        Start::List { spheres } => {
-            if spheres.len() != count {
-                return Err(StartError::Count {
-                    what: "start.spheres",
-                    found: spheres.len(),
-                    count,
-                });
-            }
-            for (i, sphere) in spheres.iter().enumerate() {
-                particles.position.push(sphere.position.into());
-                particles.velocity[i] = sphere.velocity.into();
-                spins[i] = sphere.spin.into();
-                particles.radius[i] = sphere.radius.unwrap_or(particles.radius[i]);
-            }
-        }
+        Start::List { spheres } => place_listed(&mut particles, &mut spins, spheres)?,
         Start::Feed {
             position,
             velocity,
@@ -108,6 +92,40 @@ pub fn place(scene: &Scene) -> Result<Particles, StartError> {
     }
     complete(&mut particles, scene, spins);
     Ok(particles)
+}
+
+/// Gives the spheres random positions between two heights (m).
+fn place_at_random(
+    particles: &mut Particles,
+    scene: &Scene,
+    heights: [f64; 2],
+) -> Result<(), StartError> {
+    let room = Room::of_scene(scene, heights).ok_or(StartError::NoTank)?;
+    let mut random = scene.random_stream("positions");
+    particles.position = scatter(&particles.radius, &room, &mut random)?;
+    Ok(())
+}
+
+/// Places the spheres as they are listed. One that lists no radius keeps its own.
+fn place_listed(
+    particles: &mut Particles,
+    spins: &mut [Vector],
+    spheres: &[StartSphere],
+) -> Result<(), StartError> {
+    if spheres.len() != spins.len() {
+        return Err(StartError::Count {
+            what: "start.spheres",
+            found: spheres.len(),
+            count: spins.len(),
+        });
+    }
+    for (i, sphere) in spheres.iter().enumerate() {
+        particles.position.push(sphere.position.into());
+        particles.velocity[i] = sphere.velocity.into();
+        spins[i] = sphere.spin.into();
+        particles.radius[i] = sphere.radius.unwrap_or(particles.radius[i]);
+    }
+    Ok(())
 }
 
 /// The fixed spheres of a scene: the walls, then the door.
@@ -213,8 +231,8 @@ impl Room {
         })
     }
 
-    /// A random place, uniform in the box that holds the room: within sides one that keeps a sphere
-    /// of that radius (m) off them.
+    /// A random position, uniform in the box around the room. Between plane sides it keeps a sphere
+    /// of this radius (m) away from them.
     fn place(&self, radius: f64, random: &mut impl Rng) -> Vector {
         let [x, y] = match self.is_round {
             true => self.reach,
@@ -229,14 +247,15 @@ impl Room {
         )
     }
 
-    /// Whether a sphere of that radius (m) at such a place is off the walls.
+    /// Whether a sphere of this radius (m) at such a position does not touch the walls.
     fn holds(&self, centre: Vector, radius: f64) -> bool {
         let reach = self.reach[0] - radius;
         !self.is_round || centre.x * centre.x + centre.y * centre.y < reach * reach
     }
 }
 
-/// Random centres without overlap, uniform in the room that keeps each sphere off the walls.
+/// Random centres without overlap, uniform in the part of the room where a sphere does not touch
+/// the walls.
 fn scatter(radii: &[f64], room: &Room, random: &mut impl Rng) -> Result<Vec<Vector>, StartError> {
     let mut grid = Grid::new(radii, room);
     let mut placed: Vec<Vector> = Vec::with_capacity(radii.len());
@@ -268,8 +287,8 @@ struct Grid {
     width: f64,
     /// Number of cells along x, y and z.
     sizes: [usize; 3],
-    /// For each cell the sphere that came last, and for each sphere the one that came before it to
-    /// its cell; [`NONE`](Self::NONE) where there is none.
+    /// For each cell the sphere that was added last, and for each sphere the one added before it to
+    /// its cell, or [`NONE`](Self::NONE).
     last: Vec<u32>,
     before: Vec<u32>,
 }
@@ -284,7 +303,7 @@ impl Grid {
         let mut width = 2.0 * radii.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         let cells = |side: f64, width: f64| (side / width).max(0.0) + 1.0;
         let sizes = |width: f64| [2.0 * x, 2.0 * y, high - low].map(|side| cells(side, width));
-        // A room that is nearly empty needs no cells as narrow as that.
+        // A room that is nearly empty needs wider cells only.
         while sizes(width).iter().product::<f64>() > 8.0 * (radii.len() as f64 + 512.0) {
             width *= 1.25;
         }
@@ -315,7 +334,7 @@ impl Grid {
             .push(std::mem::replace(&mut self.last[cell], number));
     }
 
-    /// The spheres in the cell of `place` and in those about it.
+    /// The spheres in the cell of `place` and in the cells around it.
     fn near(&self, place: Vector) -> impl Iterator<Item = usize> {
         let cell = self.cell(place);
         let [x, y, z] = [0, 1, 2].map(|axis| {
@@ -340,7 +359,7 @@ fn uniform(random: &mut impl Rng) -> f64 {
     (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Components uniform in plus or minus `bound`.
+/// Components uniform between -`bound` and `bound`.
 fn within(bound: f64, random: &mut impl Rng) -> Vector {
     let mut component = || bound * (2.0 * uniform(random) - 1.0);
     let [x, y, z] = [component(), component(), component()];

@@ -1,4 +1,4 @@
-//! What a simulation goes on from: its state between two steps.
+//! The state of a simulation between two steps, from which it continues.
 
 use super::Simulation;
 use super::process::{Process, ProcessState};
@@ -6,9 +6,9 @@ use super::system::EngineState;
 pub(super) use crate::simulation::StateError;
 use serde::{Deserialize, Serialize};
 
-/// What a simulation goes on from: everything that neither its scene says nor can be found again
-/// from the rest. Random streams are not in it, as they serve the start alone; nor are lists of
-/// neighbours, on which no bit depends.
+/// The state of a simulation: everything that follows neither from its scene nor from the rest of
+/// the state. Random streams are not in it, because they serve the start alone. Lists of neighbours
+/// are not in it, because no bit depends on them.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct SimulationState<'a> {
     engine: EngineState<'a>,
@@ -17,7 +17,7 @@ pub struct SimulationState<'a> {
 }
 
 impl SimulationState<'_> {
-    /// The same, on its own.
+    /// The same state, which borrows nothing.
     pub fn into_owned(self) -> SimulationState<'static> {
         SimulationState {
             engine: self.engine.into_owned(),
@@ -35,8 +35,8 @@ impl Simulation {
         }
     }
 
-    /// Takes up a state of the same scene, by the same program: the simulation, which must not have
-    /// been advanced, goes on with the bits of the one that was saved.
+    /// Continues from a state of the same scene, saved by the same program. The simulation must not
+    /// have been advanced. It then has the same bits as the one that was saved.
     ///
     /// # Errors
     /// If the state cannot be one of this scene; the simulation is then as it was.

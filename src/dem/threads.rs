@@ -1,4 +1,4 @@
-//! Work divided among threads: what is done for each share, and shares of arrays.
+//! Work divided among threads, and shares of arrays.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 /// thousand spheres would otherwise wake threads several times.
 const PATIENCE: Duration = Duration::from_micros(200);
 
-/// Does the work of each item, on the threads of the pool that runs this, if one does.
+/// Does the work of each item, on the threads of the present pool if there is one.
 pub(in crate::dem) fn in_parallel<I: Send>(items: &mut [I], work: &(impl Fn(&mut I) + Sync)) {
     if items.len() < 2 || rayon::current_thread_index().is_none() {
         items.iter_mut().for_each(work);
@@ -19,8 +19,8 @@ pub(in crate::dem) fn in_parallel<I: Send>(items: &mut [I], work: &(impl Fn(&mut
         begun.fetch_add(1, Ordering::Relaxed);
         work(item);
         done.fetch_add(1, Ordering::Relaxed);
-        // Nothing but time depends on these numbers. While an item has not begun, there is work to
-        // be found.
+        // Only the time depends on these counters. As long as an item has not begun, this thread
+        // may still get work, and does not wait here.
         let since = Instant::now();
         while begun.load(Ordering::Relaxed) == all
             && done.load(Ordering::Relaxed) < all
@@ -42,9 +42,10 @@ fn fork<I: Send>(items: &mut [I], work: &(impl Fn(&mut I) + Sync)) {
     }
 }
 
-/// Does both, at once if there are several threads, those of the pool that runs this.
+/// Does both, at the same time if the present pool has several threads.
 pub(in crate::dem) fn both(threads: usize, one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
-    // A single thread's pool may be one that has other things to do meanwhile.
+    // With one thread, the pool may be that of a sweep, where `join` could start another run
+    // meanwhile.
     if threads > 1 && rayon::current_thread_index().is_some() {
         rayon::join(one, other);
     } else {
@@ -53,7 +54,7 @@ pub(in crate::dem) fn both(threads: usize, one: impl FnOnce() + Send, other: imp
     }
 }
 
-/// Takes that many entries from the front, or all if there are fewer.
+/// Takes this number of entries from the front, or all if there are fewer.
 pub(in crate::dem) fn split<'a, E>(rest: &mut &'a mut [E], count: usize) -> &'a mut [E] {
     let all = std::mem::take(rest);
     let count = count.min(all.len());
@@ -62,7 +63,7 @@ pub(in crate::dem) fn split<'a, E>(rest: &mut &'a mut [E], count: usize) -> &'a 
     front
 }
 
-/// The same of entries that are only read.
+/// The same for entries that are only read.
 pub(in crate::dem) fn split_shared<'a, E>(rest: &mut &'a [E], count: usize) -> &'a [E] {
     let (front, back) = rest.split_at(count.min(rest.len()));
     *rest = back;

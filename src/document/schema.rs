@@ -110,10 +110,12 @@ impl Kind {
             Some("number") => Self::Number(Range::of(schema)),
             Some("array") if schema["minItems"] == 3 => Self::Vector,
             Some("array") => Self::List(Box::new(Self::of(&schema["items"]))),
-            Some("object") if schema["properties"].is_null() => match &schema["additionalProperties"] {
-                Value::Object(_) | Value::Bool(true) => Self::AnyTable,
-                _ => Self::Table(Table::of(schema)),
-            },
+            Some("object") if schema["properties"].is_null() => {
+                match &schema["additionalProperties"] {
+                    Value::Object(_) | Value::Bool(true) => Self::AnyTable,
+                    _ => Self::Table(Table::of(schema)),
+                }
+            }
             None if schema["properties"].is_null() => Self::Any,
             _ => Self::Table(Table::of(schema)),
         }

@@ -33,7 +33,11 @@ pub fn draw(
     if ablated.is_empty() {
         return Err(PlotError::NoMeasures);
     }
-    let title = sweep.title.clone().or_else(|| sweep.scene.title.clone()).unwrap_or_default();
+    let title = sweep
+        .title
+        .clone()
+        .or_else(|| sweep.scene.title.clone())
+        .unwrap_or_default();
     let title = format!("{title}: which effects decide");
     let occurs = |verdict: &Verdict| ablated.iter().any(|it| it.verdict == *verdict);
     let verdicts = [Verdict::Needed, Verdict::NotNeeded, Verdict::Undecided];
@@ -57,16 +61,29 @@ pub fn draw(
         for (row, it) in ablated.iter().enumerate() {
             let (row, ink) = (row as f64, color(it.verdict));
             if let Some(labels) = &it.states.disagreement {
-                let [low, value, high] = [labels.excess.low, labels.excess.value, labels.excess.high]
-                    .map(|share| 100.0 * share);
+                let [low, value, high] =
+                    [labels.excess.low, labels.excess.value, labels.excess.high]
+                        .map(|share| 100.0 * share);
                 let bar = ink.filled().stroke_width(12);
                 let plot = changed.plot();
-                plot.draw(&ErrorBar::new_horizontal(row, low, value, high, bar, px(6) as u32))?;
-                sheet.draw(&Circle::new(plot.map_coordinate(&(value, row)), px(4), ink.filled()))?;
+                plot.draw(&ErrorBar::new_horizontal(
+                    row,
+                    low,
+                    value,
+                    high,
+                    bar,
+                    px(6) as u32,
+                ))?;
+                sheet.draw(&Circle::new(
+                    plot.map_coordinate(&(value, row)),
+                    px(4),
+                    ink.filled(),
+                ))?;
             }
             let ratio = ratio(it, cost);
             let corners = [(0.0, row - HALF), (ratio, row + HALF)];
-            time.plot().draw(&Rectangle::new(corners, ink.mix(0.7).filled()))?;
+            time.plot()
+                .draw(&Rectangle::new(corners, ink.mix(0.7).filled()))?;
         }
         changed.draw()?;
         time.draw()
@@ -85,14 +102,21 @@ fn ratio(it: &Ablated, cost: &Cost) -> f64 {
 /// The panel of labels, and that of times.
 fn frames(ablated: &[Ablated], cost: &Cost) -> Vec<Frame> {
     let names = ablated.iter().enumerate();
-    let names = names.map(|(row, it)| (row as f64, it.name.clone())).collect();
+    let names = names
+        .map(|(row, it)| (row as f64, it.name.clone()))
+        .collect();
     let y = Span {
         ticks: Ticks::Given(names),
         ..Span::linear((ablated.len() as f64, -1.0))
     };
-    let labels = ablated.iter().filter_map(|it| it.states.disagreement.as_ref());
+    let labels = ablated
+        .iter()
+        .filter_map(|it| it.states.disagreement.as_ref());
     let (low, high) = labels.fold((0.0_f64, 1.0_f64), |(low, high), it| {
-        (low.min(100.0 * it.excess.low), high.max(100.0 * it.excess.high))
+        (
+            low.min(100.0 * it.excess.low),
+            high.max(100.0 * it.excess.high),
+        )
     });
     let most = ablated.iter().map(|it| ratio(it, cost)).fold(1.0, f64::max);
     vec![

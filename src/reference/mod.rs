@@ -79,7 +79,10 @@ fn need_times_without_accuracy(schema: &mut Value) {
             let needed = properties["time"]["required"].as_array_mut();
             let Some(needed) = needed else { return };
             needed.retain(|key| !CHOSEN.iter().any(|chosen| key == chosen));
-            table.insert("if".to_owned(), json!({ "not": { "required": ["accuracy"] } }));
+            table.insert(
+                "if".to_owned(),
+                json!({ "not": { "required": ["accuracy"] } }),
+            );
             let then = json!({ "properties": { "time": { "required": CHOSEN } } });
             table.insert("then".to_owned(), then);
         }

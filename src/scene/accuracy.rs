@@ -111,7 +111,9 @@ impl Accuracy {
 /// the scene does not say how long it runs.
 fn frame_interval(tree: &Value, frames_per_fall: f64) -> Option<f64> {
     let duration = tree["time"]["duration"].as_f64().filter(|it| *it > 0.0)?;
-    let gravity = tree["gravity"]["acceleration"].as_f64().filter(|it| *it > 0.0);
+    let gravity = tree["gravity"]["acceleration"]
+        .as_f64()
+        .filter(|it| *it > 0.0);
     let radius = smallest_radius(&tree["spheres"]["radius"]);
     let longest = match (radius, gravity) {
         (Some(radius), Some(gravity)) => (radius / gravity).sqrt() / frames_per_fall,
@@ -121,7 +123,9 @@ fn frame_interval(tree: &Value, frames_per_fall: f64) -> Option<f64> {
         let frames = duration / interval;
         frames >= 1.0 && (frames - frames.round()).abs() < 1e-6
     };
-    let round = round_numbers_below(longest.min(duration)).into_iter().find(divides);
+    let round = round_numbers_below(longest.min(duration))
+        .into_iter()
+        .find(divides);
     round.or_else(|| Some(duration / libm::ceil(duration / longest).max(1.0)))
 }
 
@@ -136,7 +140,9 @@ fn round_numbers_below(value: f64) -> Vec<f64> {
             _ => digit * libm::pow(10.0, f64::from(decade)),
         })
     });
-    numbers.filter(|number| *number <= value * (1.0 + 1e-9)).collect()
+    numbers
+        .filter(|number| *number <= value * (1.0 + 1e-9))
+        .collect()
 }
 
 fn smallest_radius(radius: &Value) -> Option<f64> {
@@ -195,7 +201,10 @@ mod tests {
         for duration in [5.0, 0.3, 1.0 / 3.0, 7.77, 1e-5] {
             let time = chosen("reference", json!({ "duration": duration }));
             let frames = duration / time["frame_interval"].as_f64().unwrap();
-            assert!((frames - frames.round()).abs() < 1e-6, "{duration}: {frames}");
+            assert!(
+                (frames - frames.round()).abs() < 1e-6,
+                "{duration}: {frames}"
+            );
         }
     }
 

@@ -49,9 +49,7 @@ impl AnyFile {
 impl AnyStudy {
     fn of_document(document: &Document) -> Result<Self, LoadError> {
         Ok(match StudyName::of(document) {
-            Some(StudyName::Accuracy) => {
-                Self::Accuracy(Box::new(accuracy::of_document(document)?))
-            }
+            Some(StudyName::Accuracy) => Self::Accuracy(Box::new(accuracy::of_document(document)?)),
             _ => Self::Stability(Box::new(stability::of_document(document)?)),
         })
     }

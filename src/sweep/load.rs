@@ -163,10 +163,7 @@ pub(crate) fn expand_axes(
 }
 
 /// The seeds of a file; seed 1 alone if it says nothing.
-pub(crate) fn expand_seeds(
-    entry: Option<&SeedsEntry>,
-    problems: &mut Vec<Problem>,
-) -> Vec<u64> {
+pub(crate) fn expand_seeds(entry: Option<&SeedsEntry>, problems: &mut Vec<Problem>) -> Vec<u64> {
     match entry {
         None => vec![1],
         Some(SeedsEntry {

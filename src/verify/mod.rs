@@ -288,7 +288,9 @@ pub fn cases() -> &'static [Case] {
 
 /// The row of a case as the table has it, so that some of its keys can be changed.
 pub(crate) fn row(name: &str) -> Option<Value> {
-    let mut rows = TABLES.iter().flat_map(|text| rows(text).unwrap_or_default());
+    let mut rows = TABLES
+        .iter()
+        .flat_map(|text| rows(text).unwrap_or_default());
     rows.find(|row| row["name"] == name)
 }
 

@@ -27,7 +27,9 @@ fn scenes(folder: &Path, found: &mut Vec<String>) {
 fn digest(path: &str) -> String {
     let mut scene = Scene::load(Path::new(path)).unwrap();
     let steps = (WORK / scene.spheres.count as u64).max(1) as f64;
-    let frames = (steps / scene.time.steps_per_frame() as f64).clamp(1.0, 200.0).floor();
+    let frames = (steps / scene.time.steps_per_frame() as f64)
+        .clamp(1.0, 200.0)
+        .floor();
     if frames < scene.time.frames() as f64 {
         scene.time.duration = frames * scene.time.frame_interval;
     }
@@ -38,7 +40,10 @@ fn digest(path: &str) -> String {
     let record = run.finish();
     let end = record.snapshots.last().unwrap();
     let mut hasher = blake3::Hasher::new();
-    for value in [&end.position, &end.velocity, &end.spin].into_iter().flatten() {
+    for value in [&end.position, &end.velocity, &end.spin]
+        .into_iter()
+        .flatten()
+    {
         hasher.update(&value.to_le_bytes());
     }
     hasher.finalize().to_hex()[..32].to_owned()
@@ -48,13 +53,20 @@ fn digest(path: &str) -> String {
 fn shipped_scenes_move_as_before() {
     let mut paths = Vec::new();
     scenes(Path::new("sweeps/scenes"), &mut paths);
-    let digests: BTreeMap<String, String> =
-        paths.into_iter().map(|path| (path.clone(), digest(&path))).collect();
-    let text: String =
-        digests.iter().map(|(path, digest)| format!("{digest} {path}\n")).collect();
+    let digests: BTreeMap<String, String> = paths
+        .into_iter()
+        .map(|path| (path.clone(), digest(&path)))
+        .collect();
+    let text: String = digests
+        .iter()
+        .map(|(path, digest)| format!("{digest} {path}\n"))
+        .collect();
     if std::env::var_os("BLESS").is_some() {
         std::fs::write(TABLE, &text).unwrap();
     }
     let kept = std::fs::read_to_string(TABLE).unwrap_or_default();
-    assert_eq!(text, kept, "a shipped scene moves otherwise; BLESS=1 takes that for right");
+    assert_eq!(
+        text, kept,
+        "a shipped scene moves otherwise; BLESS=1 takes that for right"
+    );
 }

@@ -39,13 +39,25 @@ pub(super) fn main(
             let forecast = study::forecast_settings(comparison, workers, TRIAL_TIME)?;
             let time = format::duration(forecast.seconds);
             let workers = format::count(workers.min(comparison.jobs.len()), "worker");
-            console.result(line("time", format_args!("at most about {time} with {workers}")));
+            console.result(line(
+                "time",
+                format_args!("at most about {time} with {workers}"),
+            ));
             Some(forecast)
         }
     };
-    let names: Vec<&str> = comparison.settings.iter().map(|it| it.name.as_str()).collect();
-    let mut answer =
-        Answer::new(study, &names, comparison.axes(), comparison.jobs.len(), arguments);
+    let names: Vec<&str> = comparison
+        .settings
+        .iter()
+        .map(|it| it.name.as_str())
+        .collect();
+    let mut answer = Answer::new(
+        study,
+        &names,
+        comparison.axes(),
+        comparison.jobs.len(),
+        arguments,
+    );
     answer.forecast = forecast.map(|it| ForecastAnswer::new(&it, workers));
     console.answer(&answer);
     Ok(Exit::Done)

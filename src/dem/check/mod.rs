@@ -1,4 +1,4 @@
-//! What is wrong with a scene, as far as the engine has to tell: the time step and the start.
+//! Problems of a scene that only the engine can find: the time step and the start.
 
 mod start;
 mod step;
@@ -9,9 +9,9 @@ use crate::document::Problem;
 use crate::scene::Scene;
 
 impl Scene {
-    /// Everything that is wrong with this scene; a scene without problems can be run.
+    /// All problems of this scene. A scene without problems can be run.
     ///
-    /// Radii and starts that are still the names of files are not looked into.
+    /// Radii and starts that are still names of files are not checked.
     pub fn problems(&self) -> Vec<Problem> {
         match self.problems_of_values() {
             problems if problems.is_empty() => self.problems_in_range(),
@@ -19,7 +19,7 @@ impl Scene {
         }
     }
 
-    /// The same for a scene whose numbers are known to be in their ranges.
+    /// The same for a scene whose numbers are known to be within their ranges.
     pub(crate) fn problems_in_range(&self) -> Vec<Problem> {
         let mut problems = Vec::new();
         self.check_all_but_step(&mut problems);
@@ -30,7 +30,7 @@ impl Scene {
         problems
     }
 
-    /// What is wrong with this scene besides a time step above its limit. A scene without these
+    /// All problems of this scene except a time step above its limit. A scene without these
     /// problems can be run, stable or not.
     pub(crate) fn problems_but_of_limit(&self) -> Vec<Problem> {
         let mut problems = self.problems_of_values();
@@ -60,7 +60,7 @@ impl Scene {
         self.with_chosen_step_in_range()
     }
 
-    /// The same for a scene whose numbers are known to be in their ranges.
+    /// The same for a scene whose numbers are known to be within their ranges.
     pub(crate) fn with_chosen_step_in_range(mut self) -> Result<Self, Vec<Problem>> {
         if let Some(safety_factor) = self.time.safety_factor {
             let mut problems = Vec::new();

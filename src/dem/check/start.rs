@@ -16,8 +16,7 @@ const CERTAIN_PACKING: f64 = 0.10;
 const MOST_TRIED: usize = 10_000;
 
 impl Scene {
-    /// What is wrong with the room of a random start, if there is one. Other starts bring their own
-    /// positions.
+    /// Checks that a random start has enough room. Other starts bring their own positions.
     pub(super) fn check_room(&self, problems: &mut Vec<Problem>) {
         let Start::Random { z_min, z_max, .. } = self.start else {
             return;

@@ -4,7 +4,7 @@ use crate::dem::timestep;
 use crate::document::{Problem, number};
 use crate::scene::{Scene, rounded};
 
-/// The step over the least limit, if the file does not say it.
+/// The step divided by the smallest limit, if the file does not give this factor.
 ///
 /// A fifth of the Rayleigh time is what Altair's EDEM advises for dense packings ("Estimate
 /// Simulation Time" in its help). A fifth of the limit of

@@ -1,14 +1,14 @@
-//! Where spheres stood when a list was made, and how far they may have moved since.
+//! Positions of the spheres when a list was built, and how far they may have moved since.
 //!
-//! A rotation of all spheres about the axis is not counted: it leaves the distances of all pairs as
-//! they are.
+//! A common rotation of all spheres about the axis does not count, because it changes no distance
+//! of a pair.
 
 use crate::particles::block::ROWS;
 use crate::particles::vector::Vector;
 use crate::particles::{Particles, retain};
 
-/// Where a sphere stood, in half the memory: single precision is more than a margin needs, and what
-/// it rounds is taken from the margin.
+/// The position of a sphere when a list was built, in single precision to halve the memory. The
+/// margin is reduced by the rounding error.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(16))]
 pub struct Reference([f32; 4]);
@@ -18,7 +18,7 @@ impl Reference {
         Self([place.x as f32, place.y as f32, place.z as f32, 0.0])
     }
 
-    /// Where it is (m).
+    /// The position (m).
     #[inline(always)]
     pub(super) fn place(self) -> Vector {
         let [x, y, z, _] = self.0;
@@ -26,26 +26,25 @@ impl Reference {
     }
 }
 
-/// The spheres at the moment when a list was made.
+/// The spheres at the moment when a list was built.
 #[derive(Clone, Debug, Default)]
 pub struct Anchor {
     position: Vec<Reference>,
-    /// The farthest that rounding put one of them from its sphere (m).
+    /// The largest distance of a rounded position from its sphere (m).
     rounding: f64,
     /// Rotation rate about the z axis (rad/s).
     rotation: f64,
-    /// The angle (rad) by which the spheres are turned for a list of boxes, which do not turn: as
-    /// far as they will have come half-way through the life of the list, so that they are never far
-    /// from it.
+    /// The angle (rad) by which the spheres are turned before boxes are tested, as boxes do not
+    /// turn with the spheres. It is half the angle that is expected during the life of the list.
     middle: f64,
 }
 
 impl Anchor {
-    /// Takes the spheres as they are now.
-    pub(super) fn drop(&mut self, particles: &Particles) {
+    /// Stores the present positions of the spheres.
+    pub(super) fn renew(&mut self, particles: &Particles) {
         self.position.clear();
         self.position.reserve_exact(particles.len());
-        // One root for all.
+        // One root is taken for all spheres.
         let mut farthest_squared = 0.0_f64;
         for &place in &particles.position {
             let reference = Reference::of(place);
@@ -58,26 +57,26 @@ impl Anchor {
         self.middle = 0.0;
     }
 
-    /// Turns the spheres to where they will be half-way through a life (s), but by no more than an
-    /// angle (rad). Returns sine and cosine.
+    /// Sets the angle to half the turn during a life (s), but to no more than `most` (rad). Returns
+    /// its sine and cosine.
     pub(super) fn turn(&mut self, life: f64, most: f64) -> (f64, f64) {
         self.middle = (0.5 * self.rotation * life).clamp(-most, most);
         libm::sincos(self.middle)
     }
 
-    /// Adds a sphere that came in where it is now.
+    /// Adds a sphere that came in at this position.
     pub(super) fn add_sphere(&mut self, position: Vector) {
         let reference = self.rounded(position);
         self.position.push(reference);
     }
 
-    /// Adds a sphere that came in and has no place yet: nothing holds for it.
+    /// Adds a sphere that came in and has no reference yet, so that the list does not hold.
     pub(super) fn add_stray(&mut self) {
         self.position.push(Reference([f32::NAN; 4]));
     }
 
-    /// Takes a sphere as if it had been turned with all others, in the `time` (s) since that
-    /// moment, to this place.
+    /// Replaces the reference of a sphere. The common rotation during the `time` (s) since the list
+    /// was built takes the new reference to `place`.
     pub(super) fn replace(&mut self, sphere: usize, place: Vector, time: f64) {
         let (sine, cosine) = libm::sincos(self.rotation * time);
         let Vector { x, y, z, .. } = place;
@@ -85,7 +84,7 @@ impl Anchor {
         self.position[sphere] = self.rounded(place);
     }
 
-    /// A reference, whose rounding is noted.
+    /// A reference. Notes its rounding error.
     fn rounded(&mut self, place: Vector) -> Reference {
         let reference = Reference::of(place);
         let rounding = (place - reference.place()).norm();
@@ -93,31 +92,31 @@ impl Anchor {
         reference
     }
 
-    /// The farthest that rounding put a reference from its sphere (m).
+    /// The largest distance of a reference from its sphere by rounding (m).
     pub(super) fn rounding(&self) -> f64 {
         self.rounding
     }
 
-    /// Forgets the spheres that are not to be kept.
+    /// Removes the spheres that are not to be kept.
     pub(super) fn remove_spheres(&mut self, keep: &[bool]) {
         retain(&mut self.position, keep);
     }
 
-    /// Positions at that moment.
+    /// Positions at the moment when the list was built.
     #[inline]
     pub fn position(&self) -> &[Reference] {
         &self.position
     }
 
-    /// The displacements that leave a list valid for a `time` (s) since that moment, if the offset
-    /// of a pair may change by `margin` (m). `half_diagonal` is that of the largest box about a
-    /// sphere in which partners count (m), zero if only distances count.
+    /// The displacements that leave a list valid `time` (s) after it was built, if the offset of a
+    /// pair may change by `margin` (m). `half_diagonal` (m) is that of the largest box about a
+    /// sphere in which partners are counted. It is zero if only distances matter.
     pub(super) fn allowance(&self, time: f64, margin: f64, half_diagonal: f64) -> Allowance {
         let angle = self.rotation * time;
-        // The box does not turn with the pair: that moves a partner relative to it by at most the
+        // The box does not turn with the pair. So a partner moves relative to it by at most the
         // angle times the half diagonal.
         let turned = (angle - self.middle).abs() * half_diagonal;
-        // A hair less than half, for what rounding adds.
+        // Slightly less than half, to allow for rounding.
         let displacement = (0.499_999_999 * (margin - turned) - self.rounding).max(0.0);
         let (sine, cosine) = libm::sincos(angle);
         Allowance {
@@ -128,7 +127,7 @@ impl Anchor {
     }
 }
 
-/// How far spheres may have moved since an anchor was dropped.
+/// How far spheres may have moved since a list was built.
 #[derive(Clone, Copy, Debug)]
 pub struct Allowance {
     sine: f64,
@@ -147,7 +146,8 @@ impl Allowance {
     pub fn hold(&self, positions: &[Vector], references: &[Reference]) -> bool {
         let groups = positions.chunks(ROWS).zip(references.chunks(ROWS));
         for (positions, references) in groups {
-            // Of a group all are looked at, which the compiler then does at once.
+            // All spheres of a group are tested without a branch, which compiles to vector
+            // instructions.
             let mut hold = true;
             if let (Ok(positions), Ok(references)) = (
                 <&[Vector; ROWS]>::try_from(positions),
@@ -168,7 +168,7 @@ impl Allowance {
         true
     }
 
-    /// Whether a sphere at `position` is still near enough to its `reference`. Not so if a
+    /// Whether a sphere at `position` is still near enough to its `reference`. False if a
     /// coordinate is not a number.
     #[inline(always)]
     pub fn holds(&self, position: Vector, reference: Reference) -> bool {

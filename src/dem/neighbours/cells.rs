@@ -1,5 +1,7 @@
 //! Cells in a box about all spheres.
 
+use super::Reach;
+use super::search::Storage;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 
@@ -11,30 +13,39 @@ pub(super) struct Cells {
     first: Vec<u32>,
     cell_of: Vec<u32>,
     index: Vec<u32>,
-    /// Empty if spheres stand in about that order anyway.
+    /// Copies in the order of the cells; empty if spheres are read in place.
     position: Vec<Vector>,
     radius: Vec<f64>,
 }
 
 impl Cells {
-    /// Sorts the spheres into cells of that width or wider (m); in `columns`, whatever their
-    /// height.
-    pub(super) fn fill(&mut self, particles: &Particles, width: f64, columns: bool, copied: bool) {
+    /// Sorts the spheres into cells of this width or wider (m). Cells of columns hold spheres of
+    /// any height.
+    pub(super) fn fill(
+        &mut self,
+        particles: &Particles,
+        width: f64,
+        reach: Reach,
+        storage: Storage,
+    ) {
         let count = particles.len();
         let (low, high) = bounds(&particles.position);
         let extent = high - low;
-        // Cells beyond a few per sphere would only cost time and memory.
+        // More than a few cells per sphere would only cost time and memory.
         let most = 4 * count + 64;
         let mut width = width;
         loop {
-            let height = if columns { 0.0 } else { extent.z };
+            let height = match reach {
+                Reach::Contact => extent.z,
+                Reach::Column => 0.0,
+            };
             self.shape = [extent.x, extent.y, height]
                 .map(|extent| ((extent / width) as usize).saturating_add(1));
             let [nx, ny, nz] = self.shape;
             if nx.saturating_mul(ny).saturating_mul(nz) <= most {
                 break;
             }
-            // The smallest of numbers would not grow.
+            // A width of zero would not grow.
             width = (1.25 * width).max(f64::MIN_POSITIVE);
         }
         let inverse = 1.0 / width;
@@ -48,11 +59,11 @@ impl Cells {
                     (cell(offset.x, nx), cell(offset.y, ny), cell(offset.z, nz));
                 ((layer * ny + row) * nx + column) as u32
             }));
-        self.sort(particles, copied);
+        self.sort(particles, storage);
     }
 
     /// Counting sort by cell; within a cell spheres stay in order of their index.
-    fn sort(&mut self, particles: &Particles, copied: bool) {
+    fn sort(&mut self, particles: &Particles, storage: Storage) {
         let count = particles.len();
         let cells = self.shape.iter().product::<usize>();
         self.first.clear();
@@ -64,6 +75,7 @@ impl Cells {
             self.first[cell + 1] += self.first[cell];
         }
         self.index.resize(count, 0);
+        let copied = storage == Storage::Copied;
         let copies = if copied { count } else { 0 };
         self.radius.resize(copies, 0.0);
         self.position.resize(copies, Vector::ZERO);
@@ -84,7 +96,7 @@ impl Cells {
         self.first[0] = 0;
     }
 
-    /// Calls `visit` with the sorted range of every row of cells about sphere `i`.
+    /// Calls `visit` with the sorted range of every row of cells around sphere `i`.
     #[inline]
     fn rows_about(&self, i: usize, mut visit: impl FnMut(std::ops::Range<usize>)) {
         let [nx, ny, nz] = self.shape;
@@ -100,7 +112,7 @@ impl Cells {
     }
 
     /// Calls `visit` with index, centre and radius of the spheres in the cell of sphere `i` and in
-    /// those about it.
+    /// the cells around it.
     #[inline]
     pub(super) fn near(
         &self,
@@ -111,7 +123,7 @@ impl Cells {
         self.rows_about(i, |row| {
             let index = &self.index[row.clone()];
             if self.position.is_empty() {
-                // Of two neighbours the one of lower index is not asked for.
+                // A sphere of lower index is no partner that is asked for.
                 for &j in index.iter().filter(|&&j| j as usize > i) {
                     let at = j as usize;
                     visit(j, particles.position[at], particles.radius[at]);

@@ -1,14 +1,14 @@
-//! All pairs of a few spheres, many tested at once: quicker than cells below some thousand
-//! spheres, and the partners of a sphere come out in order.
+//! All pairs of a few spheres, many of them tested at once. Below some thousand spheres this is
+//! faster than cells, and finds the partners of a sphere in order.
 
 use super::{Reach, WORD};
 use crate::particles::Particles;
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
-/// As many spheres are few.
+/// Up to this number of spheres, all pairs are tested.
 pub(super) const FEW: usize = 1024;
 
-/// Of them at once.
+/// Spheres that are tested at once.
 const LANES: usize = 8;
 
 /// Centres and radii of a few spheres (m), one array per quantity.
@@ -21,7 +21,7 @@ pub(super) struct FewSpheres {
 impl FewSpheres {
     /// Takes the spheres, turned about the z axis by an angle of this sine and cosine.
     pub(super) fn fill(&mut self, particles: &Particles, (sine, cosine): (f64, f64)) {
-        // What is not a number is near nothing.
+        // The arrays are filled up with NaN, which is near nothing.
         let padded = particles.len().next_multiple_of(WORD);
         let positions = || particles.position.iter();
         let [x, y, z] = &mut self.coordinates;

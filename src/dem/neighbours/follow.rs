@@ -1,5 +1,5 @@
-//! A Verlet list that follows the few spheres which come, go or stray, and stays valid for the
-//! rest: most grains of a silo lie still while a few fall.
+//! A Verlet list that follows a few spheres which come, go or stray, and stays valid for the
+//! others. In a silo most grains lie still while a few fall.
 
 use super::{Reach, VerletList};
 use crate::particles::Particles;
@@ -11,8 +11,8 @@ const FEW_OF: usize = 24;
 /// At most this number of spheres may have left their margins.
 const MOST: usize = 64;
 
-/// A stray is followed to where it will be after this share of the way that is allowed. A falling
-/// sphere then strays half as often.
+/// The new reference of a stray lies ahead of it, by this share of the allowed displacement. A
+/// falling sphere then strays half as often.
 const AHEAD: f64 = 0.8;
 
 impl VerletList {
@@ -41,8 +41,8 @@ impl VerletList {
         });
     }
 
-    /// Follows the spheres that left their margins, if they are few; positions must be finite.
-    /// Whether the list holds again, as [`Self::holds`] says.
+    /// Follows the spheres that left their margins, if they are few. Positions must be finite.
+    /// Returns whether the list holds again, as [`Self::holds`] says.
     pub fn follow(&mut self, particles: &Particles, time: f64, margin: f64) -> bool {
         if self.builds == 0 || self.outdated || !self.can_follow() {
             return false;
@@ -113,7 +113,7 @@ impl VerletList {
         }
     }
 
-    /// Makes new entries of those of every sphere, if it stays.
+    /// Rewrites the entries of every sphere that stays.
     fn rewrite(&mut self, mut follow: impl FnMut(usize, &[u32], &mut Vec<u32>) -> bool) {
         let start = std::mem::replace(&mut self.start, vec![0]);
         let before = Vec::with_capacity(self.neighbour.capacity());
@@ -219,8 +219,8 @@ mod tests {
                 for j in i + 1..particles.len() {
                     let distance = (particles.position[i] - particles.position[j]).norm();
                     let gap = distance - particles.radius[i] - particles.radius[j];
-                    // What may come that near while the list holds, and the farthest that it asks
-                    // for.
+                    // A listed pair is no farther apart than twice the skin, and a missing one
+                    // farther than the gap for which the list holds.
                     let listed = partners.contains(&(j as u32));
                     prop_assert!(listed || gap > 0.1, "{i} and {j} are missing: {gap}");
                     prop_assert!(!listed || gap < 2.0 * SKIN, "{i} and {j} are listed: {gap}");
@@ -229,7 +229,7 @@ mod tests {
         }
     }
 
-    /// Where half of the spheres left their margins, the list is built anew.
+    /// If half of the spheres left their margins, the list is built again.
     #[test]
     fn many_are_not_followed() {
         let mut particles = Particles::default();

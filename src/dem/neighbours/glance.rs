@@ -1,10 +1,10 @@
-//! What is true of a block of pairs, and will be for a few steps.
+//! Tests on a block of pairs, whose results hold for a few steps.
 
 use super::{NearPair, Particles};
 use crate::particles::block::{BLOCK, Column, Columns, ROWS, row};
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8};
 
-/// What is true of eight pairs, as bits.
+/// Results of the tests on eight pairs, as bits.
 pub(super) struct Facts {
     /// Near enough to touch.
     pub(super) near: u64,
@@ -12,18 +12,18 @@ pub(super) struct Facts {
     pub(super) touching: u64,
     /// Their part in the shield may change.
     pub(super) undecided: u64,
-    /// The second sphere shields the first,
+    /// The second sphere shields the first.
     pub(super) shields_first: u64,
-    /// or the first the second.
+    /// The first sphere shields the second.
     pub(super) shields_second: u64,
 }
 
-/// A block of pairs to look at.
+/// A block of pairs to be tested.
 pub(super) struct Glance {
     pub(super) pairs: [NearPair; BLOCK],
     /// From the second centre to the first (m).
     offset: Columns,
-    /// Radii (m); all the same if that is given.
+    /// Radii (m), and the radius of all spheres if these are equal.
     radius: [Column; 2],
     pub(super) common_radius: Option<f64>,
 }
@@ -38,7 +38,7 @@ impl Glance {
         }
     }
 
-    /// Notes whether all spheres have the same radius, which is then not fetched.
+    /// Notes whether all spheres have the same radius. Radii are then not gathered.
     pub(super) fn note_radii(&mut self, radius: &[f64]) {
         let first = radius.first().copied();
         self.common_radius = first.filter(|first| radius.iter().all(|it| it == first));
@@ -73,8 +73,8 @@ impl Glance {
         eight.expect("a block is of whole groups")
     }
 
-    /// What is certain of eight pairs while their offsets change by less than the margin (m); in a
-    /// scene with a shield, while they are turned by about an angle of this sine and cosine.
+    /// What holds for eight pairs while their offsets change by less than the margin (m). With a
+    /// shield, the offsets are first turned by the angle of this sine and cosine.
     #[inline(always)]
     pub(super) fn look<S: Simd>(
         &self,
@@ -113,8 +113,8 @@ impl Glance {
 }
 
 /// Bit mask of the pairs within the shielding box of spheres of radius `r`: both horizontal
-/// distances below 2 `r` + `margin`, and `up` above -`margin` (m). Not a closure: one that is not
-/// inlined is compiled without the wide instruction set.
+/// distances below 2 `r` + `margin`, and `up` above -`margin` (m). Not a closure, because a closure
+/// that is not inlined is compiled without the wide instruction set.
 #[inline(always)]
 fn within<S: Simd>(across: [f64x8<S>; 2], up: f64x8<S>, r: f64x8<S>, margin: f64) -> u64 {
     let reach = r * 2.0 + margin;

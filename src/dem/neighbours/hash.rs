@@ -1,16 +1,17 @@
 //! Cells in a chained hash table, for spheres that may be anywhere.
 
+use super::Reach;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 
 /// No sphere.
 const NONE: u32 = u32::MAX;
 
-/// The place of a cell: how many cells it is from the origin, along x, y and z.
+/// The coordinates of a cell, counted in cells from the origin along x, y and z.
 type Place = [i64; 3];
 
-/// Spheres in cells of one width. A cell is a chain that begins at the entry of its hash; cells of
-/// equal hash share one, so every sphere keeps the place of its cell.
+/// Spheres in cells of one width. A cell is a chain that begins at the entry of its hash. Cells of
+/// equal hash share a chain, so every sphere keeps the coordinates of its cell.
 #[derive(Clone, Debug, Default)]
 pub(super) struct HashedCells {
     /// The first sphere of each chain; a power of two of them.
@@ -24,13 +25,16 @@ pub(super) struct HashedCells {
 }
 
 impl HashedCells {
-    /// Sorts the spheres into cells; in `columns`, whatever their height.
-    pub(super) fn fill(&mut self, particles: &Particles, width: f64, columns: bool) {
+    /// Sorts the spheres into cells. Cells of columns hold spheres of any height.
+    pub(super) fn fill(&mut self, particles: &Particles, width: f64, reach: Reach) {
         let inverse = 1.0 / width;
         let along = |value: f64| (value * inverse).floor() as i64;
         self.place.clear();
         self.place.extend(particles.position.iter().map(|centre| {
-            let layer = if columns { 0 } else { along(centre.z) };
+            let layer = match reach {
+                Reach::Contact => along(centre.z),
+                Reach::Column => 0,
+            };
             [along(centre.x), along(centre.y), layer]
         }));
         self.flat = [0, 1, 2].map(|axis| {
@@ -51,7 +55,7 @@ impl HashedCells {
     }
 
     /// Calls `visit` with index, centre and radius of the spheres in the cell of sphere `i` and in
-    /// those about it.
+    /// the cells around it.
     #[inline]
     pub(super) fn near(
         &self,

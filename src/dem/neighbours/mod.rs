@@ -1,14 +1,15 @@
 //! Lists of neighbours, on two levels.
 //!
-//! The Verlet list holds the pairs that may interact before anything has moved by half the skin, a
-//! rotation of all spheres about the axis not counted. One list serves the contacts and the
-//! updraught's counting shield. At the shield's reach, a column of any height, it has ten times
-//! as many pairs as touch; so a second list, [`Near`], holds for a few steps what of it matters:
-//! the pairs that may touch, and those whose part in the shield may change.
+//! The Verlet list holds the pairs that may interact before a sphere has moved by half the skin. A
+//! common rotation of all spheres about the axis does not count. One list serves the contacts and
+//! the updraught's counting shield. The shield reaches over columns of any height, so that this
+//! list has ten times as many pairs as touch. A second list, [`Near`], selects from it the pairs
+//! that matter for a few steps: those that may touch, and those whose part in the shield may
+//! change.
 //!
-//! Pairs stand in order of their indices (i < j, then by j) in both. The order in which forces are
-//! summed is therefore that of the indices alone, so that neither skin nor margin, nor the
-//! moment of a rebuild, nor the cells behind it can change a bit of the motion.
+//! Both lists hold pairs in the order of their indices: i < j, sorted by i and then by j. So the
+//! order in which forces are summed follows from the indices alone. Skins, margins, the moments of
+//! rebuilds and the cells of the search change no bit of the motion.
 
 mod anchor;
 mod cells;
@@ -21,13 +22,13 @@ mod pair;
 mod search;
 mod shield;
 
-pub use near::Near;
+pub use near::{Near, Purpose};
 pub use pair::NearPair;
 pub(in crate::dem) use pair::keep_pairs;
 
 use self::anchor::Anchor;
 use self::few::{FEW, FewSpheres};
-use self::search::Search;
+use self::search::{Search, Storage};
 use super::threads::in_parallel;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
@@ -47,13 +48,14 @@ pub enum Reach {
     Column,
 }
 
-/// Bits of a number, of as many spheres or pairs.
+/// Bits of a word, one for each of as many spheres or pairs.
 const WORD: usize = u64::BITS as usize;
 
 /// Steps from one build to the next that the skin adapts to.
 const LIFE: std::ops::Range<u64> = 30..80;
 
-/// The part of the skin that a turn of all spheres may take: near pairs have up to seven tenths.
+/// The largest part of the skin that is used by turning all spheres. Near pairs use up to seven
+/// tenths.
 const TURN: f64 = 0.2;
 
 /// The Verlet list.
@@ -68,29 +70,28 @@ pub struct VerletList {
     /// Entries of sphere i are `start[i]..start[i + 1]`.
     start: Vec<u32>,
     neighbour: Vec<u32>,
-    /// The sphere whose entry it is, of every entry; none in a list of many spheres, where memory
-    /// counts.
+    /// The sphere to which each entry belongs. Empty in a list of many spheres, to save memory.
     owner: Vec<u32>,
     anchor: Anchor,
     /// Half the diagonal of the largest sphere's shielding box, plus the skin (m); zero if the
     /// list holds contacts alone.
     half_diagonal: f64,
-    /// How long the list before held (s).
+    /// How long the previous list held (s).
     life: f64,
     search: Search,
     few: FewSpheres,
     level: Level,
-    /// Whether spheres are sorted in memory by cells of about the search's.
+    /// Whether spheres are sorted in memory, by cells of about the width of the search's cells.
     sorted: bool,
     builds: u64,
-    /// Whether spheres are others or in another order since the build, or a wider skin is asked
-    /// for.
+    /// Whether the list must be built again: spheres were replaced or sorted since the build, or a
+    /// wider skin is asked for.
     outdated: bool,
 }
 
 impl VerletList {
-    /// A list that is not built yet. Its skin (m) starts from a guess and adapts; with a skin of 0
-    /// the list is built in every step, and holds the pairs that touch.
+    /// A list that is not built yet. Its skin (m) starts from a guess and adapts. With a skin of
+    /// zero the list is built in every step, and holds the pairs that touch.
     pub fn new(reach: Reach, skin: f64, neighbours: Neighbours) -> Self {
         Self {
             reach,
@@ -113,8 +114,8 @@ impl VerletList {
         }
     }
 
-    /// A list of many spheres, which are sorted in memory: those of a cell are then at hand without
-    /// copies, which would take memory.
+    /// A list of many spheres, which are sorted in memory. The search then needs no copies of them
+    /// in the order of the cells.
     pub fn of_sorted(self) -> Self {
         Self {
             sorted: true,
@@ -122,13 +123,13 @@ impl VerletList {
         }
     }
 
-    /// Notes that spheres are others, or in another order: the list must be built anew.
+    /// Notes that spheres were replaced or sorted, so that the list must be built again.
     pub fn outdate(&mut self) {
         self.outdated = true;
     }
 
-    /// Whether the list still holds `time` (s) after its build, and will until the offset of
-    /// a pair has changed by another `margin` (m). Not so if a coordinate is not a number.
+    /// Whether the list still holds `time` (s) after its build, and will hold until the offset of a
+    /// pair has changed by another `margin` (m). False if a coordinate is not a number.
     pub fn holds(&self, particles: &Particles, time: f64, margin: f64) -> bool {
         let allowance = self.allowance(time, margin);
         self.builds > 0
@@ -136,8 +137,8 @@ impl VerletList {
             && allowance.hold(&particles.position, self.anchor.position())
     }
 
-    /// How far spheres may have come `time` (s) after the build, if the offset of a pair may change
-    /// by another `margin` (m).
+    /// How far spheres may have moved `time` (s) after the build, if the offset of a pair may
+    /// change by another `margin` (m).
     fn allowance(&self, time: f64, margin: f64) -> Allowance {
         let margin = self.skin - margin;
         self.anchor.allowance(time, margin, self.half_diagonal)
@@ -148,7 +149,7 @@ impl VerletList {
         self.skin
     }
 
-    /// Asks for a skin (m) of at least that from now on.
+    /// Asks for a skin of at least this (m) from now on.
     pub fn require(&mut self, skin: f64) {
         self.least = skin;
         if self.skin < skin {
@@ -179,14 +180,14 @@ impl VerletList {
         &self.neighbour
     }
 
-    /// The sphere of an entry.
+    /// The sphere to which an entry belongs.
     pub(super) fn owner_of(&self, entry: usize) -> usize {
         let before = self.start.partition_point(|&start| start as usize <= entry);
         before.saturating_sub(1)
     }
 
-    /// The spheres of the entries from `first` on, all of lower index than the partners. `owner` is
-    /// the first of them, or an earlier one, and then the last.
+    /// Writes the spheres to which the entries from `first` on belong. They have lower indices than
+    /// the partners. `owner` must not be behind the first of them, and becomes the last.
     #[inline(always)]
     pub(super) fn fill_owners(&self, first: usize, owner: &mut usize, owners: &mut [u32]) {
         if !self.sorted {
@@ -203,11 +204,11 @@ impl VerletList {
             at = until;
             i += 1;
         }
-        // More of the last one's may follow.
+        // More entries of the last sphere may follow.
         *owner = i - 1;
     }
 
-    /// Widens or narrows the skin after a list that held for this many steps and this time (s).
+    /// Widens or narrows the skin, after the list has held for this many steps and this time (s).
     pub fn adapt(&mut self, steps: u64, time: f64) {
         self.life = time;
         if self.builds == 0 {
@@ -220,57 +221,68 @@ impl VerletList {
         }
     }
 
-    /// Builds the list anew for the present positions, which must be finite, on so many threads of
-    /// the pool that runs this.
+    /// Builds the list for the present positions, which must be finite, on this number of threads
+    /// of the present pool.
     pub fn build(&mut self, particles: &Particles, threads: usize) {
         let count = particles.len();
         let largest = particles.largest_radius();
         let few = count <= FEW && !self.sorted && self.search.may_be_replaced();
-        self.anchor.drop(particles);
+        self.anchor.renew(particles);
         self.half_diagonal = match self.reach {
             Reach::Contact => 0.0,
             Reach::Column => SQRT_2 * (2.0 * largest + self.skin),
         };
-        if few {
-            let turned = match self.reach {
-                Reach::Column if self.least == 0.0 => {
-                    let most = TURN * self.skin / self.half_diagonal;
-                    self.anchor.turn(self.life, most)
-                }
-                _ => (0.0, 1.0),
-            };
-            self.few.fill(particles, turned);
-        } else {
-            let columns = self.reach == Reach::Column;
-            let reach = 2.0 * largest + self.skin;
-            self.search.fill(particles, reach, columns, !self.sorted);
-        }
         self.start.clear();
         self.neighbour.clear();
         self.owner.clear();
         self.start.push(0);
-        if threads == 1 || !self.sorted {
-            for i in 0..count {
-                let first = self.neighbour.len();
-                let found = &mut self.neighbour;
-                if few {
-                    let of = (i, particles.first_partner(i));
-                    self.few
-                        .find(self.level, of, (self.reach, self.skin), found);
-                } else {
-                    find_partners(self.reach, self.skin, &self.search, i, particles, found);
-                    self.neighbour[first..].sort_unstable();
-                }
-                self.end_entries();
-            }
+        if few {
+            self.find_few(particles);
         } else {
-            self.find_on_threads(particles, threads);
+            let storage = match self.sorted {
+                true => Storage::InPlace,
+                false => Storage::Copied,
+            };
+            let distance = 2.0 * largest + self.skin;
+            self.search.fill(particles, distance, self.reach, storage);
+            match self.sorted && threads > 1 {
+                true => self.find_on_threads(particles, threads),
+                false => self.find_all(particles),
+            }
         }
         if self.sorted {
             self.search.forget();
         }
         self.builds += 1;
         self.outdated = false;
+    }
+
+    /// Finds the partners of a few spheres.
+    fn find_few(&mut self, particles: &Particles) {
+        let turned = match self.reach {
+            Reach::Column if self.least == 0.0 => {
+                let most = TURN * self.skin / self.half_diagonal;
+                self.anchor.turn(self.life, most)
+            }
+            _ => (0.0, 1.0),
+        };
+        self.few.fill(particles, turned);
+        for i in 0..particles.len() {
+            let of = (i, particles.first_partner(i));
+            let reach = (self.reach, self.skin);
+            self.few.find(self.level, of, reach, &mut self.neighbour);
+            self.end_entries();
+        }
+    }
+
+    /// Finds the partners of all spheres among those that the search suggests.
+    fn find_all(&mut self, particles: &Particles) {
+        for i in 0..particles.len() {
+            let (first, found) = (self.neighbour.len(), &mut self.neighbour);
+            find_partners(self.reach, self.skin, &self.search, i, particles, found);
+            found[first..].sort_unstable();
+            self.end_entries();
+        }
     }
 
     /// Ends the entries of the next sphere.
@@ -282,10 +294,10 @@ impl VerletList {
         }
     }
 
-    /// Finds the partners of all spheres, those of as many by each thread.
+    /// Finds the partners of all spheres, divided among threads.
     fn find_on_threads(&mut self, particles: &Particles, threads: usize) {
         let count = particles.len();
-        // In each part the spheres, all their partners, and where those of each end.
+        // Each part has its spheres, all their partners, and the end of the partners of each.
         let part = |k: usize| {
             let spheres = count * k / threads..count * (k + 1) / threads;
             (spheres, Vec::new(), Vec::new())
@@ -308,13 +320,13 @@ impl VerletList {
     }
 }
 
-/// Calls `visit` with both spheres of every pair that may touch, and of others. Stores no list of
-/// pairs: in a scene that is not checked yet all spheres may lie in one place, and the list would
-/// be too long.
+/// Calls `visit` with both spheres of every pair that may touch, and of other pairs. It stores no
+/// list of pairs. In a scene that is not checked yet, all spheres may lie in one place, and the
+/// list would be too long.
 pub fn visit_pairs(particles: &Particles, mut visit: impl FnMut(usize, usize)) {
     let length = 2.0 * particles.largest_radius();
     let mut search = Search::new(Neighbours::HashedCells { length });
-    search.fill(particles, length, false, true);
+    search.fill(particles, length, Reach::Contact, Storage::Copied);
     for i in 0..particles.len() {
         let first = particles.first_partner(i) as u32;
         search.near(i, particles, |j, _, _| {

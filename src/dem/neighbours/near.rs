@@ -1,12 +1,12 @@
 //! The pairs of the Verlet list that matter for the next few steps.
 //!
-//! While the offset of no pair has changed by more than the margin, a pair farther apart than
-//! that cannot touch, and one that is farther than that inside or outside the shield's box keeps
-//! its part in the shield. The margin adapts: refreshing takes a look at the whole Verlet list, and
-//! a wide margin leaves more pairs to look at in every step.
+//! As long as no offset of a pair has changed by more than the margin, a pair with a larger gap
+//! cannot touch. A pair that is farther than the margin inside or outside the shield's box keeps
+//! its part in the shield. The margin adapts: a narrow one makes more refreshes, which read the
+//! whole Verlet list, and a wide one leaves more pairs to be tested in every step.
 //!
-//! Pairs are looked at in blocks: what is true of each is found for all at once, as bits of one
-//! number, and those that matter are written without a branch.
+//! Pairs are tested in blocks. The results are bits of one word, and the pairs that matter are
+//! written without a branch.
 
 use super::anchor::{Allowance, Anchor};
 use super::follow::indices_of_kept;
@@ -24,54 +24,67 @@ use std::ops::Range;
 /// Steps from one refresh to the next that the margin adapts to, for the long lists of the shield.
 const COLUMN_LIFE: Range<u64> = 14..28;
 
-/// The same for lists of contacts, which are short.
+/// The same for the short lists of contacts.
 const CONTACT_LIFE: Range<u64> = 8..16;
 
-/// The most that the margin takes of the skin, of long lists and of lists of contacts: what it
-/// takes is missing in the life of the Verlet list.
+/// The largest margin as a part of the skin, for long lists and for lists of contacts. A wide
+/// margin shortens the life of the Verlet list.
 const MOST_OF_SKIN: [f64; 2] = [0.5, 0.25];
 
-/// Steps after which pairs that hold still are looked for anew, with a smaller margin.
+/// Steps after which near pairs are found again with a smaller margin, although they hold.
 const LONG_LIFE: u64 = 64;
 
-/// The part of the margin that a turn of all spheres may take.
+/// The largest part of the margin that is used by turning all spheres.
 const TURN: f64 = 0.4;
+
+/// Why near pairs are needed.
+#[derive(Clone, Copy, Debug)]
+pub struct Purpose {
+    /// Whether pairs may touch.
+    pub contacts: bool,
+    /// Whether spheres shield one another.
+    pub shield: bool,
+}
+
+impl Purpose {
+    /// No pair matters.
+    pub const NONE: Self = Self {
+        contacts: false,
+        shield: false,
+    };
+}
 
 /// The inner list.
 pub struct Near {
-    /// Whether pairs may touch.
-    contacts: bool,
-    /// Whether spheres shield one another.
-    shield: bool,
+    purpose: Purpose,
     /// How far the offset of a pair may change (m).
     margin: f64,
-    /// What is asked for at least, and the smallest that it may then be (m).
+    /// The margin that is asked for at least, and the smallest that is then allowed (m).
     least: f64,
     smallest: f64,
     anchor: Anchor,
     half_diagonal: f64,
-    /// How long the list before held (s).
+    /// How long the previous list held (s).
     life: f64,
     /// Sine and cosine of the angle by which the spheres are turned for the shield.
     turned: (f64, f64),
     pairs: Vec<NearPair>,
     /// How many of them touched when they were found.
     touching: usize,
-    /// As [`Self::mostly_touch`] says.
+    /// See [`Self::mostly_touch`].
     mostly_touch: bool,
-    /// The part of all pairs in the shield.
+    /// The shield of all pairs.
     shielding: Shield,
     glance: Box<Glance>,
-    /// What other threads look for their part of the pairs with.
+    /// Lists of the other threads, each for its part of the pairs.
     helpers: Vec<Near>,
 }
 
 impl Near {
-    /// A list that is not made yet; its margin (m) starts from a guess.
-    pub fn new(contacts: bool, shield: bool, margin: f64) -> Self {
+    /// A list that is not built yet. Its margin (m) starts from a guess.
+    pub fn new(purpose: Purpose, margin: f64) -> Self {
         Self {
-            contacts,
-            shield,
+            purpose,
             margin,
             least: 0.0,
             smallest: 0.0,
@@ -93,10 +106,10 @@ impl Near {
         self.margin
     }
 
-    /// The distance (m) beyond which a new list may leave pairs out: more than the margin where
-    /// spheres are turned first.
+    /// The gap (m) beyond which a new list may leave pairs out. It exceeds the margin if spheres
+    /// are turned first.
     pub fn reach(&self) -> f64 {
-        match self.shield {
+        match self.purpose.shield {
             true => (1.0 + TURN) * self.margin,
             false => self.margin,
         }
@@ -113,22 +126,17 @@ impl Near {
         self.mostly_touch
     }
 
-    /// Takes the pairs out for others, whose memory serves the next ones.
+    /// Replaces the pairs, and returns them. The memory of the new ones is used for the next list.
     pub fn exchange_pairs(&mut self, pairs: Vec<NearPair>) -> Vec<NearPair> {
         std::mem::replace(&mut self.pairs, pairs)
     }
 
-    /// Takes the pairs out, to be returned.
-    pub fn take_pairs(&mut self) -> Vec<NearPair> {
-        std::mem::take(&mut self.pairs)
+    /// The pairs, to be put into another order.
+    pub(in crate::dem) fn pairs_mut(&mut self) -> &mut Vec<NearPair> {
+        &mut self.pairs
     }
 
-    /// Takes the pairs back.
-    pub fn return_pairs(&mut self, pairs: Vec<NearPair>) {
-        self.pairs = pairs;
-    }
-
-    /// Asks for a margin (m) of at least that. Whether the list has it already.
+    /// Asks for a margin of at least this (m). Returns whether the list has it already.
     pub fn require(&mut self, margin: f64) -> bool {
         self.least = margin;
         let wide = self.margin >= margin;
@@ -136,7 +144,7 @@ impl Near {
         wide
     }
 
-    /// Whether the list holds a `time` (s) after its refresh, and will while no sphere moves by
+    /// Whether the list holds `time` (s) after its refresh, and will hold while no sphere moves by
     /// more than `way` (m).
     pub fn holds(&self, particles: &Particles, time: f64, way: f64) -> bool {
         let margin = self.margin - 2.0 * way;
@@ -155,15 +163,16 @@ impl Near {
         self.anchor.add_sphere(position);
     }
 
-    /// Takes these pairs for all that are near, until they are looked for anew.
+    /// Replaces the pairs by these, until the next refresh.
     pub fn set_pairs(&mut self, pairs: impl Iterator<Item = (u32, u32)>) {
         self.mostly_touch = false;
         self.pairs.clear();
         self.pairs.extend(pairs.map(|(i, j)| NearPair::new(i, j)));
     }
 
-    /// Notes that the spheres that are not to be kept were removed: their pairs go, and the others
-    /// get new indices. The pairs must be looked for anew. Says of each whether it is kept.
+    /// Notes that the spheres that are not to be kept were removed. Their pairs are removed, and
+    /// the others get new indices. The list must then be refreshed. Returns for each pair whether
+    /// it is kept.
     pub fn remove_spheres(&mut self, keep: &[bool]) -> Vec<bool> {
         self.anchor.remove_spheres(keep);
         let index = indices_of_kept(keep);
@@ -187,7 +196,7 @@ impl Near {
     /// for a Verlet list of that skin (m).
     pub fn adapt(&mut self, steps: u64, time: f64, skin: f64) {
         self.life = time;
-        let life = if self.shield {
+        let life = if self.purpose.shield {
             COLUMN_LIFE
         } else {
             CONTACT_LIFE
@@ -195,22 +204,27 @@ impl Near {
         if steps < life.start {
             self.margin *= 1.25;
         } else if steps >= life.end {
-            // What held for long was far too wide.
+            // A margin that held for long was far too wide.
             self.margin *= if steps < LONG_LIFE { 0.8 } else { 0.3 };
         }
         self.smallest = self.least.max(0.02 * skin);
         let [most_of_long, most] = MOST_OF_SKIN;
-        let most = if self.shield { most_of_long } else { most };
+        let most = if self.purpose.shield {
+            most_of_long
+        } else {
+            most
+        };
         self.margin = (self.margin).clamp(self.smallest, self.smallest.max(most * skin));
     }
 
-    /// Whether the list held for so many steps that looking for near pairs with a smaller margin
-    /// pays: every pair that is near costs as much as one that touches.
+    /// Whether the list has held for so many steps that a smaller margin pays. Every near pair
+    /// costs as much as one that touches.
     pub fn is_too_wide(&self, steps: u64) -> bool {
-        self.contacts && steps >= LONG_LIFE && self.margin > self.smallest
+        self.purpose.contacts && steps >= LONG_LIFE && self.margin > self.smallest
     }
 
-    /// Makes the list again from a valid Verlet list, on that many threads of the current pool.
+    /// Builds the list again from a valid Verlet list, on this number of threads of the current
+    /// pool.
     pub(in crate::dem) fn refresh(
         &mut self,
         level: Level,
@@ -218,22 +232,22 @@ impl Near {
         particles: &Particles,
         threads: usize,
     ) {
-        self.anchor.drop(particles);
-        if self.shield {
-            // A pair inside the box, or that comes inside, is no longer than this.
+        self.anchor.renew(particles);
+        if self.purpose.shield {
+            // The offset of a pair inside the box, or coming inside, is no longer than this.
             self.half_diagonal = SQRT_2 * 2.0 * particles.largest_radius() + self.margin;
-            // A margin that is asked for must hold in full from the start.
+            // A margin that is asked for must be available in full from the start.
             let life = if self.least > 0.0 { 0.0 } else { self.life };
             self.turned = self
                 .anchor
                 .turn(life, TURN * self.margin / self.half_diagonal);
         }
         let entries = list.pairs();
-        if threads == 1 || self.shield {
+        if threads == 1 || self.purpose.shield {
             self.find_among(level, list, particles, 0..entries);
         } else {
             let mut helpers = std::mem::take(&mut self.helpers);
-            helpers.resize_with(threads - 1, || Self::new(self.contacts, false, 0.0));
+            helpers.resize_with(threads - 1, || Self::new(self.purpose, 0.0));
             for helper in &mut helpers {
                 helper.margin = self.margin;
             }
@@ -252,7 +266,7 @@ impl Near {
         self.mostly_touch = 10 * self.touching >= 9 * self.pairs.len();
     }
 
-    /// Finds the near ones among these entries of the list.
+    /// Finds the near pairs among these entries of the list.
     fn find_among(
         &mut self,
         level: Level,
@@ -272,7 +286,7 @@ impl Near {
         particles: &Particles,
         entries: Range<usize>,
     ) {
-        let shield = self.shield;
+        let shield = self.purpose.shield;
         let (mut near, mut open, mut touching) = (0, 0, 0);
         let Shield {
             counts,
@@ -307,15 +321,13 @@ impl Near {
                     shields_second |= (facts.shields_second & all) << at;
                 }
             }
-            for (side, shields) in [shields_first, shields_second].into_iter().enumerate() {
-                for k in ones(shields) {
-                    counts[glance.pairs[k].sides()[side] as usize] += 1;
-                }
-            }
+            add_shields(counts, &glance.pairs, [shields_first, shields_second]);
         }
-        self.pairs.truncate(if self.contacts { near } else { 0 });
+        self.pairs
+            .truncate(if self.purpose.contacts { near } else { 0 });
         self.touching = touching;
-        self.shielding.begin(if self.shield { open } else { 0 });
+        self.shielding
+            .begin(if self.purpose.shield { open } else { 0 });
     }
 
     /// Counts the spheres that shield each one at the present positions.
@@ -330,11 +342,22 @@ impl Near {
     }
 }
 
-/// Makes sure that a block can be written from there on.
+/// Counts a shield for the first spheres of some pairs, and for the second spheres of others, as
+/// bits select them.
+#[inline(always)]
+fn add_shields(counts: &mut [u32], pairs: &[NearPair], shields: [u64; 2]) {
+    for (side, shields) in shields.into_iter().enumerate() {
+        for k in ones(shields) {
+            counts[pairs[k].sides()[side] as usize] += 1;
+        }
+    }
+}
+
+/// Makes sure that a block can be written at `from`.
 #[inline(always)]
 fn make_room<P: Copy + Default>(list: &mut Vec<P>, from: usize) {
     if list.len() < from + BLOCK + ROWS {
-        // Not twice as much: what a large list does not need in the end is memory too.
+        // Not twice as much, which would waste memory in a large scene.
         list.resize(from + from / 8 + 4 * BLOCK, P::default());
     }
 }

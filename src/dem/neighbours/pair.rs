@@ -4,11 +4,11 @@ use crate::particles::block::ROWS;
 use fearless_simd::{Simd, SimdBase, SimdMask, mask64x8, u64x8};
 use std::cmp::Ordering;
 
-/// A pair that may touch: two indices in one number, in the order of which pairs stand in a list.
+/// A pair that may touch. Both indices form one number, and lists are sorted by this number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[repr(C, align(8))]
 pub struct NearPair {
-    // On most machines these are the halves of one number.
+    // On little-endian machines these are the halves of that number in memory.
     second: u32,
     first: u32,
 }
@@ -41,13 +41,13 @@ impl NearPair {
         u64::from(self.first) << 32 | u64::from(self.second)
     }
 
-    /// The pair of a number.
+    /// The pair of such a number.
     #[inline(always)]
     pub(in crate::dem) fn of_word(word: u64) -> Self {
         Self::new((word >> 32) as u32, word as u32)
     }
 
-    /// Both.
+    /// Both spheres.
     pub fn sides(self) -> [u32; 2] {
         [self.i(), self.j()]
     }
@@ -65,8 +65,8 @@ impl PartialOrd for NearPair {
     }
 }
 
-/// Writes those of eight pairs that are to be kept to the front of a list, and anything after them.
-/// Says how many they are.
+/// Writes the pairs that `which` selects among eight to the front of a list. The entries after them
+/// are arbitrary. Returns how many pairs are selected.
 #[inline(always)]
 pub(in crate::dem) fn keep_pairs<S: Simd>(
     simd: S,

@@ -1,10 +1,20 @@
-//! The search for candidate pairs, before distances are computed.
+//! The search for candidate pairs, before their distances are computed.
 
+use super::Reach;
 use super::cells::Cells;
 use super::hash::HashedCells;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 use crate::scene::Neighbours;
+
+/// Where a search reads the spheres of a cell.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Storage {
+    /// In copies, which are in the order of the cells.
+    Copied,
+    /// In place, as spheres are in about that order anyway.
+    InPlace,
+}
 
 /// A way to find the spheres that may be near a sphere.
 #[derive(Clone, Debug)]
@@ -14,7 +24,7 @@ pub(super) enum Search {
     Cells(Cells, Option<f64>),
     /// Cells of this width (m) in a hash table.
     Hashed(HashedCells, f64),
-    /// No choice at all.
+    /// Every sphere may be near every other.
     AllPairs,
 }
 
@@ -33,22 +43,28 @@ impl Search {
         matches!(self, Self::Cells(_, None))
     }
 
-    /// Sorts the spheres, whose pairs reach no farther than `reach` (m); in `columns`, at any
-    /// height. Places are `copied` into the order of the cells, unless spheres stand in about that
-    /// order.
-    pub(super) fn fill(&mut self, particles: &Particles, reach: f64, columns: bool, copied: bool) {
-        // A hair wider: rounding must not put the partners of a pair two cells apart.
+    /// Sorts the spheres into cells for pairs of this reach, at most `distance` (m) long: their
+    /// horizontal distance, if they reach at any height.
+    pub(super) fn fill(
+        &mut self,
+        particles: &Particles,
+        distance: f64,
+        reach: Reach,
+        storage: Storage,
+    ) {
+        // Slightly wider, so that rounding cannot put the partners of a pair two cells apart.
         let wide = |width: f64| width * (1.0 + 1e-9);
         match self {
             Self::Cells(cells, width) => {
-                cells.fill(particles, wide(width.unwrap_or(reach)), columns, copied);
+                let width = wide(width.unwrap_or(distance));
+                cells.fill(particles, width, reach, storage);
             }
-            Self::Hashed(cells, width) => cells.fill(particles, wide(*width), columns),
+            Self::Hashed(cells, width) => cells.fill(particles, wide(*width), reach),
             Self::AllPairs => {}
         }
     }
 
-    /// Gives back the memory of cells.
+    /// Frees the memory of cells.
     pub(super) fn forget(&mut self) {
         if let Self::Cells(cells, _) = self {
             *cells = Cells::default();
@@ -56,7 +72,7 @@ impl Search {
     }
 
     /// Calls `visit` with index, centre and radius of all spheres that may be near sphere `i`, and
-    /// of others, in no order.
+    /// of other spheres, in no order.
     #[inline]
     pub(super) fn near(
         &self,
@@ -67,7 +83,7 @@ impl Search {
         match self {
             Self::Cells(cells, _) => cells.near(i, particles, visit),
             Self::Hashed(cells, _) => cells.near(i, particles, visit),
-            // A pair is looked at once, from the sphere of lower index: half of all.
+            // Each pair is visited once, from the sphere of lower index.
             Self::AllPairs => {
                 for j in particles.first_partner(i)..particles.len() {
                     visit(j as u32, particles.position[j], particles.radius[j]);

@@ -1,26 +1,27 @@
-//! Which spheres shield which from below: what is known for some steps, and the pairs to be tested
-//! in each.
+//! Which spheres shield which from below: counts that hold for some steps, and the pairs to be
+//! tested in each step.
 
 use super::{NearPair, Particles, WORD};
 use crate::particles::block::{ROWS, ones, row, turned};
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
-/// The count of spheres that shield each one, kept up with the pairs whose part in it may change.
-/// From one step to the next few do: what is found is compared with what was, and only what differs
-/// is counted.
+/// For each sphere the number of spheres that shield it, updated for the pairs whose part in it may
+/// change. Few of these change from one step to the next. So their bits are compared with those of
+/// the step before, and only the differences are counted.
 #[derive(Default)]
 pub(super) struct Shield {
-    /// Spheres that shield each one.
+    /// For each sphere the number of spheres that shield it.
     pub(super) counts: Vec<u32>,
-    /// Undecided pairs; whole groups, filled up with a sphere that does not shield itself.
+    /// Undecided pairs in whole groups, filled up with pairs of a sphere and itself, which shield
+    /// nothing.
     pub(super) pairs: Vec<NearPair>,
-    /// Of as many pairs as a number has bits: whose second sphere shields the first, and whose
-    /// first the second, as far as `counts` has it.
+    /// For groups of as many pairs as a word has bits: in which pairs the second sphere shields the
+    /// first, and in which the first the second, as counted in `counts`.
     shields: Vec<[u64; 2]>,
 }
 
 impl Shield {
-    /// Begins anew with pairs, so many of those in `pairs`, that `counts` has nothing of.
+    /// Begins again with this number of entries of `pairs`, none of which is counted in `counts`.
     pub(super) fn begin(&mut self, pairs: usize) {
         self.pairs.truncate(pairs);
         self.pairs
@@ -29,8 +30,8 @@ impl Shield {
         self.shields.resize(pairs.div_ceil(WORD), [0; 2]);
     }
 
-    /// Counts what is so at the present positions; all spheres have the same radius (m), if one is
-    /// given.
+    /// Updates the counts for the present positions. All spheres have the same radius (m), if one
+    /// is given.
     pub(super) fn count(
         &mut self,
         level: Level,
@@ -42,8 +43,7 @@ impl Shield {
 
     #[inline(always)]
     fn count_all<S: Simd>(&mut self, simd: S, particles: &Particles, common_radius: Option<f64>) {
-        // What is found of many is compared at once: that something has changed is hard to foresee
-        // of a few.
+        // Many pairs are compared at once: for a few pairs the branch would be unpredictable.
         for (pairs, shields) in self.pairs.chunks(WORD).zip(&mut self.shields) {
             let mut now = [0; 2];
             for (eight, at) in pairs.chunks_exact(ROWS).zip((0..).step_by(ROWS)) {
@@ -59,7 +59,8 @@ impl Shield {
     }
 }
 
-/// Whose second sphere shields the first, and whose first the second, of eight pairs, as bits.
+/// In which of eight pairs the second sphere shields the first, and in which the first the second,
+/// as bits.
 #[inline(always)]
 fn who_shields<S: Simd>(
     simd: S,
@@ -96,7 +97,7 @@ fn who_shields<S: Simd>(
     ]
 }
 
-/// Notes what has changed in some pairs.
+/// Counts what has changed in some pairs.
 fn note(counts: &mut [u32], pairs: &[NearPair], before: [u64; 2], now: [u64; 2]) {
     for side in [0, 1] {
         for k in ones(before[side] ^ now[side]) {

@@ -38,7 +38,7 @@ impl Feed {
         self.waiting.len()
     }
 
-    /// Skips that many spheres, which came in before.
+    /// Skips this number of spheres, which came in before.
     pub(super) fn skip(&mut self, spheres: usize) {
         self.waiting.drain(..spheres.min(self.waiting.len()));
         self.released += spheres;

@@ -11,17 +11,17 @@ use crate::simulation::{Guard, Instability};
 /// A point of the plane, x and z (m).
 pub(super) type Point = [f64; 2];
 
-/// Watches the centres of the discs.
+/// Checks the ways of the centres of the discs.
 pub(super) struct LeakWatch {
     walls: Barrier,
-    /// The same with the door, while it is closed.
+    /// Walls and door, while the door is closed.
     closed: Option<Barrier>,
-    /// Number and centre of each disc at the latest look.
+    /// Number and centre of each disc at the latest check.
     pub(super) before: Vec<(u32, Point)>,
 }
 
 impl LeakWatch {
-    /// A watch over a scene of discs; none in space, where walls of spheres have holes.
+    /// A watch over a scene of discs. None for spheres, whose walls have holes.
     pub(super) fn of_scene(scene: &Scene, fixed: &FixedSpheres) -> Option<Self> {
         let narrow = 2.0 * scene.smallest_radius();
         let with_door = [&fixed.walls[..], &fixed.door[..]].concat();
@@ -37,7 +37,7 @@ impl LeakWatch {
         self.closed = None;
     }
 
-    /// Names the first disc that passed a wall since the latest look.
+    /// Reports the first disc that passed a wall since the latest check.
     pub(super) fn check(
         &mut self,
         particles: &Particles,
@@ -45,7 +45,7 @@ impl LeakWatch {
         dt: f64,
     ) -> Result<(), Instability> {
         let barrier = self.closed.as_ref().unwrap_or(&self.walls);
-        // Both lists are in the order of numbers: discs are let in one after the other.
+        // Both lists are in the order of numbers, because discs come in one after the other.
         let mut before = self.before.iter().peekable();
         for i in particles.fixed..particles.len() {
             let (number, now) = (particles.number[i], place(particles, i));
@@ -136,7 +136,7 @@ impl Barrier {
     fn crossed(&self, from: Point, to: Point) -> Option<[Point; 2]> {
         let crosses = |line: &[Point; 2]| crosses([from, to], *line);
         if length(from, to) > self.width {
-            // So far between two looks: cells do not tell.
+            // The way is longer than a cell, so all lines are tested.
             return self.lines.iter().find(|line| crosses(line)).copied();
         }
         let column = (to[0] - self.low[0]) / self.width;
@@ -167,7 +167,7 @@ pub(in crate::dem) fn wall_pairs(fixed: &[FixedSphere], narrow: f64) -> Vec<[Fix
     let are_neighbours = |one: &FixedSphere, other: &FixedSphere| {
         let (a, b) = (centre(one), centre(other));
         let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
-        // A hair less, for the two themselves.
+        // Slightly less, so that the two themselves do not count.
         let reach = 0.5 * length(a, b) * (1.0 - 1e-9);
         let from = sorted.partition_point(|disc| disc.position[0] < middle[0] - reach);
         let near = sorted[from..].iter();

@@ -1,7 +1,7 @@
 //! What happens to the set of spheres while a simulation runs: a feed, a door, an outlet.
 //!
-//! All of it happens between steps, at fixed ones: every [`INTERVAL`] s, and when a sphere is due.
-//! So it does not depend on how a run is cut into frames.
+//! All of it happens between steps, at fixed moments: every [`INTERVAL`] s, and when a sphere is
+//! due. So it does not depend on the frames of a run.
 
 mod feed;
 mod leak;
@@ -19,16 +19,16 @@ use crate::particles::Particles;
 use crate::scene::Scene;
 use crate::simulation::{Counts, Instability, Milestone, MilestoneKind};
 
-/// Time between two looks at the spheres (s): while a grain falls a few of its diameters.
+/// Time between two checks of the spheres (s). In this time a grain falls a few of its diameters.
 const INTERVAL: f64 = 0.01;
 
-/// A feed, a door, an outlet, and what they wait for.
+/// A feed, a door, an outlet, and the conditions for which they wait.
 pub(super) struct Process {
     dt: f64,
-    /// Steps between two looks.
+    /// Steps between two checks.
     steps: u64,
     feed: Feed,
-    /// Where the door's spheres are among the fixed ones, while it is closed and is to open.
+    /// The door, while it is closed and is to open.
     door: Option<Door>,
     rest: Option<RestWatch>,
     outlet: Option<f64>,
@@ -49,8 +49,8 @@ struct Door {
 }
 
 impl Process {
-    /// What a scene's spheres go through; none if they all stay from the start to the end.
-    /// `present` spheres are in from the start, and move.
+    /// The process of a scene, or none if all spheres stay from the start to the end. `present`
+    /// moving spheres are in from the start.
     pub(super) fn of_scene(scene: &Scene, feed: Option<Feed>, present: usize) -> Option<Self> {
         let dt = scene.time.dt;
         let active = feed.is_some()
@@ -101,7 +101,7 @@ impl Process {
         self.ended
     }
 
-    /// What became so far of `all` spheres of the scene.
+    /// How many of `all` spheres of the scene came in and left so far.
     pub(super) fn counts(&self, all: usize) -> Counts {
         Counts {
             all,
@@ -113,7 +113,7 @@ impl Process {
         }
     }
 
-    /// What happened so far.
+    /// Events that happened so far.
     pub(super) fn milestones(&self) -> &[Milestone] {
         &self.milestones
     }
@@ -147,7 +147,12 @@ impl Process {
         }
         self.discharge(engine);
         let at_rest = match &mut self.rest {
-            Some(rest) => rest.since(engine.particles(), self.feed.is_empty(), step),
+            Some(rest) if self.feed.is_empty() => rest.since(engine.particles(), step),
+            // Nothing is at rest before all spheres are in.
+            Some(rest) => {
+                rest.reset();
+                None
+            }
             None => None,
         };
         if !self.open_door(engine, step, at_rest) {
@@ -163,7 +168,7 @@ impl Process {
         });
     }
 
-    /// Removes the spheres that are out.
+    /// Removes the spheres that are below the outlet.
     fn discharge(&mut self, engine: &mut dyn Engine) {
         let Some(height) = self.outlet else { return };
         let particles = engine.particles();
@@ -179,7 +184,7 @@ impl Process {
         }
     }
 
-    /// Opens the door if it is time, and says whether it did.
+    /// Opens the door if it is time. Returns whether it did.
     fn open_door(&mut self, engine: &mut dyn Engine, step: u64, at_rest: Option<u64>) -> bool {
         let Some(door) = &self.door else { return false };
         let opens = match door.step {
@@ -213,7 +218,7 @@ impl Process {
         }
         let inside = particles.len() - particles.fixed;
         if inside == 0 {
-            // A silo whose grains all fell beside it was never full.
+            // A silo whose grains all fell beside it never held any.
             if self.door.is_none() {
                 self.note(step, MilestoneKind::Emptied);
             }

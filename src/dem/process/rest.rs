@@ -3,26 +3,26 @@
 use crate::particles::Particles;
 use crate::scene::Rest;
 
-/// One sphere at rest may have the limit of all spheres over this number, or over the number of
+/// The limit for one sphere is the limit for all spheres over this number, or over the number of
 /// spheres if that is smaller.
 const PARTS: usize = 100;
 
 /// Watches the kinetic energy of all spheres and of every single one.
 ///
-/// A total alone says nothing of single spheres: a few that still flow are lost in the sum.
+/// The total alone is not enough: a few spheres that still flow would be lost in the sum.
 pub(super) struct RestWatch {
     /// Largest kinetic energy of all spheres at rest together (J), spins included.
     all: f64,
     /// Largest kinetic energy of one sphere at rest (J), its spin included.
     one: f64,
-    /// Steps for which all spheres must stay below these.
+    /// Steps for which all spheres must stay below both limits.
     hold: u64,
-    /// Step since which they have.
+    /// Step since which they have been below both limits.
     pub(super) since: Option<u64>,
 }
 
 impl RestWatch {
-    /// A watch over a scene of `count` spheres, those included that are not in yet.
+    /// A watch over a scene of `count` spheres, including those that are not in yet.
     pub(super) fn new(rest: &Rest, count: usize, dt: f64) -> Self {
         Self {
             all: rest.kinetic_energy,
@@ -32,15 +32,15 @@ impl RestWatch {
         }
     }
 
-    /// Begins anew.
+    /// Starts to wait again.
     pub(super) fn reset(&mut self) {
         self.since = None;
     }
 
-    /// Looks at the spheres. The step since which they have been slow, if they are at rest by now;
-    /// never before all are `in`.
-    pub(super) fn since(&mut self, particles: &Particles, all_in: bool, step: u64) -> Option<u64> {
-        if !(all_in && self.are_slow(particles)) {
+    /// Looks at the spheres, when all have come in. Returns the step since which they have been
+    /// slow, if they are at rest by now.
+    pub(super) fn since(&mut self, particles: &Particles, step: u64) -> Option<u64> {
+        if !self.are_slow(particles) {
             self.since = None;
             return None;
         }

@@ -1,4 +1,4 @@
-//! What of a process changes while it runs: the rest follows from the scene.
+//! The state of a process: what changes while it runs. The rest follows from the scene.
 
 use super::leak::Point;
 use super::{LeakWatch, Process};
@@ -6,7 +6,7 @@ use crate::dem::state::StateError;
 use crate::simulation::Milestone;
 use serde::{Deserialize, Serialize};
 
-/// What of a process changes while it runs.
+/// The state of a process.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(in crate::dem) struct ProcessState {
     /// Spheres that the feed let in; the others wait in the order of the scene.
@@ -15,7 +15,7 @@ pub(in crate::dem) struct ProcessState {
     is_closed: bool,
     /// Step since which the spheres have been slow.
     slow_since: Option<u64>,
-    /// Number and place of each disc when the watch over walls last looked.
+    /// Number and position of each disc at the latest check of the walls.
     watched: Vec<(u32, Point)>,
     milestones: Vec<Milestone>,
     discharged: usize,
@@ -24,7 +24,7 @@ pub(in crate::dem) struct ProcessState {
 }
 
 impl Process {
-    /// What has changed so far.
+    /// The present state.
     pub(in crate::dem) fn state(&self) -> ProcessState {
         ProcessState {
             fed: self.feed.released(),
@@ -41,7 +41,7 @@ impl Process {
         }
     }
 
-    /// Makes sure that a state is one of this process, which has just begun.
+    /// Checks that a state belongs to this process, which has just begun.
     pub(in crate::dem) fn accepts(&self, state: &ProcessState) -> Result<(), StateError> {
         let fits = state.fed <= self.feed.waiting()
             && self.feed.released() == 0
@@ -52,7 +52,7 @@ impl Process {
         }
     }
 
-    /// Takes up an accepted state.
+    /// Continues from an accepted state.
     pub(in crate::dem) fn restore(&mut self, state: ProcessState) {
         self.feed.skip(state.fed);
         if self.door.is_some() && !state.is_closed {

@@ -1,28 +1,26 @@
-//! Blocks of contacts: the laws, for many pairs at once.
+//! Blocks of contacts: the laws for many pairs at once.
 //!
-//! For all pairs of a block, touching or not, the laws are computed in a loop that the compiler
-//! turns into vector instructions; a pair that does not touch gets a force of zero. Then the forces
-//! are added up one by one in the order of the list. Adding zero to a sum that began at +0 changes
-//! no bit of it.
+//! The laws are computed for all pairs of a block, in a loop that the compiler turns into vector
+//! instructions. A pair that does not touch gets a force of zero. Then the forces are added one by
+//! one in the order of the list. Adding zero to a sum that began at +0 changes no bit of it.
 
+mod gather;
+mod scatter;
 mod springs;
 mod walls;
 
-use super::contact_laws::{ContactForce, Laws, Roots};
+use super::contact_geometry::{ContactGeometry, Roots};
+use super::contact_laws::{ContactForce, Laws};
 use super::contact_state::{ContactState, EarlierMotion, SphereProperties};
 use super::lanes::{PropertyColumns, WallContactColumns};
-use super::partners::Partners;
-use super::sums::Sums;
-use super::touching::{Entries, Lanes};
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{History, TangentialLaw};
-use crate::particles::block::{BLOCK, Column, Columns, ROWS, Row, row};
+use crate::particles::block::{BLOCK, Column, Columns, Row};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
-use fearless_simd::{Simd, SimdBase, SimdFrom, f64x4, f64x8};
 use std::marker::PhantomData;
 
-/// Stands for an overlap within the limit; no touching pair has a negative one.
+/// Marks an overlap within the limit. No touching pair has a negative overlap.
 const NOT_DEEP: f64 = -1.0;
 
 /// Velocity and spin of a sphere before an evaluation of forces, in rows.
@@ -36,10 +34,10 @@ pub(super) struct ContactBlock<H> {
     velocity: Columns,
     /// Spins of both (rad/s).
     spin: [Columns; 2],
-    /// The same of before, if springs are loaded by those.
+    /// Earlier velocities and spins, if springs are loaded by these.
     earlier_velocity: Columns,
     earlier_spin: [Columns; 2],
-    /// What does not change from step to step, of both.
+    /// Properties of both, which do not change from step to step.
     properties: [PropertyColumns; 2],
     /// Whether all spheres are alike.
     alike: bool,
@@ -49,13 +47,13 @@ pub(super) struct ContactBlock<H> {
     inverse_distance: Column,
     contact_radius: Column,
     effective_mass: Column,
-    /// Contacts with a wall, now and before.
+    /// Contacts with a wall, present and earlier.
     wall_contact: WallContactColumns,
     earlier_wall_contact: WallContactColumns,
     /// Forces of springs (N).
     spring: Columns,
-    /// Of loaded springs: forces of dashpots (N), limits of friction (N), squares of both forces
-    /// (N2), 1 / their roots, and levers in radii.
+    /// For friction with a history: forces of dashpots (N), limits of friction (N), squared forces
+    /// of spring and dashpot (N2), the inverse roots of these squares, and levers in radii.
     drag: Columns,
     limit: Column,
     squared: Column,
@@ -65,7 +63,7 @@ pub(super) struct ContactBlock<H> {
     torque: [Columns; 2],
     /// Overlap of a pair beyond the limit (m), else [`NOT_DEEP`].
     too_deep: Column,
-    memory: PhantomData<H>,
+    history: PhantomData<H>,
 }
 
 impl<H: History> ContactBlock<H> {
@@ -97,14 +95,14 @@ impl<H: History> ContactBlock<H> {
             squared: [0.0; BLOCK],
             inverse_root: [0.0; BLOCK],
             lever: [0.0; BLOCK],
-            memory: PhantomData,
+            history: PhantomData,
             force: Columns::ZERO,
             torque: pair(),
             too_deep: [NOT_DEEP; BLOCK],
         }
     }
 
-    /// Sets the properties of all spheres, if they are alike: they are then not gathered.
+    /// Sets the properties of all spheres, if they are alike. These are then not gathered.
     pub(super) fn set_alike<N: NormalLaw, T: TangentialLaw>(
         &mut self,
         alike: Option<SphereProperties>,
@@ -121,156 +119,13 @@ impl<H: History> ContactBlock<H> {
         }
     }
 
-    /// Gathers positions, velocities, spins and histories of pairs.
-    #[inline(always)]
-    pub(super) fn gather_pairs<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
-        &mut self,
-        simd: S,
-        pairs: &Lanes<'_>,
-        histories: &[H],
-        partners: &Partners<'_>,
-    ) {
-        // Of one length, so that an index is checked once.
-        let spheres = partners.position.len();
-        let (position, velocity) = (partners.position, &partners.velocity[..spheres]);
-        let spin = if T::ROTATES {
-            &partners.spin[..spheres]
-        } else {
-            position
-        };
-        let known = self.gather_offset(simd, pairs);
-        let [first_spin, second_spin] = &mut self.spin;
-        for at in (0..BLOCK).step_by(ROWS) {
-            if !known {
-                self.offset.fill_from::<S>(
-                    at,
-                    #[inline(always)]
-                    |k| {
-                        row(simd, position, pairs.pairs[k].i())
-                            - row(simd, position, pairs.pairs[k].j())
-                    },
-                );
-            }
-            self.velocity.fill_from::<S>(
-                at,
-                #[inline(always)]
-                |k| {
-                    row(simd, velocity, pairs.pairs[k].i())
-                        - row(simd, velocity, pairs.pairs[k].j())
-                },
-            );
-            // Of spheres that are alike, which have the same lever, laws ask for the sum of both
-            // spins alone: the first gets all of it.
-            if T::ROTATES && self.alike {
-                first_spin.fill_from::<S>(
-                    at,
-                    #[inline(always)]
-                    |k| row(simd, spin, pairs.pairs[k].i()) + row(simd, spin, pairs.pairs[k].j()),
-                );
-            } else if T::ROTATES {
-                first_spin.fill_from::<S>(
-                    at,
-                    #[inline(always)]
-                    |k| row(simd, spin, pairs.pairs[k].i()),
-                );
-                second_spin.fill_from::<S>(
-                    at,
-                    #[inline(always)]
-                    |k| row(simd, spin, pairs.pairs[k].j()),
-                );
-            }
-        }
-        if !self.alike {
-            self.gather_properties::<N, T>(pairs, partners);
-        }
-        match pairs.entries {
-            Entries::Listed(entries) => self.gather_springs(
-                simd,
-                #[inline(always)]
-                |k| histories[entries[k] as usize],
-            ),
-            Entries::From(first) => {
-                let histories = &histories[first..first + BLOCK];
-                self.gather_springs(
-                    simd,
-                    #[inline(always)]
-                    |k| histories[k],
-                );
-            }
-        }
-        if Self::HAS_HISTORY && !partners.earlier.is_empty() {
-            self.gather_earlier_motion(simd, pairs, partners);
-        }
-    }
-
-    /// Gathers what spheres are like, of spheres that are not alike.
-    #[inline(always)]
-    fn gather_properties<N: NormalLaw, T: TangentialLaw<History = H>>(
-        &mut self,
-        pairs: &Lanes<'_>,
-        partners: &Partners<'_>,
-    ) {
-        self.properties[0].take::<N, T>(partners, |k| pairs.pairs[k].i());
-        self.properties[1].take::<N, T>(partners, |k| pairs.pairs[k].j());
-        let [one, other] = &self.properties;
-        for (k, inverse) in self.inverse_sum.iter_mut().enumerate() {
-            *inverse = 1.0 / (one.radius[k] + other.radius[k]);
-        }
-        for (k, effective) in self.effective_mass.iter_mut().enumerate() {
-            *effective = Laws::<N, T>::effective_mass([one.at(k), other.at(k)]);
-        }
-    }
-
-    /// Gathers velocities and spins as they were before.
-    #[inline(always)]
-    fn gather_earlier_motion<S: Simd>(
-        &mut self,
-        simd: S,
-        pairs: &Lanes<'_>,
-        partners: &Partners<'_>,
-    ) {
-        let earlier = partners.earlier;
-        self.earlier_velocity.fill::<S>(
-            #[inline(always)]
-            |k| {
-                let one = earlier[pairs.pairs[k].i() as usize][0];
-                let other = earlier[pairs.pairs[k].j() as usize][0];
-                f64x4::simd_from(simd, one) - f64x4::simd_from(simd, other)
-            },
-        );
-        let [one, other] = &mut self.earlier_spin;
-        one.fill::<S>(
-            #[inline(always)]
-            |k| f64x4::simd_from(simd, earlier[pairs.pairs[k].i() as usize][1]),
-        );
-        other.fill::<S>(
-            #[inline(always)]
-            |k| f64x4::simd_from(simd, earlier[pairs.pairs[k].j() as usize][1]),
-        );
-    }
-
-    /// Copies the offsets, if they are known. Returns whether they are.
-    #[inline(always)]
-    fn gather_offset<S: Simd>(&mut self, simd: S, pairs: &Lanes<'_>) -> bool {
-        let Some(offset) = pairs.offset else {
-            return false;
-        };
-        for (column, lanes) in self.offset.0.iter_mut().zip(offset) {
-            for at in (0..BLOCK).step_by(ROWS) {
-                let eight = f64x8::from_slice(simd, &lanes[at..at + ROWS]);
-                eight.store_slice(&mut column[at..at + ROWS]);
-            }
-        }
-        true
-    }
-
     /// Applies the laws to every pair.
     #[inline(always)]
     pub(super) fn apply_laws<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         laws: &Laws<N, T>,
     ) {
-        // Two loops, as a branch in one would keep it from being turned into vector instructions.
+        // Two loops, because a branch in a loop would prevent vector instructions.
         match Self::HAS_HISTORY && laws.loading.age > 0.0 {
             true => self.apply_laws_as::<N, T, true>(laws),
             false => self.apply_laws_as::<N, T, false>(laws),
@@ -295,11 +150,8 @@ impl<H: History> ContactBlock<H> {
         self.turn_springs(Self::normal);
         for k in 0..BLOCK {
             let state = self.contact_state::<T, EARLIER>(k, self.properties[1].at(k));
-            let (roots, spring) = (self.roots(k), self.spring(k));
-            match Self::HAS_HISTORY {
-                true => self.store_loaded::<T>(k, &laws.load_pair(&state, roots, spring)),
-                false => self.store_force::<T>(k, &laws.pair_force_with(&state, roots, spring)),
-            }
+            let geometry = laws.geometry(&state, self.roots(k));
+            self.apply_laws_to(k, laws, &state, &geometry);
         }
         match self.alike {
             true => self.add_friction_to_all::<T, true>(Self::normal),
@@ -307,8 +159,8 @@ impl<H: History> ContactBlock<H> {
         }
     }
 
-    /// The two at a contact, of which the second has the properties `other`, with their earlier
-    /// motion if springs are loaded by that.
+    /// The state of a contact whose second partner has the properties `other`. It includes the
+    /// earlier motion if springs are loaded by that.
     #[inline(always)]
     fn contact_state<T: TangentialLaw, const EARLIER: bool>(
         &self,
@@ -350,6 +202,22 @@ impl<H: History> ContactBlock<H> {
         }
     }
 
+    /// Applies the laws to a contact; friction with a history is only loaded.
+    #[inline(always)]
+    fn apply_laws_to<N: NormalLaw, T: TangentialLaw<History = H>>(
+        &mut self,
+        k: usize,
+        laws: &Laws<N, T>,
+        state: &ContactState,
+        geometry: &ContactGeometry,
+    ) {
+        let spring = self.spring(k);
+        match Self::HAS_HISTORY {
+            true => self.store_loaded::<T>(k, &laws.load(state, geometry, spring)),
+            false => self.store_force::<T>(k, &laws.force(state, geometry, spring)),
+        }
+    }
+
     /// Stores force and torques of a contact.
     #[inline(always)]
     fn store_force<T: TangentialLaw>(&mut self, k: usize, contact: &ContactForce) {
@@ -376,59 +244,6 @@ impl<H: History> ContactBlock<H> {
         (0..contacts)
             .find(|&k| self.too_deep[k] != NOT_DEEP)
             .map(|k| (k, self.too_deep[k]))
-    }
-
-    /// Adds forces and torques to the sums of both spheres of each pair, one after the other.
-    #[inline(always)]
-    pub(super) fn scatter_to_pairs<S: Simd, T: TangentialLaw<History = H>>(
-        &mut self,
-        simd: S,
-        pairs: &Lanes<'_>,
-        sums: &mut Sums<'_>,
-    ) {
-        self.clear_from(pairs.count);
-        // Both get the same torque where they are alike, which is then turned into rows once.
-        match self.alike {
-            true => self.scatter::<S, T, true>(simd, pairs, sums.here::<T>()),
-            false => self.scatter::<S, T, false>(simd, pairs, sums.here::<T>()),
-        }
-    }
-
-    #[inline(always)]
-    fn scatter<S: Simd, T: TangentialLaw<History = H>, const ALIKE: bool>(
-        &self,
-        simd: S,
-        pairs: &Lanes<'_>,
-        mut sums: Sums<'_>,
-    ) {
-        for at in (0..BLOCK).step_by(ROWS) {
-            let force = self.force.rows(simd, at);
-            let (mut one, mut other) = (force, force);
-            if T::ROTATES {
-                one = self.torque[0].rows(simd, at);
-                other = match ALIKE {
-                    true => one,
-                    false => self.torque[1].rows(simd, at),
-                };
-            }
-            for k in 0..ROWS {
-                sums.add::<S, T>(simd, pairs.pairs[at + k].i(), force[k], one[k]);
-                sums.add::<S, T>(simd, pairs.pairs[at + k].j(), -force[k], other[k]);
-            }
-        }
-    }
-
-    /// Sets forces and torques to zero in the lanes from there on.
-    #[inline(always)]
-    fn clear_from(&mut self, contacts: usize) {
-        if contacts < BLOCK {
-            let [one, other] = &mut self.torque;
-            for columns in [&mut self.force, one, other] {
-                for column in &mut columns.0 {
-                    column[contacts..].fill(0.0);
-                }
-            }
-        }
     }
 }
 

@@ -1,6 +1,11 @@
-//! Position, motion and properties of the two at a contact.
+//! Position, motion and properties of the two partners of a contact.
 
+use super::contact_laws::Laws;
+use super::partners::Partners;
+use crate::forces::contact::NormalLaw;
+use crate::forces::friction::TangentialLaw;
 use crate::particles::Particles;
+use crate::particles::block::Row;
 use crate::particles::vector::Vector;
 
 /// Two spheres at a contact, or a sphere and a wall. Forces act on the first.
@@ -16,11 +21,52 @@ pub(super) struct ContactState {
     pub(super) properties: [SphereProperties; 2],
     /// 1 / (r1 + r2) (1/m).
     pub(super) inverse_sum: f64,
-    /// Their earlier motion, if springs are loaded by that and not by the present one.
+    /// The earlier motion, if springs are loaded by that and not by the present one.
     pub(super) earlier: Option<EarlierMotion>,
 }
 
 impl ContactState {
+    /// Two spheres.
+    pub(super) fn of_pair(spheres: &Partners<'_>, i: u32, j: u32) -> Self {
+        let (one, other) = (Self::at_wall(spheres, i), Self::at_wall(spheres, j));
+        let earlier = one.earlier.zip(other.earlier);
+        Self {
+            offset: one.offset - other.offset,
+            velocity: one.velocity - other.velocity,
+            spin: [one.spin[0], other.spin[0]],
+            properties: [one.properties[0], other.properties[0]],
+            inverse_sum: 1.0 / (one.properties[0].radius + other.properties[0].radius),
+            earlier: earlier.map(|(one, other)| EarlierMotion {
+                velocity: one.velocity - other.velocity,
+                spin: [one.spin[0], other.spin[0]],
+            }),
+        }
+    }
+
+    /// A sphere at a wall.
+    pub(super) fn at_wall(spheres: &Partners<'_>, i: u32) -> Self {
+        let i = i as usize;
+        let of = |vectors: &[Vector]| vectors.get(i).copied().unwrap_or_default();
+        let sphere = SphereProperties {
+            radius: spheres.radius[i],
+            mass: spheres.mass[i],
+            inverse_mass: spheres.inverse_mass[i],
+            inertia: spheres.inertia.get(i).copied().unwrap_or(0.0),
+        };
+        let earlier = spheres.earlier.get(i);
+        Self {
+            offset: spheres.position[i],
+            velocity: spheres.velocity[i],
+            spin: [of(spheres.spin), Vector::ZERO],
+            properties: [sphere, SphereProperties::WALL],
+            inverse_sum: 1.0 / sphere.radius,
+            earlier: earlier.map(|&[velocity, spin]: &[Row; 2]| EarlierMotion {
+                velocity: Vector::of_row(velocity),
+                spin: [Vector::of_row(spin), Vector::ZERO],
+            }),
+        }
+    }
+
     /// r1 r2 / (r1 + r2) (m).
     #[inline(always)]
     pub(super) fn effective_radius(&self) -> f64 {
@@ -29,7 +75,7 @@ impl ContactState {
     }
 }
 
-/// What of a sphere does not change with time.
+/// Properties of a sphere, which do not change with time.
 #[derive(Clone, Copy, Default)]
 pub(super) struct SphereProperties {
     /// Radius (m).
@@ -51,9 +97,8 @@ impl SphereProperties {
         inertia: 0.0,
     };
 
-    /// The properties of all spheres, if they are alike; `mobile` says whether it matters that some
-    /// are fixed.
-    pub(super) fn of_all(particles: &Particles, mobile: bool) -> Option<Self> {
+    /// The properties of all spheres, if they are alike to the laws.
+    pub(super) fn of_all<N: NormalLaw, T: TangentialLaw>(particles: &Particles) -> Option<Self> {
         let Particles {
             radius,
             mass,
@@ -62,7 +107,12 @@ impl SphereProperties {
             ..
         } = particles;
         let same = |values: &[f64]| values.windows(2).all(|pair| pair[0] == pair[1]);
-        let alike = same(radius) && same(mass) && same(inertia) && (!mobile || same(inverse_mass));
+        // Only the effective mass tells fixed spheres from others.
+        let reads_inverse_mass = Laws::<N, T>::NEEDS_EFFECTIVE_MASS;
+        let alike = same(radius)
+            && same(mass)
+            && same(inertia)
+            && (!reads_inverse_mass || same(inverse_mass));
         let first = |values: &[f64]| values.first().copied().unwrap_or(0.0);
         alike.then(|| Self {
             radius: first(radius),
@@ -73,7 +123,7 @@ impl SphereProperties {
     }
 }
 
-/// Relative velocity (m/s) and spins (rad/s) before.
+/// Earlier relative velocity (m/s) and spins (rad/s).
 #[derive(Clone, Copy)]
 pub(super) struct EarlierMotion {
     pub(super) velocity: Vector,

@@ -1,13 +1,14 @@
-//! Forces at contacts, block by block: which of them touch, and what acts on whom. One thread
-//! computes all, or each those of its own spheres.
+//! Forces at contacts, block by block: which of them touch, and the forces that result. One thread
+//! computes all of them, or each thread those on its own spheres.
 
+use super::candidates::{AtWalls, Candidates};
 use super::contact_block::ContactBlock;
 use super::contact_laws::Laws;
 use super::contact_state::SphereProperties;
-use super::lanes::whole;
+use super::lanes::full_block;
 use super::partners::Partners;
 use super::sums::Sums;
-use super::touching::{Entries, LOOK, Touching};
+use super::touching::{CHUNK, Touching};
 use super::wall_contacts::NearSphere;
 use crate::dem::neighbours::NearPair;
 use crate::dem::profile::{self, Part, Profile};
@@ -19,7 +20,7 @@ use crate::particles::block::BLOCK;
 use crate::particles::vector::Vector;
 use fearless_simd::{Level, Simd};
 
-/// What a contact force depends on besides the two spheres and their history.
+/// Everything on which a contact force depends, besides the two spheres and their history.
 #[derive(Clone, Copy)]
 pub(super) struct ContactSettings<N, T> {
     pub(super) laws: Laws<N, T>,
@@ -29,14 +30,23 @@ pub(super) struct ContactSettings<N, T> {
     pub(super) alike: Option<SphereProperties>,
     /// Whether nearly all near pairs touch. The others are then computed too, with a force of zero.
     pub(super) mostly_touch: bool,
-    /// Whether the histories of pairs exceed the caches.
-    pub(super) far: bool,
+    /// Whether the histories of pairs exceed the caches, and are prefetched.
+    pub(super) prefetched: bool,
+}
+
+impl<N, T> ContactSettings<N, T> {
+    /// The sphere of a pair that moves: the first, if both do.
+    fn moving_sphere(&self, partners: &Partners<'_>, pair: NearPair) -> usize {
+        let [i, j] = pair.sides().map(|it| it + partners.first);
+        let sphere = if i < self.fixed { j } else { i };
+        sphere as usize
+    }
 }
 
 /// Candidates for contacts, each with its history.
 pub(super) struct ContactSlice<'a, C, H> {
     pub(super) contacts: &'a [C],
-    /// Of each of them.
+    /// The history of each contact.
     pub(super) histories: &'a mut [H],
 }
 
@@ -48,7 +58,7 @@ impl<C, H> ContactSlice<'_, C, H> {
         }
     }
 
-    /// Takes that many from the front, or all if there are fewer.
+    /// Takes this number from the front, or all if there are fewer.
     pub(super) fn split(&mut self, count: usize) -> Self {
         Self {
             contacts: split_shared(&mut self.contacts, count),
@@ -57,19 +67,24 @@ impl<C, H> ContactSlice<'_, C, H> {
     }
 }
 
-/// Walls, each with the spheres near it.
-pub(super) type AtWalls<'a, H> =
-    [Option<(TankWall, ContactSlice<'a, NearSphere, H>)>; TankWall::MOST];
-
 /// A sphere whose contact is beyond the overlap limit, and the overlap (m).
 pub(super) type TooDeep = Option<(usize, f64)>;
+
+/// Which pairs of a thread.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum PairKind {
+    /// Those whose first sphere belongs to another thread.
+    Crossing,
+    /// Those whose first sphere is its own.
+    Own,
+}
 
 /// Buffers of a thread for its contacts.
 pub(super) struct Buffers<H> {
     block: ContactBlock<H>,
     touching: Touching,
-    /// Pairs by the indices of [`Partners`].
-    counted: [NearPair; LOOK],
+    /// Pairs with the indices of [`Partners`].
+    local: [NearPair; CHUNK],
 }
 
 impl<H: History> Buffers<H> {
@@ -77,7 +92,7 @@ impl<H: History> Buffers<H> {
         Box::new(Self {
             block: ContactBlock::new(),
             touching: Touching::new(),
-            counted: [NearPair::default(); LOOK],
+            local: [NearPair::default(); CHUNK],
         })
     }
 }
@@ -86,25 +101,45 @@ impl<H: History> Buffers<H> {
 pub(super) struct ContactTask<'a, H> {
     pub(super) partners: Partners<'a>,
     pub(super) sums: Sums<'a>,
-    /// Whether sums begin anew.
-    pub(super) clear: bool,
     pub(super) buffers: &'a mut Buffers<H>,
-    /// Pairs whose first sphere belongs to another thread, which computes its force and keeps the
-    /// pair's history. This is a copy.
+    /// Pairs whose first sphere belongs to another thread. That thread computes the force on it and
+    /// keeps the history, of which this is a copy.
     pub(super) crossing: ContactSlice<'a, NearPair, H>,
-    /// Pairs whose first sphere is one of these.
+    /// Pairs whose first sphere belongs to this thread.
     pub(super) pairs: ContactSlice<'a, NearPair, H>,
     pub(super) walls: AtWalls<'a, H>,
     /// The first contact beyond the overlap limit among pairs and at each wall.
     pub(super) too_deep: [TooDeep; 1 + TankWall::MOST],
 }
 
-impl<H: History> ContactTask<'_, H> {
+impl<'a, H: History> ContactTask<'a, H> {
+    /// The work of a thread that computes all of these contacts.
+    pub(super) fn of_all(
+        partners: Partners<'a>,
+        sums: Sums<'a>,
+        candidates: Candidates<'a, H>,
+        buffers: &'a mut Buffers<H>,
+    ) -> Self {
+        Self {
+            partners,
+            sums,
+            buffers,
+            crossing: ContactSlice::none(),
+            pairs: candidates.pairs,
+            walls: candidates.walls,
+            too_deep: [None; 1 + TankWall::MOST],
+        }
+    }
+
+    /// The first contact beyond the overlap limit, pairs before walls.
+    pub(super) fn first_too_deep(&self) -> TooDeep {
+        self.too_deep.into_iter().flatten().next()
+    }
+
     /// Adds the forces and torques of all its contacts, in the order of the list.
     ///
-    /// The hot loops are compiled once per instruction set, and no more than once: this is most of
-    /// what a build has to do. Wider vectors change no bit: every lane computes what the scalar
-    /// code would.
+    /// The hot loops are compiled once per instruction set, which takes most of the time of a
+    /// build. Wider vectors change no bit: every lane computes what the scalar code would.
     pub(super) fn add_contacts<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,
@@ -121,15 +156,15 @@ impl<H: History> ContactTask<'_, H> {
         settings: &ContactSettings<N, T>,
         profile: &mut Option<Box<Profile>>,
     ) {
-        if self.clear {
+        if self.sums.clear {
             self.sums.force.fill(Vector::ZERO);
             self.sums.torque.fill(Vector::ZERO);
             profile::mark(profile, Part::Rest);
         }
         self.buffers.block.set_alike::<N, T>(settings.alike);
-        // In one loop, as all that stands in it is compiled for every instruction set.
-        for crossing in [true, false] {
-            self.pair_forces::<S, N, T>(simd, settings, crossing);
+        // In one loop, so that the code in it is compiled once for each instruction set.
+        for kind in [PairKind::Crossing, PairKind::Own] {
+            self.pair_forces::<S, N, T>(simd, settings, kind);
         }
         if !N::ACTS {
             return;
@@ -145,35 +180,36 @@ impl<H: History> ContactTask<'_, H> {
         }
     }
 
+    /// Forces of pairs of this kind.
     #[inline(always)]
     fn pair_forces<S: Simd, N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         simd: S,
         settings: &ContactSettings<N, T>,
-        crossing: bool,
+        kind: PairKind,
     ) {
         let ContactSettings {
             laws,
-            fixed,
             alike,
             mostly_touch,
-            far,
+            prefetched,
+            ..
         } = settings;
         let partners = &self.partners;
-        let slice = match crossing {
-            true => &mut self.crossing,
-            false => &mut self.pairs,
+        let slice = match kind {
+            PairKind::Crossing => &mut self.crossing,
+            PairKind::Own => &mut self.pairs,
         };
         debug_assert!(slice.contacts.len() <= slice.histories.len());
         let Buffers {
             block,
             touching,
-            counted,
+            local,
         } = &mut *self.buffers;
-        touching.far = *far;
+        touching.prefetched = *prefetched;
         let histories = &mut *slice.histories;
-        for (first, near) in (0..).step_by(LOOK).zip(slice.contacts.chunks(LOOK)) {
-            let near = partners.counted(near, counted);
+        for (first, near) in (0..).step_by(CHUNK).zip(slice.contacts.chunks(CHUNK)) {
+            let near = partners.local_pairs(near, local);
             let found = match *mostly_touch {
                 true => near.len(),
                 false => touching.find(simd, near, first, histories, partners, *alike),
@@ -185,25 +221,14 @@ impl<H: History> ContactTask<'_, H> {
                 };
                 block.gather_pairs::<S, N, T>(simd, lanes, histories, partners);
                 block.apply_laws(laws);
-                match lanes.entries {
-                    Entries::Listed(entries) => block.store_histories(
-                        simd,
-                        histories,
-                        #[inline(always)]
-                        |k| entries[k] as usize,
-                    ),
-                    Entries::From(first) => {
-                        block.store_histories(simd, &mut histories[first..first + BLOCK], |k| k);
-                    }
-                }
+                block.store_pair_histories(simd, histories, lanes.entries);
                 block.scatter_to_pairs::<S, T>(simd, lanes, &mut self.sums);
-                if let Some((k, overlap)) = block.first_too_deep(lanes.count) {
-                    let [i, j] = lanes.pairs[k].sides().map(|it| it + partners.first);
-                    let sphere = if i < *fixed { j } else { i } as usize;
-                    // The thread of the first sphere reports a pair that crosses.
-                    if !crossing {
-                        self.too_deep[0].get_or_insert((sphere, overlap));
-                    }
+                // The thread of the first sphere reports a pair that crosses.
+                if let (Some((k, overlap)), PairKind::Own) =
+                    (block.first_too_deep(lanes.count), kind)
+                {
+                    let sphere = settings.moving_sphere(partners, lanes.pairs[k]);
+                    self.too_deep[0].get_or_insert((sphere, overlap));
                 }
             }
         }
@@ -225,13 +250,13 @@ impl<H: History> ContactTask<'_, H> {
         let block = &mut self.buffers.block;
         let blocks = (near.contacts.chunks(BLOCK)).zip(near.histories.chunks_mut(BLOCK));
         let partners = &self.partners;
-        let (mut rest, mut counted) = (
+        let (mut rest, mut local) = (
             [NearSphere::default(); BLOCK],
             [NearSphere::default(); BLOCK],
         );
         for (spheres, histories) in blocks {
-            let lanes = whole(spheres, &mut rest);
-            let lanes = partners.counted_at_wall(lanes, &mut counted);
+            let lanes = full_block(spheres, &mut rest);
+            let lanes = partners.local_spheres(lanes, &mut local);
             block.gather_spheres::<S, N, T>(simd, lanes, histories, partners);
             match wall {
                 TankWall::Floor(wall) | TankWall::Side(wall) => {

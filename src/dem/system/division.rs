@@ -1,39 +1,40 @@
 //! One simulation on several threads.
 //!
 //! Each thread computes the forces on a range of indices, which in a sorted scene is a region of
-//! space. A pair whose spheres are those of two threads is computed by both, and each adds to its
-//! own sphere, before its other pairs: so every sum is in the order of the list, as with one
-//! thread, and there is nothing to wait for. What such a pair remembers, both have. Where each
-//! moves its spheres at once, such pairs are computed of copies of the spheres around the boundary.
+//! space. If the spheres of a pair belong to two threads, both compute the pair, and each adds the
+//! force to its own sphere. Such pairs come before the other pairs of the thread. So every sum
+//! keeps the order of the list, and no thread waits for another. Each of the two threads keeps a
+//! copy of the pair's history. If threads move their spheres in the same pass, these pairs read
+//! copies of the spheres around the boundary.
 
-use super::contact_task::{AtWalls, Buffers, ContactSettings, ContactSlice, ContactTask, TooDeep};
+use super::candidates::{AtWalls, Candidates};
+use super::contact_task::{Buffers, ContactSettings, ContactSlice, ContactTask, TooDeep};
 use super::partners::{Copies, Partners};
 use super::stream::Stream;
 use super::sums::Sums;
 use super::wall_contacts::WallContacts;
 use crate::dem::bodies::Spheres;
 use crate::dem::neighbours::NearPair;
-use crate::dem::threads::{in_parallel, split};
+use crate::dem::threads::in_parallel;
 use crate::dem::walls::TankWall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{History, TangentialLaw};
 use crate::particles::block::BLOCK;
 use crate::particles::bodies::Bodies;
-use crate::particles::vector::Vector;
 use fearless_simd::Level;
 use std::ops::Range;
 
-/// Boundaries are narrow if at most one in this number of spheres is copied for them.
+/// Boundaries are narrow if at most one in this number of spheres is copied.
 const NARROW: usize = 8;
 
-/// Which thread computes what.
+/// The division of spheres and contacts among threads.
 pub(super) struct Division<H> {
     regions: Vec<Region<H>>,
-    /// Before each but the first: from the first to the last sphere of pairs across the boundary.
+    /// One before each region but the first: the range that holds all pairs across the boundary.
     boundaries: Vec<Copies>,
 }
 
-/// What one thread computes.
+/// The part of one thread.
 struct Region<H> {
     spheres: Range<usize>,
     /// Near pairs whose first sphere is one of these.
@@ -51,6 +52,18 @@ pub(super) struct ThreadContacts<'a, H> {
     pub(super) pairs: ContactSlice<'a, NearPair, H>,
     pub(super) walls: AtWalls<'a, H>,
     pub(super) buffers: &'a mut Buffers<H>,
+}
+
+impl<'a, H> ThreadContacts<'a, H> {
+    /// Those of a thread that computes all.
+    pub(super) fn all(candidates: Candidates<'a, H>, buffers: &'a mut Buffers<H>) -> Self {
+        Self {
+            crossing: ContactSlice::none(),
+            pairs: candidates.pairs,
+            walls: candidates.walls,
+            buffers,
+        }
+    }
 }
 
 impl<H: History> Division<H> {
@@ -89,7 +102,7 @@ impl<H: History> Division<H> {
             }
         };
         let bounds: Vec<usize> = (0..=threads).map(bound).collect();
-        // There is no boundary before the first one.
+        // There is no boundary before the first region.
         let mut none = Copies::default();
         let boundaries = std::iter::once(&mut none).chain(&mut self.boundaries);
         let mut regions: Vec<_> = (self.regions.iter_mut().zip(boundaries))
@@ -121,7 +134,7 @@ impl<H: History> Division<H> {
         });
     }
 
-    /// Whether copies of the spheres around the boundaries are few.
+    /// Whether few spheres around the boundaries are copied.
     pub(super) fn has_narrow_boundaries(&self) -> bool {
         let copies: usize = self.boundaries.iter().map(|it| it.spheres.len()).sum();
         let spheres = self.regions.last().map_or(0, |it| it.spheres.end);
@@ -131,13 +144,16 @@ impl<H: History> Division<H> {
     /// The spheres and contacts of each thread, out of all contacts.
     fn thread_contacts<'a>(
         regions: &'a mut [Region<H>],
-        mut pairs: ContactSlice<'a, NearPair, H>,
-        mut walls: AtWalls<'a, H>,
+        candidates: Candidates<'a, H>,
     ) -> impl Iterator<Item = (Range<usize>, ThreadContacts<'a, H>)> {
+        let Candidates {
+            mut pairs,
+            mut walls,
+        } = candidates;
         regions.iter_mut().map(move |region| {
             let mut at_walls = walls.iter_mut().zip(&region.walls).map(|(wall, range)| {
-                let (wall, known) = wall.as_mut()?;
-                Some((*wall, known.split(range.len())))
+                let (wall, near) = wall.as_mut()?;
+                Some((*wall, near.split(range.len())))
             });
             let contacts = ThreadContacts {
                 crossing: ContactSlice {
@@ -152,26 +168,20 @@ impl<H: History> Division<H> {
         })
     }
 
-    /// Evaluates the forces of all contacts; `clear` says whether others are to be forgotten first.
-    /// Says of the first contact that is too deep.
+    /// Adds the forces of all contacts to the sums of all spheres. Returns the first contact that
+    /// is too deep.
     pub(super) fn evaluate<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,
         settings: &ContactSettings<N, T>,
         partners: Partners<'_>,
-        [mut force, mut torque]: [&mut [Vector]; 2],
-        clear: bool,
-        (pairs, walls): (ContactSlice<'_, NearPair, H>, AtWalls<'_, H>),
+        mut sums: Sums<'_>,
+        candidates: Candidates<'_, H>,
     ) -> TooDeep {
-        let thread_contacts = Self::thread_contacts(&mut self.regions, pairs, walls);
+        let thread_contacts = Self::thread_contacts(&mut self.regions, candidates);
         let tasks = thread_contacts.map(|(spheres, of)| ContactTask {
             partners,
-            sums: Sums {
-                first: spheres.start,
-                force: split(&mut force, spheres.len()),
-                torque: split(&mut torque, spheres.len()),
-            },
-            clear,
+            sums: sums.split(spheres.len()),
             buffers: of.buffers,
             crossing: of.crossing,
             pairs: of.pairs,
@@ -185,12 +195,11 @@ impl<H: History> Division<H> {
         first_too_deep(tasks.iter().map(|task| task.too_deep))
     }
 
-    /// What each thread does where it moves its spheres at once.
+    /// The work of each thread, if it moves its spheres in the same pass.
     pub(super) fn streams<'a>(
         &'a mut self,
         mut all: Spheres<'a>,
-        pairs: ContactSlice<'a, NearPair, H>,
-        walls: AtWalls<'a, H>,
+        candidates: Candidates<'a, H>,
         bodies: &'a mut [Bodies],
     ) -> Vec<Stream<'a, H>> {
         let Self {
@@ -202,7 +211,7 @@ impl<H: History> Division<H> {
         let around: Vec<_> = boundaries.iter().map(around).collect();
         let before = std::iter::once(None).chain(around.iter().copied());
         let after = around.iter().copied().chain(std::iter::once(None));
-        let thread_contacts = Self::thread_contacts(regions, pairs, walls).zip(bodies);
+        let thread_contacts = Self::thread_contacts(regions, candidates).zip(bodies);
         let streams = thread_contacts.zip(before.zip(after));
         let streams = streams.map(|(((spheres, contacts), bodies), copies)| {
             Stream::new(all.split(spheres.len()), contacts, bodies, copies)
@@ -226,7 +235,7 @@ pub(super) fn first_too_deep(
     all.flatten().next()
 }
 
-/// Threads that there are, one where the work is not divided.
+/// Number of threads: one if the work is not divided.
 pub(super) fn threads<H>(division: Option<&Division<H>>) -> usize {
     division.map_or(1, |it| it.regions.len())
 }
@@ -289,8 +298,8 @@ mod tests {
         }
     }
 
-    /// Spheres of a cubic lattice with so many in a layer, in contact with the next one along each
-    /// axis.
+    /// Pairs of a lattice with `layer` spheres in each layer, where a sphere touches the next one
+    /// in its layer and the one above.
     fn lattice(layer: u32, layers: u32) -> Vec<NearPair> {
         let count = layer * layers;
         let pairs = (0..count).flat_map(|i| [1, layer].map(|step| (i, i + step)));

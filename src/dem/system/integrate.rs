@@ -3,7 +3,7 @@
 use super::contact_block::EarlierRows;
 use super::contact_laws::Loading;
 use super::division::threads;
-use super::moves::{Drift, FirstTooFast, Moves};
+use super::moves::{FirstTooFast, Motion, Moves};
 use super::{Setup, System};
 use crate::dem::bodies::Spheres;
 use crate::dem::profile::{self, Part};
@@ -15,6 +15,15 @@ use crate::particles::vector::Vector;
 use crate::scene::Integrator;
 use crate::simulation::Instability;
 use std::ops::Range;
+
+/// What follows a step.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Next {
+    /// Another step, at once.
+    Step,
+    /// A pause, in which the spheres may be read.
+    Pause,
+}
 
 /// Velocities and spins before a prediction.
 #[derive(Default)]
@@ -29,7 +38,7 @@ impl Before {
         self.spin.clone_from(&particles.spin);
     }
 
-    /// Writes them in rows, of spheres that turn.
+    /// Writes them in rows, for spheres that rotate.
     fn to_rows(&self, rows: &mut Vec<EarlierRows>) {
         rows.clear();
         let spheres = self.velocity.iter().zip(&self.spin);
@@ -43,77 +52,69 @@ impl Before {
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Applies `effects`, kicks for these times (s), drifts for a time (s), and clears the forces,
-    /// as far as each is asked for. Notes whether a sphere went farther than the near pairs allow.
-    /// Returns the first sphere beyond its speed limit. Not inlined: all schemes call it several
-    /// times, and each is compiled for all laws.
+    /// Applies `effects`, then moves all spheres. Notes whether a sphere went farther than the near
+    /// pairs allow. Returns the first sphere beyond its speed limit. Not inlined: all schemes call
+    /// it several times, and each is compiled for all laws.
     #[inline(never)]
-    pub(super) fn move_all(
-        &mut self,
-        effects: Range<usize>,
-        kicks: &[f64],
-        drift: Option<f64>,
-        clear: bool,
-    ) -> FirstTooFast {
-        let elapsed = drift.unwrap_or(0.0);
-        self.neighbours.age.time += elapsed;
-        self.neighbours.near_age.time += elapsed;
-        let is_listed = self.neighbours.list.is_some() && drift.is_some();
-        let Setup {
-            effects: all,
-            limits,
-            dt,
-            ..
-        } = &self.setup;
-        let moves = Moves {
-            effects: &all[effects],
+    pub(super) fn move_all(&mut self, effects: Range<usize>, motion: Motion<'_>) -> FirstTooFast {
+        let Motion {
             kicks,
-            drift: drift.map(|dt| Drift {
-                dt,
-                allowance: is_listed.then(|| {
-                    self.neighbours
-                        .near
-                        .allowance(self.neighbours.near_age.time)
-                }),
-            }),
+            drift,
             clear,
-            limits,
-            dt: *dt,
+        } = motion;
+        let neighbours = &mut self.neighbours;
+        neighbours.let_pass(drift.unwrap_or(0.0));
+        let moves = Moves {
+            effects: &self.setup.effects[effects],
+            kicks,
+            drift: drift.map(|dt| neighbours.drift(dt)),
+            clear,
+            limits: &self.setup.limits,
+            dt: self.setup.dt,
         };
-        let reference = match is_listed {
-            true => self.neighbours.near.anchor().position(),
+        let reference = match neighbours.list.is_some() && drift.is_some() {
+            true => neighbours.near.anchor().position(),
             false => &[],
         };
         self.bodies
             .resize_with(threads(self.division.as_ref()), Bodies::new);
-        let found = moves.of_all(
+        let found = moves.apply(
             Spheres::new(&mut self.particles, reference),
             &mut self.bodies,
             self.level,
             &mut self.profile,
         );
-        // It may be so already: a sphere came or went.
-        self.neighbours.stale |= found.far;
+        // The near pairs may be stale already, if a sphere came or went.
+        neighbours.stale |= found.far;
         found.too_fast
     }
 
-    /// v += a dt for a time (s), and the same for spins. Returns the first sphere beyond its speed limit.
+    /// v += a dt for a time (s), and the same for spins. Returns the first sphere beyond its speed
+    /// limit.
     pub(super) fn kick(&mut self, dt: f64) -> FirstTooFast {
-        self.move_all(0..0, &[dt], None, false)
+        let motion = Motion {
+            kicks: &[dt],
+            ..Motion::NONE
+        };
+        self.move_all(0..0, motion)
     }
 
     /// x += v dt for a time (s).
     fn drift(&mut self, dt: f64) {
-        self.move_all(0..0, &[], Some(dt), false);
+        let motion = Motion {
+            drift: Some(dt),
+            ..Motion::NONE
+        };
+        self.move_all(0..0, motion);
     }
 
-    /// Reports a sphere beyond its speed limit in this step, or else in the next one if it has begun.
+    /// Reports a sphere beyond its speed limit in this step, or in the next one if that has begun.
     pub(super) fn check_speeds(&mut self, too_fast: FirstTooFast) -> Result<(), Instability> {
         let mut steps = (self.step.number..).zip(too_fast);
         let Some((step, it)) = steps.find_map(|(step, it)| Some((step, it?))) else {
             return Ok(());
         };
-        // The state belongs to no whole step: the guard was broken part-way.
+        // The guard was broken in the middle of a step.
         (self.step.number, self.step.first_half_done) = (step, false);
         let Setup { limits, dt, .. } = &self.setup;
         Err(limits.speed_broken(step, *dt, it))
@@ -127,9 +128,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         for left in (0..steps).rev() {
             self.keep_in_order()?;
             profile::begin(&mut self.profile, self.step.number, spheres as usize);
+            let next = if left > 0 { Next::Step } else { Next::Pause };
             match self.setup.integrator {
-                Integrator::SymplecticEuler => self.symplectic_euler(left > 0)?,
-                Integrator::VelocityVerlet => self.velocity_verlet(left > 0)?,
+                Integrator::SymplecticEuler => self.symplectic_euler(next)?,
+                Integrator::VelocityVerlet => self.velocity_verlet(next)?,
                 Integrator::SynchronisedVerlet => self.synchronised_verlet()?,
                 Integrator::AdaptiveVerlet => self.adaptive_verlet()?,
             }
@@ -145,8 +147,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.neighbours.near_age.steps += 1;
     }
 
-    /// Forces at the start, where no scheme has a latest one. No time goes by, so that contacts do
-    /// not load their springs.
+    /// Evaluates the forces at the start, before which there are no latest ones. No time passes, so
+    /// that contacts do not load their springs.
     fn evaluate_start(&mut self) -> Result<(), Instability> {
         let loading = std::mem::replace(&mut self.loading, Loading::present(0.0));
         let result = self.evaluate();
@@ -154,30 +156,32 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         result
     }
 
-    /// One step of symplectic Euler: v += a(x, v) dt, then x += v dt. `goes_on` says whether
-    /// another follows at once.
-    fn symplectic_euler(&mut self, goes_on: bool) -> Result<(), Instability> {
+    /// One step of symplectic Euler: v += a(x, v) dt, then x += v dt.
+    fn symplectic_euler(&mut self, next: Next) -> Result<(), Instability> {
         self.begin_step();
         let dt = self.setup.dt;
         let too_fast = if self.ledger.is_some() {
-            // The energy balance looks at the spheres in between.
+            // The energy balance reads the spheres between kick and drift.
             self.evaluate()?;
             let too_fast = self.kick(dt);
             self.note_kick(dt);
             self.drift(dt);
             too_fast
         } else {
-            // After the last step forces stay, to be read.
-            let clear = goes_on && self.neighbours.list.is_some();
-            self.evaluate_and_move(&[dt], Some(dt), clear)?
+            self.evaluate_and_move(Motion {
+                kicks: &[dt],
+                drift: Some(dt),
+                // Forces of the last step are read by others.
+                clear: next == Next::Step && self.neighbours.list.is_some(),
+            })?
         };
         self.check_speeds(too_fast)
     }
 
     /// One step of velocity Verlet, with forces from the new positions and the half-step
-    /// velocities. The forces of the step before serve its first half. `goes_on` says whether
-    /// another follows at once: its first half then comes with the second one of this.
-    fn velocity_verlet(&mut self, goes_on: bool) -> Result<(), Instability> {
+    /// velocities. The forces of the step before serve its first half. If another step follows at
+    /// once, its first half is joined with the second half of this one.
+    fn velocity_verlet(&mut self, next: Next) -> Result<(), Instability> {
         self.begin_step();
         if self.step.number == 1 {
             self.evaluate_start()?;
@@ -196,13 +200,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return self.check_speeds(too_fast);
         }
         // The order of spheres follows from where they are after whole steps.
-        let begins_next = goes_on && !self.looks_at_order();
-        let too_fast = match begins_next {
-            true => {
-                self.evaluate_and_move(&[half, half], Some(dt), self.neighbours.list.is_some())?
-            }
-            false => self.evaluate_and_move(&[half], None, false)?,
+        let begins_next = next == Next::Step && !self.checks_order();
+        let motion = match begins_next {
+            true => Motion {
+                kicks: &[half, half],
+                drift: Some(dt),
+                clear: self.neighbours.list.is_some(),
+            },
+            false => Motion {
+                kicks: &[half],
+                ..Motion::NONE
+            },
         };
+        let too_fast = self.evaluate_and_move(motion)?;
         self.step.first_half_done = begins_next;
         self.check_speeds(too_fast)
     }
@@ -222,7 +232,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.evaluate_start()?;
         }
         let (dt, half) = (self.setup.dt, 0.5 * self.setup.dt);
-        // From one middle to the next springs are loaded by the velocity between them.
+        // Springs are loaded from one middle to the next by the velocity between them.
         let duration = if self.step.number == 1 { half } else { dt };
         self.loading = Loading::earlier(duration, half);
         self.drift(half);

@@ -1,4 +1,4 @@
-//! What a block of contacts holds besides columns of vectors.
+//! Columns of a block of contacts that are not vectors.
 
 use super::contact_laws::Laws;
 use super::contact_state::SphereProperties;
@@ -10,7 +10,10 @@ use crate::particles::block::{BLOCK, Column, Columns};
 
 /// A block of contacts; lanes without one repeat the first.
 #[inline(always)]
-pub(super) fn whole<'a, C: Copy>(contacts: &'a [C], rest: &'a mut [C; BLOCK]) -> &'a [C; BLOCK] {
+pub(super) fn full_block<'a, C: Copy>(
+    contacts: &'a [C],
+    rest: &'a mut [C; BLOCK],
+) -> &'a [C; BLOCK] {
     match <&[C; BLOCK]>::try_from(contacts) {
         Ok(all) => all,
         Err(_) => {
@@ -22,7 +25,7 @@ pub(super) fn whole<'a, C: Copy>(contacts: &'a [C], rest: &'a mut [C; BLOCK]) ->
     }
 }
 
-/// What of the spheres of a block does not change.
+/// Properties of the spheres of a block, which do not change with time.
 pub(super) struct PropertyColumns {
     pub(super) radius: Column,
     mass: Column,
@@ -40,9 +43,9 @@ impl PropertyColumns {
         }
     }
 
-    /// Fetches it of the sphere of every lane.
+    /// Gathers those of the sphere of every lane, as far as the laws need them.
     #[inline(always)]
-    pub(super) fn take<N: NormalLaw, T: TangentialLaw>(
+    pub(super) fn gather<N: NormalLaw, T: TangentialLaw>(
         &mut self,
         partners: &Partners<'_>,
         sphere: impl Fn(usize) -> u32,

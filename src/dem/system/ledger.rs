@@ -1,14 +1,19 @@
-//! Where the energy goes: the work of damping, of tangential forces and of the air.
+//! The energy balance: the work of damping, of tangential forces and of the air.
 //!
 //! A kick by a force F turns v into v' and adds F (v + v') / 2 dt to the kinetic energy, exactly.
-//! So work is summed up kick by kick, from the forces that the kicks use. What the balance then
-//! misses is what the scheme makes of conservative forces, not an error of the sum.
+//! So the work is summed kick by kick, from the forces that the kicks use. The residual of the
+//! balance is then the error of the scheme for conservative forces, not an error of the sum.
 
-use super::candidates::Candidates;
-use super::contact_laws::ContactForce;
-use super::wall_contacts::{NearSphere, WallContacts};
+use super::adaptive::IslandContacts;
+use super::contact_block::EarlierRows;
+use super::contact_laws::Laws;
+use super::contact_state::ContactState;
+use super::partners::Partners;
+use super::wall_contacts::NearSphere;
 use super::{Engine, System};
+use crate::dem::neighbours::NearPair;
 use crate::dem::profile::Part;
+use crate::dem::walls::TankWall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{History, Spring, TangentialLaw};
 use crate::particles::reorder::reorder;
@@ -23,13 +28,13 @@ pub(in crate::dem) struct Work {
     pub(in crate::dem) damping: f64,
     /// Of tangential forces.
     pub(in crate::dem) tangential: f64,
-    /// Of what the air does, the damping of spins included.
+    /// Of the air, including the damping of spins.
     pub(in crate::dem) air: f64,
-    /// Energy of spheres that came in, less that of those that left.
+    /// Energy of spheres that came in, minus that of spheres that left.
     pub(in crate::dem) brought: f64,
 }
 
-/// Work so far, and the components of the latest forces that do it.
+/// The work so far, and the components of the latest forces that do it.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Books {
     pub(super) work: Work,
@@ -42,7 +47,7 @@ pub(super) struct Books {
 }
 
 impl Books {
-    /// What contacts fill, and what the air does.
+    /// The components of contacts, and those of the air.
     fn components(&mut self) -> ([&mut Vec<Vector>; 3], [&mut Vec<Vector>; 2]) {
         let contacts = [
             &mut self.damping,
@@ -52,7 +57,7 @@ impl Books {
         (contacts, [&mut self.air, &mut self.air_torque])
     }
 
-    /// Whether they may be those of these spheres; before the first step they are empty.
+    /// Whether the books may belong to these spheres. Before the first step they are empty.
     pub(super) fn fit(&self, particles: &Particles) -> bool {
         let parts = [
             &self.damping,
@@ -66,7 +71,7 @@ impl Books {
             && (self.air_torque.len() == first || !particles.rotate())
     }
 
-    /// Makes room for that many spheres.
+    /// Makes room for this number of spheres.
     pub(super) fn resize(&mut self, spheres: usize) {
         let (contacts, air) = self.components();
         for forces in contacts.into_iter().chain(air) {
@@ -74,14 +79,14 @@ impl Books {
         }
     }
 
-    /// Forgets the contacts of all spheres.
+    /// Clears the contact forces of all spheres.
     fn clear(&mut self) {
         for forces in self.components().0 {
             forces.fill(Vector::ZERO);
         }
     }
 
-    /// Forgets the contacts of one sphere.
+    /// Clears the contact forces of one sphere.
     pub(super) fn clear_sphere(&mut self, i: u32) {
         for forces in self.components().0 {
             forces[i as usize] = Vector::ZERO;
@@ -101,7 +106,7 @@ impl Books {
         }
     }
 
-    /// Follows spheres into a new order.
+    /// Puts the spheres into a new order.
     pub(super) fn reorder(&mut self, order: &[u32]) {
         self.resize(order.len());
         let (contacts, air) = self.components();
@@ -118,7 +123,7 @@ impl Books {
         self.tangential_torque[i] += torque;
     }
 
-    /// Notes what effects of the air added to forces and torques.
+    /// Notes what the effects of the air added to forces and torques.
     pub(super) fn note_air(&mut self, before: [&[Vector]; 2], particles: &Particles) {
         let after = [&particles.force, &particles.torque];
         for ((air, before), after) in self.components().1.into_iter().zip(before).zip(after) {
@@ -152,8 +157,8 @@ pub(super) struct Ledger {
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Energy of the spheres and the tangential springs, and of the springs alone (J), if books are
-    /// kept.
+    /// Energy of the spheres and the tangential springs, and of the springs alone (J), if a ledger
+    /// is kept.
     pub(super) fn energy_in_books(&mut self) -> Option<[f64; 2]> {
         self.ledger.as_ref()?;
         let contacts = self.contacts();
@@ -176,13 +181,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         ])
     }
 
-    /// Notes that spheres came or left since there was that energy.
+    /// Notes that spheres came or left since the energy was measured as `before`.
     pub(super) fn note_exchange(&mut self, before: Option<[f64; 2]>) {
         let Some(before) = before else { return };
         let after = self.energy_in_books();
         if let (Some(ledger), Some(after)) = (&mut self.ledger, after) {
             ledger.books.work.brought += after[0] - before[0];
-            // Springs that are gone have rubbed nothing.
+            // The energy of springs that are gone was not dissipated by friction.
             ledger.books.work.tangential -= after[1] - before[1];
         }
     }
@@ -199,77 +204,94 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.mark(Part::Ledger);
     }
 
-    /// Notes all contacts, before their forces are evaluated: histories are not moved on.
-    pub(super) fn note_all_contacts(&mut self, candidates: &Candidates) {
+    /// Notes all contacts, before their forces are evaluated: histories are only read.
+    pub(super) fn note_all_contacts(&mut self) {
+        self.clear_contacts_in_books();
+        let laws = self.laws();
+        let (true, Some(ledger)) = (N::ACTS, &mut self.ledger) else {
+            return;
+        };
+        let mut notes = Notes::new(laws, &self.particles, &self.earlier, &mut ledger.books);
+        let pairs = self.neighbours.near.pairs().iter();
+        for (&pair, history) in pairs.zip(&self.pair_history) {
+            notes.add_pair(pair, history.spring());
+        }
+        for wall in &self.walls {
+            for (sphere, history) in wall.near.iter().zip(&wall.histories) {
+                notes.add_at_wall(wall.wall, sphere.i, history.spring());
+            }
+        }
+    }
+
+    /// Clears the contact forces of all spheres, if a ledger is kept.
+    pub(super) fn clear_contacts_in_books(&mut self) {
         if let Some(ledger) = &mut self.ledger {
             ledger.books.resize(self.particles.len());
             ledger.books.clear();
         }
-        self.note_contacts(candidates);
     }
 
-    /// Notes these contacts, as [`note_all_contacts`](Self::note_all_contacts).
-    pub(super) fn note_contacts(&mut self, candidates: &Candidates) {
-        if !N::ACTS {
-            return;
-        }
-        let Some(mut ledger) = self.ledger.take() else {
+    /// Notes the contacts of an island, as [`note_all_contacts`](Self::note_all_contacts) does.
+    pub(super) fn note_island(&mut self, contacts: &IslandContacts) {
+        let laws = self.laws();
+        let (true, Some(ledger)) = (N::ACTS, &mut self.ledger) else {
             return;
         };
-        self.note_pairs(candidates, &mut ledger);
-        for (wall, near) in self.walls.iter().zip(&candidates.walls) {
-            self.note_wall(wall, near, &mut ledger);
+        let mut notes = Notes::new(laws, &self.particles, &self.earlier, &mut ledger.books);
+        for (&pair, &entry) in contacts.pairs.iter().zip(&contacts.entries) {
+            notes.add_pair(pair, self.pair_history[entry as usize].spring());
         }
-        self.ledger = Some(ledger);
-    }
-
-    fn note_pairs(&self, candidates: &Candidates, ledger: &mut Ledger) {
-        let laws = self.laws();
-        for (pair, entry) in candidates.pairs() {
-            let (i, j) = (pair.i(), pair.j());
-            let spring = match Self::HAS_HISTORY {
-                true => self.pair_history[entry].spring(),
-                false => Spring::default(),
-            };
-            let contact = laws.pair_force(&self.contact_state(i, j), spring);
-            if contact.touches {
-                let [damping, tangential] = self.damping_and_friction(&contact);
-                let [one, other] = contact.torque;
-                ledger.books.add(i, damping, tangential, one);
-                ledger.books.add(j, -damping, -tangential, other);
+        for (wall, near) in self.walls.iter().zip(&contacts.walls) {
+            for &NearSphere { i, entry } in near {
+                notes.add_at_wall(wall.wall, i, wall.histories[entry as usize].spring());
             }
         }
     }
+}
 
-    fn note_wall(&self, wall: &WallContacts<T::History>, near: &[NearSphere], ledger: &mut Ledger) {
-        let laws = self.laws();
-        for &NearSphere { i, entry } in near {
-            let spring = wall.histories[entry as usize].spring();
-            let contact = laws.wall_force(wall.wall, &self.state_at_wall(i), spring);
-            if contact.touches {
-                let [damping, tangential] = self.damping_and_friction(&contact);
-                ledger.books.add(i, damping, tangential, contact.torque[0]);
-            }
+/// Adds contacts to the books.
+struct Notes<'a, N, T> {
+    laws: Laws<N, T>,
+    spheres: Partners<'a>,
+    books: &'a mut Books,
+}
+
+impl<'a, N: NormalLaw, T: TangentialLaw> Notes<'a, N, T> {
+    fn new(
+        laws: Laws<N, T>,
+        particles: &'a Particles,
+        earlier: &'a [EarlierRows],
+        books: &'a mut Books,
+    ) -> Self {
+        let earlier = match laws.loading.age > 0.0 {
+            true => earlier,
+            false => &[],
+        };
+        Self {
+            laws,
+            spheres: Partners::all(particles, earlier),
+            books,
         }
     }
 
-    /// Of the force at a contact what the damping does, and the tangential law.
-    fn damping_and_friction(&self, contact: &ContactForce) -> [Vector; 2] {
-        let ContactForce {
-            normal,
-            velocity,
-            force,
-            ..
-        } = *contact;
-        let elastic = self
-            .normal
-            .force(contact.overlap, 0.0, contact.contact_radius, 0.0);
-        if !T::ROTATES {
-            return [force - normal * elastic, Vector::ZERO];
+    fn add_pair(&mut self, pair: NearPair, spring: Spring) {
+        let (i, j) = (pair.i(), pair.j());
+        let state = ContactState::of_pair(&self.spheres, i, j);
+        let contact = self.laws.pair_force(&state, spring);
+        if contact.touches {
+            let [damping, tangential] = self.laws.damping_and_friction(&contact);
+            let [one, other] = contact.torque;
+            self.books.add(i, damping, tangential, one);
+            self.books.add(j, -damping, -tangential, other);
         }
-        let along = force.dot(normal);
-        let sideways = velocity.perpendicular_to(normal) * -self.normal.sideways_drag();
-        let damping = normal * (along - elastic) + sideways;
-        [damping, force - normal * along - sideways]
+    }
+
+    fn add_at_wall(&mut self, wall: TankWall, i: u32, spring: Spring) {
+        let state = ContactState::at_wall(&self.spheres, i);
+        let contact = self.laws.wall_force(wall, &state, spring);
+        if contact.touches {
+            let [damping, tangential] = self.laws.damping_and_friction(&contact);
+            self.books.add(i, damping, tangential, contact.torque[0]);
+        }
     }
 }

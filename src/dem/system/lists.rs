@@ -1,6 +1,5 @@
-//! When lists of neighbours are made anew, and what becomes of the histories of their contacts.
+//! When lists of neighbours are renewed, and what becomes of the histories of their contacts.
 
-use super::contact_laws::Laws;
 use super::contact_state::SphereProperties;
 use super::division::threads;
 use super::wall_contacts::WallContacts;
@@ -14,7 +13,7 @@ use crate::particles::Particles;
 use crate::simulation::Instability;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Looks for near pairs anew, in a list that holds until they must be looked for again.
+    /// Finds the near pairs again, in a list that holds until the next time.
     pub(super) fn refresh(&mut self) -> Result<(), Instability> {
         let Some(list) = &self.neighbours.list else {
             self.neighbours.stale = false;
@@ -44,13 +43,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                     || carry_over(&before, pairs, histories),
                     || find_at_walls(&mut self.walls, particles, near.margin()),
                 );
-                // Of many spheres it would be memory for nothing most of the time.
+                // A large scene would keep this memory unused most of the time.
                 if !self.setup.sorted {
                     self.neighbours.spare_pairs = before;
                 }
             } else {
                 near.refresh(self.level, list, particles, threads);
-                // Histories that take no memory.
+                // These histories have size zero.
                 self.pair_history
                     .resize(near.pairs().len(), T::History::default());
                 find_at_walls(&mut self.walls, particles, near.margin());
@@ -64,21 +63,16 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Ok(())
     }
 
-    /// The properties of all spheres, if they are alike to the laws.
-    pub(super) fn alike(particles: &Particles) -> Option<SphereProperties> {
-        SphereProperties::of_all(particles, Laws::<N, T>::NEEDS_EFFECTIVE_MASS)
-    }
-
-    /// Fits everything that has an entry per sphere to the spheres that there are now.
+    /// Adapts the lists after spheres were added or removed.
     pub(super) fn renumber(&mut self) {
         if self.neighbours.list.is_some() {
-            self.alike = Self::alike(&self.particles);
+            self.alike = SphereProperties::of_all::<N, T>(&self.particles);
         }
         self.neighbours.stale = true;
     }
 
-    /// Makes sure that every sphere is somewhere, and that the list holds again: it follows those
-    /// that left their margins, or is built anew.
+    /// Checks the positions of all spheres, and makes the list hold again: it follows the spheres
+    /// that left their margins, or is built again.
     fn renew(&mut self) -> Result<(), Instability> {
         self.check_positions()?;
         let Some(list) = &mut self.neighbours.list else {
@@ -93,8 +87,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return Ok(());
         }
         let age = std::mem::take(&mut self.neighbours.age);
-        // It says nothing about the skin if the list ended at once, for spheres that changed
-        // places.
+        // A list that ended in its first step was replaced because the spheres changed. Its age
+        // says nothing about the skin.
         if age.steps > 0 {
             list.adapt(age.steps, age.time);
         }

@@ -1,4 +1,4 @@
-//! What the contacts hold.
+//! Energies and number of the contacts.
 
 use super::{Contacts, System};
 use crate::dem::walls::Wall;
@@ -7,67 +7,72 @@ use crate::forces::friction::TangentialLaw;
 use crate::particles::Particles;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Reads positions alone, and builds the list at most earlier than a step would: bits of
-    /// the motion do not depend on when the list is built.
+    /// Energies and number of the contacts. At most the list is built earlier than a step would
+    /// build it, on which no bit of the motion depends.
     pub(super) fn measure_contacts(&mut self) -> Contacts {
-        let mut contacts = Contacts::default();
         if !N::ACTS || self.neighbours.list.is_none() {
-            return contacts;
+            return Contacts::default();
         }
         if self.neighbours.stale && self.refresh().is_err() {
-            return contacts;
+            return Contacts::default();
         }
+        self.sum_of_contacts()
+    }
+
+    /// Sums over all contacts, sphere by sphere: first its pairs, then its walls. The order of the
+    /// sums is part of their bits.
+    fn sum_of_contacts(&self) -> Contacts {
         let Particles {
             position,
             radius,
             fixed,
             ..
         } = &self.particles;
-        let (mut energy, mut springs) = (0.0, 0.0);
-        let with_springs = Self::HAS_HISTORY && self.ledger.is_some();
-        let spring = |history: &[T::History], at: usize, overlap: f64, effective_radius: f64| {
-            match with_springs {
-                true => self
-                    .tangential
-                    .energy(&history[at], overlap, effective_radius),
-                false => 0.0,
-            }
-        };
-        let count = &mut contacts.of_moving_spheres;
-        let mut pairs = self.neighbours.near.pairs().iter().enumerate().peekable();
-        let mut walls: Vec<_> = self
-            .walls
-            .iter()
-            .map(|it| (it, it.near.iter().peekable()))
+        let mut contacts = Contacts::default();
+        let pairs = self.neighbours.near.pairs().iter();
+        let mut pairs = pairs.zip(&self.pair_history).peekable();
+        let walls = self.walls.iter();
+        let mut walls: Vec<_> = walls
+            .map(|wall| (wall.wall, wall.near.iter().zip(&wall.histories).peekable()))
             .collect();
         for i in 0..radius.len() {
             let (centre, ri) = (position[i], radius[i]);
-            while let Some((entry, pair)) = pairs.next_if(|(_, pair)| pair.i() as usize == i) {
+            while let Some((pair, history)) = pairs.next_if(|(pair, _)| pair.i() as usize == i) {
                 let j = pair.j() as usize;
-                let rj = radius[j];
+                let sum = ri + radius[j];
                 let distance_squared = (centre - position[j]).norm_squared();
-                if distance_squared < (ri + rj) * (ri + rj) {
-                    let overlap = ri + rj - distance_squared.sqrt();
-                    let effective_radius = ri * rj / (ri + rj);
-                    energy += self.normal.elastic_energy(overlap, effective_radius);
-                    springs += spring(&self.pair_history, entry, overlap, effective_radius);
-                    *count += usize::from(i >= *fixed) + usize::from(j >= *fixed);
+                if distance_squared < sum * sum {
+                    let overlap = sum - distance_squared.sqrt();
+                    self.add_contact(&mut contacts, overlap, ri * radius[j] / sum, history);
+                    contacts.of_moving_spheres +=
+                        usize::from(i >= *fixed) + usize::from(j >= *fixed);
                 }
             }
             for (wall, near) in &mut walls {
-                let Some(sphere) = near.next_if(|sphere| sphere.i as usize == i) else {
+                let Some((_, history)) = near.next_if(|(sphere, _)| sphere.i as usize == i) else {
                     continue;
                 };
-                let contact = wall.wall.contact(centre, ri);
+                let contact = wall.contact(centre, ri);
                 if contact.touches {
-                    energy += self.normal.elastic_energy(contact.overlap, ri);
-                    springs += spring(&wall.histories, sphere.entry as usize, contact.overlap, ri);
-                    *count += 1;
+                    self.add_contact(&mut contacts, contact.overlap, ri, history);
+                    contacts.of_moving_spheres += 1;
                 }
             }
         }
-        contacts.elastic_energy = energy;
-        contacts.spring_energy = springs;
         contacts
+    }
+
+    /// Adds the energies of a contact of this overlap (m) and effective radius (m).
+    fn add_contact(
+        &self,
+        contacts: &mut Contacts,
+        overlap: f64,
+        effective_radius: f64,
+        history: &T::History,
+    ) {
+        contacts.elastic_energy += self.normal.elastic_energy(overlap, effective_radius);
+        if Self::HAS_HISTORY && self.ledger.is_some() {
+            contacts.spring_energy += self.tangential.energy(history, overlap, effective_radius);
+        }
     }
 }

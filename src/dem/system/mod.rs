@@ -3,6 +3,7 @@
 mod adaptive;
 mod candidates;
 mod contact_block;
+mod contact_geometry;
 mod contact_laws;
 mod contact_state;
 mod contact_task;
@@ -31,10 +32,11 @@ use self::division::Division;
 use self::integrate::Before;
 use self::ledger::Ledger;
 pub(in crate::dem) use self::ledger::Work;
+use self::moves::Drift;
 pub(in crate::dem) use self::state::EngineState;
 use self::wall_contacts::WallContacts;
 use super::guard::Limits;
-use super::neighbours::{Near, NearPair, Reach, VerletList};
+use super::neighbours::{Near, NearPair, Purpose, Reach, VerletList};
 use super::profile::{self, Part, Profile};
 use super::state::StateError;
 use super::walls::TankWall;
@@ -47,56 +49,56 @@ use crate::scene::{Integrator, Neighbours};
 use crate::simulation::Instability;
 use fearless_simd::Level;
 
-/// What the rest of the program needs of a system, whatever its laws.
+/// What the rest of the program asks of a system, whatever its laws.
 pub(in crate::dem) trait Engine: Send {
     fn advance(&mut self, steps: u64) -> Result<(), Instability>;
     fn particles(&self) -> &Particles;
     fn step(&self) -> u64;
-    /// How often a sphere was moved, parts of steps counted.
+    /// How often a sphere was moved. Each sub-step counts.
     fn moves(&self) -> u64;
     fn list(&self) -> Option<&VerletList>;
-    /// What the contacts hold at the present positions.
+    /// Energies and number of the contacts at the present positions.
     fn contacts(&mut self) -> Contacts;
     fn use_baseline_instructions(&mut self);
-    /// Divides the work of a sorted scene among this number of threads, of the pool that the engine
-    /// then runs in. Returns whether it does.
+    /// Divides the work of a sorted scene among this number of threads. The engine must then run in
+    /// a pool of them. Returns whether the work is divided.
     fn use_threads(&mut self, threads: usize) -> bool;
-    /// Begins to balance the energy; never changes the motion.
+    /// Begins to keep the energy balance. This never changes the motion.
     fn keep_ledger(&mut self);
-    /// Begins to measure what the parts of a step take; never changes the motion.
+    /// Begins to measure the time of each part of a step. This never changes the motion.
     fn keep_profile(&mut self, profile: Profile);
-    /// What was measured, if anything is.
+    /// The measured profile, if one is kept.
     fn profile(&self) -> Option<&Profile>;
-    /// Work since the start, if books are kept.
+    /// Work since the start, if a ledger is kept.
     fn work(&self) -> Option<Work>;
     /// Adds a sphere; effects must not depend on how many there are.
     fn insert(&mut self, sphere: &Sphere);
     /// Removes the spheres that are not to be kept.
     fn retain(&mut self, keep: &[bool]);
-    /// Forgets all that is known of contacts, for its memory: the motion is over.
+    /// Frees the memory of contacts and lists. The motion must be over.
     fn forget_contacts(&mut self);
-    /// Everything that the motion goes on from.
+    /// The state from which the motion continues.
     fn state(&self) -> EngineState<'_>;
-    /// Takes up a state of the same scene.
+    /// Continues from a state of the same scene.
     fn restore(&mut self, state: EngineState<'_>) -> Result<(), StateError>;
 }
 
-/// What contacts hold.
+/// Energies and number of contacts.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::dem) struct Contacts {
     /// Elastic energy (J).
     pub(in crate::dem) elastic_energy: f64,
-    /// Energy of tangential springs (J), if books are kept.
+    /// Energy of tangential springs (J), if a ledger is kept.
     pub(in crate::dem) spring_energy: f64,
-    /// Contacts of all moving spheres, one between two of them counted for each.
+    /// Contacts of all moving spheres. A contact between two of them counts twice.
     pub(in crate::dem) of_moving_spheres: usize,
 }
 
-/// What a scene says of a system besides its laws and its spheres. It does not change.
+/// What a scene specifies for a system besides its laws and spheres. It does not change.
 pub(in crate::dem) struct Setup {
     /// In the order in which they act.
     pub(in crate::dem) walls: Vec<TankWall>,
-    /// Those of a potential first.
+    /// Effects with a potential come first.
     pub(in crate::dem) effects: Vec<PlacedEffect>,
     /// Whether an effect needs the number of spheres below each sphere.
     pub(in crate::dem) shielded: bool,
@@ -107,8 +109,20 @@ pub(in crate::dem) struct Setup {
     /// Skin of the neighbour list (m).
     pub(in crate::dem) skin: f64,
     pub(in crate::dem) neighbours: Neighbours,
-    /// Whether spheres are sorted in memory; their numbers then follow them.
+    /// Whether spheres are sorted in memory. [`Particles::number`] then holds their numbers in the
+    /// scene.
     pub(in crate::dem) sorted: bool,
+}
+
+impl Setup {
+    /// Near pairs for a system with this normal law, not found yet.
+    fn near<N: NormalLaw>(&self) -> Near {
+        let purpose = Purpose {
+            contacts: N::ACTS,
+            shield: self.shielded,
+        };
+        Near::new(purpose, 0.3 * self.skin)
+    }
 }
 
 /// A simulation compiled for its contact laws.
@@ -119,40 +133,40 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     tangential: T,
     step: StepState,
     neighbours: NeighbourState,
-    /// Histories of near pairs. A law without history has one of no size, and these take no memory.
+    /// Histories of near pairs. The history of a law without memory has size zero.
     pair_history: Vec<T::History>,
-    /// The walls, the spheres near them, and histories of these contacts.
+    /// The walls, the spheres near them, and the histories of these contacts.
     walls: Vec<WallContacts<T::History>>,
     /// How springs are loaded until the next evaluation.
     loading: Loading,
-    /// The velocities and spins that load them, if these are not those of the evaluation.
+    /// Velocities and spins that load springs, if these are not those of the evaluation.
     earlier: Vec<EarlierRows>,
-    /// Velocities and spins of before a prediction.
+    /// Velocities and spins before a prediction.
     before: Before,
-    /// Of adaptive Verlet.
+    /// Buffers of adaptive Verlet.
     workspace: Workspace<T::History>,
     ledger: Option<Ledger>,
     profile: Option<Box<Profile>>,
     /// The properties of all spheres, if they are alike.
     alike: Option<SphereProperties>,
     buffers: Box<Buffers<T::History>>,
-    /// Of every thread.
+    /// Blocks of spheres for the effects, one per thread.
     bodies: Vec<Bodies>,
     /// Which thread computes which spheres, if there are several.
     division: Option<Division<T::History>>,
     level: Level,
 }
 
-/// How far a system is in its steps, and within one.
+/// Which steps are done, and which parts of the next step.
 #[derive(Default)]
 struct StepState {
     /// Steps done.
     number: u64,
-    /// How often a sphere was moved, sub-steps counted.
+    /// How often a sphere was moved. Each sub-step counts.
     moves: u64,
     /// Whether forces and torques are zero already.
     forces_are_zero: bool,
-    /// Whether spheres have done the first half of the next step already.
+    /// Whether the first half of the next step is done already.
     first_half_done: bool,
     /// The first sphere found beyond the overlap limit in this step, with its overlap.
     too_deep: TooDeep,
@@ -164,22 +178,22 @@ struct NeighbourState {
     list: Option<VerletList>,
     /// The pairs of the list that may touch soon.
     near: Near,
-    /// Whether the near pairs must be looked for anew.
+    /// Whether the near pairs must be found again.
     stale: bool,
-    /// Since the list was built.
+    /// Time since the list was built.
     age: Age,
-    /// Since the near pairs were looked for.
+    /// Time since the near pairs were found.
     near_age: Age,
-    /// The near pairs of before, for their memory.
+    /// An unused list of pairs, kept for its memory.
     spare_pairs: Vec<NearPair>,
 }
 
-/// How long ago something was.
+/// Time since an event.
 #[derive(Clone, Copy, Debug, Default)]
 struct Age {
-    /// Steps begun since.
+    /// Steps begun since then.
     steps: u64,
-    /// Time that the spheres moved since (s).
+    /// Time for which the spheres have moved since then (s).
     time: f64,
 }
 
@@ -194,7 +208,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     ) -> Self {
         Self {
             step: StepState::default(),
-            neighbours: NeighbourState::new(&setup, N::ACTS),
+            neighbours: NeighbourState::new::<N>(&setup),
             pair_history: Vec::new(),
             walls: setup.walls.iter().copied().map(WallContacts::new).collect(),
             loading: Loading::present(setup.dt),
@@ -203,7 +217,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             workspace: Workspace::default(),
             ledger: None,
             profile: None,
-            alike: Self::alike(&particles),
+            alike: SphereProperties::of_all::<N, T>(&particles),
             buffers: Buffers::new(),
             bodies: Vec::new(),
             division: None,
@@ -221,7 +235,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         profile::mark(&mut self.profile, part);
     }
 
-    /// The same of the ledger, if there is one.
+    /// Ends the part of the ledger, if there is one.
     #[inline(always)]
     fn mark_ledger(&mut self) {
         if self.ledger.is_some() {
@@ -231,23 +245,38 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 }
 
 impl NeighbourState {
-    /// Of a system whose spheres act on one another at contacts, or not.
-    fn new(setup: &Setup, touch: bool) -> Self {
+    /// For a system with this normal law.
+    fn new<N: NormalLaw>(setup: &Setup) -> Self {
         let reach = match setup.shielded {
             true => Reach::Column,
             false => Reach::Contact,
         };
-        let interact = touch || setup.shielded;
+        let interact = N::ACTS || setup.shielded;
         Self {
             list: interact.then(|| {
                 let list = VerletList::new(reach, setup.skin, setup.neighbours);
                 if setup.sorted { list.of_sorted() } else { list }
             }),
-            near: Near::new(touch, setup.shielded, 0.3 * setup.skin),
+            near: setup.near::<N>(),
             stale: true,
             age: Age::default(),
             near_age: Age::default(),
             spare_pairs: Vec::new(),
+        }
+    }
+
+    /// Adds the time (s) of a drift to the ages of the lists.
+    fn let_pass(&mut self, time: f64) {
+        self.age.time += time;
+        self.near_age.time += time;
+    }
+
+    /// A drift (s) that ends now. It checks whether the near pairs hold, if there are lists.
+    fn drift(&self, dt: f64) -> Drift {
+        let is_listed = self.list.is_some();
+        Drift {
+            dt,
+            allowance: is_listed.then(|| self.near.allowance(self.near_age.time)),
         }
     }
 }
@@ -339,7 +368,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
 
     fn forget_contacts(&mut self) {
         self.neighbours.list = None;
-        self.neighbours.near = Near::new(false, false, 0.0);
+        self.neighbours.near = Near::new(Purpose::NONE, 0.0);
         self.pair_history = Vec::new();
         self.neighbours.spare_pairs = Vec::new();
         self.walls.clear();

@@ -11,22 +11,41 @@ use crate::particles::bodies::{Asked, Bodies};
 use crate::particles::vector::Vector;
 use fearless_simd::{Level, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
 
-/// Spheres to which everything is done before the next ones: few enough to stay in the nearest
-/// cache.
-const AT_HAND: usize = 4 * BLOCK;
+/// Spheres that are moved before the next ones: few enough to stay in the nearest cache.
+const SPHERES_AT_ONCE: usize = 4 * BLOCK;
 
 /// The first sphere that was too fast after each of at most two kicks.
 pub(super) type FirstTooFast = [Option<TooFast>; 2];
 
-/// What is done to each sphere, in this order.
+/// A motion of all spheres.
+#[derive(Clone, Copy)]
+pub(super) struct Motion<'a> {
+    /// How long each kick is (s).
+    pub(super) kicks: &'a [f64],
+    /// How long the drift after the kicks is (s), if there is one.
+    pub(super) drift: Option<f64>,
+    /// Whether forces and torques are set to zero afterwards.
+    pub(super) clear: bool,
+}
+
+impl Motion<'_> {
+    /// Spheres stay where they are, with their velocities and forces.
+    pub(super) const NONE: Self = Self {
+        kicks: &[],
+        drift: None,
+        clear: false,
+    };
+}
+
+/// The operations on each sphere, in this order.
 pub(super) struct Moves<'a> {
-    /// Add to its force and torque.
+    /// Effects, which add to its force and torque.
     pub(super) effects: &'a [PlacedEffect],
-    /// How long each kick is (s), one after the other: the last of a step and the first of the next
-    /// are two, as numbers are rounded after either.
+    /// How long each kick is (s). The last kick of a step and the first of the next are not joined,
+    /// because numbers are rounded after each.
     pub(super) kicks: &'a [f64],
     pub(super) drift: Option<Drift>,
-    /// Sets forces and torques to zero while they are in a near cache.
+    /// Whether forces and torques are set to zero, while they are in a near cache.
     pub(super) clear: bool,
     pub(super) limits: &'a Limits,
     /// The time step (s).
@@ -38,22 +57,22 @@ pub(super) struct Moves<'a> {
 pub(super) struct Drift {
     /// How long it is (s).
     pub(super) dt: f64,
-    /// How far spheres may be from their references, where that is checked.
+    /// How far spheres may be from their references, if that is checked.
     pub(super) allowance: Option<Allowance>,
 }
 
-/// What moves found.
+/// Results of the checks during the moves.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Found {
     pub(super) too_fast: FirstTooFast,
-    /// A sphere drifted farther than the near pairs allow.
+    /// Whether a sphere drifted farther than the near pairs allow.
     pub(super) far: bool,
 }
 
 impl Moves<'_> {
-    /// Does all that to the spheres, with what each thread has for blocks of them. One thread for
-    /// all may keep a profile.
-    pub(super) fn of_all(
+    /// Moves the spheres, divided among as many threads as there are `bodies`. A profile is kept
+    /// only without other threads.
+    pub(super) fn apply(
         &self,
         mut spheres: Spheres<'_>,
         bodies: &mut [Bodies],
@@ -68,21 +87,21 @@ impl Moves<'_> {
             ..asked
         };
         if let [bodies] = bodies {
-            return self.of_share(&mut spheres, bodies, asked, level, profile);
+            return self.move_share(&mut spheres, bodies, asked, level, profile);
         }
         let length = spheres.len().div_ceil(bodies.len());
         let length = length.next_multiple_of(BLOCK);
         let share = |bodies| (spheres.split(length), bodies, Found::default());
         let mut shares: Vec<_> = bodies.iter_mut().map(share).collect();
         in_parallel(&mut shares, &|(spheres, bodies, found)| {
-            *found = self.of_share(spheres, bodies, asked, level, &mut None);
+            *found = self.move_share(spheres, bodies, asked, level, &mut None);
         });
         shares
             .iter()
             .fold(Found::default(), |all, (_, _, it)| all.and(*it))
     }
 
-    fn of_share(
+    fn move_share(
         &self,
         spheres: &mut Spheres<'_>,
         bodies: &mut Bodies,
@@ -92,13 +111,13 @@ impl Moves<'_> {
     ) -> Found {
         let mut found = Found::default();
         debug_assert!(self.kicks.len() <= found.too_fast.len());
-        // Gravity alone is no more than a part of the kick.
+        // Gravity alone needs no blocks of columns.
         let alone = match self.effects {
             [(place, effect)] => effect.acceleration().map(|it| (it, Part::Effect(*place))),
             _ => None,
         };
         while spheres.len() > 0 {
-            let mut some = spheres.split(AT_HAND);
+            let mut some = spheres.split(SPHERES_AT_ONCE);
             if let Some((acceleration, part)) = alone {
                 fearless_simd::dispatch!(level, simd => accelerate(simd, &mut some, acceleration));
                 profile::mark(profile, part);
@@ -118,7 +137,7 @@ impl Moves<'_> {
                 profile::mark(profile, Part::Kick);
             }
             if let Some(drift) = self.drift {
-                found.far |= fearless_simd::dispatch!(level, simd => drift.all(simd, &mut some));
+                found.far |= fearless_simd::dispatch!(level, simd => drift.apply(simd, &mut some));
                 profile::mark(profile, Part::Drift);
             }
             if self.clear {
@@ -155,7 +174,7 @@ impl Moves<'_> {
 }
 
 impl Found {
-    /// The same of these and later spheres.
+    /// The results for these and later spheres together.
     pub(super) fn and(self, later: Self) -> Self {
         let mut too_fast = self.too_fast;
         for (first, second) in too_fast.iter_mut().zip(later.too_fast) {
@@ -178,11 +197,10 @@ fn accelerate<S: Simd>(simd: S, spheres: &mut Spheres<'_>, acceleration: Vector)
     }
 }
 
-/// v += a dt, and the same for spins. Whether none of them has a component of velocity beyond
-/// `slow`.
+/// v += a dt, and the same for spins. Returns whether no component of a velocity is beyond `slow`.
 #[inline(always)]
 fn kick_all<S: Simd>(simd: S, spheres: &mut Spheres<'_>, dt: f64, slow: f64) -> bool {
-    // The last number of a row means nothing.
+    // The fourth number of a row is padding.
     let most = f64x4::simd_from(simd, [slow, slow, slow, f64::INFINITY]);
     let mut all_slow = mask64x4::splat(simd, true);
     for ((velocity, force), inverse) in (spheres.velocity.iter_mut())
@@ -191,7 +209,7 @@ fn kick_all<S: Simd>(simd: S, spheres: &mut Spheres<'_>, dt: f64, slow: f64) -> 
     {
         let row = velocity.simd(simd) + force.simd(simd) * (inverse * dt);
         *velocity = Vector::of_row(row.into());
-        // What is not a number is not slow.
+        // NaN does not count as slow.
         all_slow &= row.abs().simd_le(most);
     }
     for ((spin, torque), inverse) in (spheres.spin.iter_mut())
@@ -205,9 +223,9 @@ fn kick_all<S: Simd>(simd: S, spheres: &mut Spheres<'_>, dt: f64, slow: f64) -> 
 }
 
 impl Drift {
-    /// Whether one of them went too far.
+    /// Moves the spheres. Returns whether one of them went too far.
     #[inline(always)]
-    fn all<S: Simd>(&self, simd: S, spheres: &mut Spheres<'_>) -> bool {
+    fn apply<S: Simd>(&self, simd: S, spheres: &mut Spheres<'_>) -> bool {
         for (position, velocity) in spheres.position.iter_mut().zip(&*spheres.velocity) {
             let row = position.simd(simd) + velocity.simd(simd) * self.dt;
             *position = Vector::of_row(row.into());

@@ -1,4 +1,4 @@
-//! Sorting the spheres of a large scene in memory, and all that has an entry per sphere with them.
+//! Sorting the spheres of a large scene in memory, and everything that has an entry per sphere.
 
 use super::System;
 use crate::dem::neighbours::NearPair;
@@ -9,14 +9,14 @@ use crate::forces::friction::{History, TangentialLaw};
 use crate::simulation::Instability;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Whether it is time to look at the order of the spheres.
-    pub(super) fn looks_at_order(&self) -> bool {
+    /// Whether the order of the spheres is to be checked now.
+    pub(super) fn checks_order(&self) -> bool {
         self.setup.sorted && self.step.number.is_multiple_of(order::INTERVAL)
     }
 
-    /// Sorts the spheres if it is time to look at their order, and they have mixed.
+    /// Sorts the spheres if their order is to be checked now and they have mixed.
     pub(super) fn keep_in_order(&mut self) -> Result<(), Instability> {
-        if !self.looks_at_order() {
+        if !self.checks_order() {
             return Ok(());
         }
         let result = match order::found_anew(&self.particles) {
@@ -29,7 +29,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     fn reorder(&mut self, order: &[u32]) -> Result<(), Instability> {
         let places = order::places(order);
-        self.follow_pairs(&places);
+        self.renumber_pairs(&places);
         self.particles.reorder(order);
         for (_, effect) in &mut self.setup.effects {
             effect.reorder(order);
@@ -48,12 +48,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.refresh()
     }
 
-    /// Takes the near pairs that remember something, with their histories, to new places. These are
-    /// most of the memory of a large scene, so all of it happens in their arrays.
-    fn follow_pairs(&mut self, places: &[u32]) {
-        let mut pairs = self.neighbours.near.take_pairs();
+    /// Gives the near pairs with a history their new indices, and sorts them and their histories.
+    /// These are most of the memory of a large scene, so they are sorted in place.
+    fn renumber_pairs(&mut self, places: &[u32]) {
+        let pairs = self.neighbours.near.pairs_mut();
         let histories = &mut self.pair_history;
         if !Self::HAS_HISTORY {
+            pairs.clear();
             histories.clear();
             return;
         }
@@ -78,7 +79,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let mut order: Vec<u32> = (0..known as u32).collect();
         order.sort_unstable_by_key(|&at| pairs[at as usize]);
         pairs.sort_unstable();
-        // Round each cycle of places once: one that says its own place is done.
+        // Each cycle of the permutation is followed once. An entry that names its own place is
+        // done.
         for first in 0..known {
             let (mut at, history) = (first, histories[first]);
             loop {
@@ -91,6 +93,5 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
             histories[at] = history;
         }
-        self.neighbours.near.return_pairs(pairs);
     }
 }

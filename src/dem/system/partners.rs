@@ -1,4 +1,4 @@
-//! What contacts read of spheres.
+//! The spheres that contacts read.
 
 use super::contact_block::EarlierRows;
 use super::wall_contacts::NearSphere;
@@ -9,8 +9,8 @@ use crate::particles::block::BLOCK;
 use crate::particles::vector::Vector;
 use std::ops::Range;
 
-/// What contacts read of spheres, from one on: of all, of those that a thread answers for, or of
-/// copies. Contacts are computed with the first one as number 0.
+/// The spheres that contacts read: all spheres, those of a thread, or copies. Contacts are computed
+/// with indices that count from the first of these.
 #[derive(Clone, Copy)]
 pub(super) struct Partners<'a> {
     /// The index of the first one.
@@ -19,7 +19,7 @@ pub(super) struct Partners<'a> {
     pub(super) position: &'a [Vector],
     /// Velocities (m/s).
     pub(super) velocity: &'a [Vector],
-    /// Spins (rad/s), of spheres that turn.
+    /// Spins (rad/s), of spheres that rotate.
     pub(super) spin: &'a [Vector],
     /// Radii (m).
     pub(super) radius: &'a [f64],
@@ -27,7 +27,7 @@ pub(super) struct Partners<'a> {
     pub(super) mass: &'a [f64],
     /// Inverse masses (1/kg).
     pub(super) inverse_mass: &'a [f64],
-    /// Moments of inertia (kg m2), of spheres that turn.
+    /// Moments of inertia (kg m2), of spheres that rotate.
     pub(super) inertia: &'a [f64],
     /// Velocities and spins that load springs, if these are not the present ones.
     pub(super) earlier: &'a [EarlierRows],
@@ -59,8 +59,12 @@ impl<'a> Partners<'a> {
         }
     }
 
-    /// These spheres, and their forces and torques.
-    pub(super) fn of(spheres: &'a mut Spheres<'_>) -> (Self, [&'a mut [Vector]; 2]) {
+    /// These spheres, with the velocities and spins that load springs; and their forces and
+    /// torques.
+    pub(super) fn of(
+        spheres: &'a mut Spheres<'_>,
+        earlier: &'a [EarlierRows],
+    ) -> (Self, [&'a mut [Vector]; 2]) {
         let partners = Self {
             first: spheres.first as u32,
             position: spheres.position,
@@ -70,46 +74,47 @@ impl<'a> Partners<'a> {
             mass: spheres.mass,
             inverse_mass: spheres.inverse_mass,
             inertia: spheres.inertia,
-            earlier: &[],
+            earlier,
         };
         (partners, [spheres.force, spheres.torque])
     }
 
-    /// Pairs as these partners are counted, in `room`.
+    /// Pairs with indices counted from the first of these partners. `buffer` holds them, if they
+    /// differ from the given ones.
     #[inline(always)]
-    pub(super) fn counted<'p>(
+    pub(super) fn local_pairs<'p>(
         &self,
         pairs: &'p [NearPair],
-        room: &'p mut [NearPair],
+        buffer: &'p mut [NearPair],
     ) -> &'p [NearPair] {
         if self.first == 0 {
             return pairs;
         }
         let first = NearPair::new(self.first, self.first).word();
-        for (counted, pair) in room.iter_mut().zip(pairs) {
-            *counted = NearPair::of_word(pair.word() - first);
+        for (local, pair) in buffer.iter_mut().zip(pairs) {
+            *local = NearPair::of_word(pair.word() - first);
         }
-        &room[..pairs.len()]
+        &buffer[..pairs.len()]
     }
 
-    /// Spheres at a wall as these partners are counted, in `room`.
+    /// Spheres at a wall with indices counted from the first of these partners, as above.
     #[inline(always)]
-    pub(super) fn counted_at_wall<'p>(
+    pub(super) fn local_spheres<'p>(
         &self,
         spheres: &'p [NearSphere; BLOCK],
-        room: &'p mut [NearSphere; BLOCK],
+        buffer: &'p mut [NearSphere; BLOCK],
     ) -> &'p [NearSphere; BLOCK] {
         if self.first == 0 {
             return spheres;
         }
-        for (counted, sphere) in room.iter_mut().zip(spheres) {
-            counted.i = sphere.i - self.first;
+        for (local, sphere) in buffer.iter_mut().zip(spheres) {
+            local.i = sphere.i - self.first;
         }
-        room
+        buffer
     }
 }
 
-/// Copies of what changes of some spheres.
+/// Copies of positions and velocities of some spheres.
 #[derive(Default)]
 pub(super) struct Copies {
     /// Their indices.
@@ -133,7 +138,7 @@ impl Copies {
         }
     }
 
-    /// These spheres, with what does not change out of that of all.
+    /// These spheres. Their properties, which do not change, are read from those of all.
     pub(super) fn partners<'a>(&'a self, all: &Spheres<'a>) -> Partners<'a> {
         Partners {
             first: self.spheres.start as u32,
@@ -149,7 +154,7 @@ impl Copies {
     }
 }
 
-/// These entries, of an array that may have none at all.
+/// These entries of an array, or none if the array is empty.
 fn part<'a, E>(all: &'a [E], range: &Range<usize>) -> &'a [E] {
     all.get(range.clone()).unwrap_or_default()
 }

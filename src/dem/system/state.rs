@@ -1,11 +1,12 @@
-//! The state of a system: what its motion goes on from.
+//! The state of a system, from which its motion continues.
 //!
-//! Lists, skins and margins are not part of it: no bit of the motion depends on them, and they are
-//! made anew. A contact without a history stands for one whose history is empty.
+//! Lists, skins and margins are not part of it. No bit of the motion depends on them, and they are
+//! built again. A contact that is not listed has an empty history.
 
+use super::contact_state::SphereProperties;
 use super::ledger::Books;
 use super::wall_contacts::WallContacts;
-use super::{Age, Near, NearPair, Setup, System, VerletList};
+use super::{Age, NearPair, Setup, System, VerletList};
 use crate::dem::order;
 use crate::dem::state::StateError;
 use crate::forces::contact::NormalLaw;
@@ -24,14 +25,14 @@ pub(in crate::dem) struct EngineState<'a> {
     moves: u64,
     /// Velocity Verlet begins its step with the forces and torques of the latest evaluation.
     particles: Cow<'a, Particles>,
-    /// [`Histories`] of the tangential law, in bytes, as their type is that of the law.
+    /// [`Histories`] as bytes, because their type depends on the tangential law.
     histories: Vec<u8>,
     /// The energy balance, if one is kept.
     books: Option<Cow<'a, Books>>,
 }
 
 impl EngineState<'_> {
-    /// The same, on its own.
+    /// The same state, which borrows nothing.
     pub(in crate::dem) fn into_owned(self) -> EngineState<'static> {
         EngineState {
             particles: Cow::Owned(self.particles.into_owned()),
@@ -41,23 +42,22 @@ impl EngineState<'_> {
     }
 }
 
-/// What contacts remember.
+/// Histories of contacts.
 #[derive(Serialize, Deserialize)]
 struct Histories<P, H> {
-    /// Whether the law remembers anything: where nothing is held, nothing else tells.
-    remembers: bool,
-    /// [`RememberedPairs`], or what they are read as.
+    /// Whether the law has a history. Lists that are empty do not tell.
+    has_history: bool,
+    /// [`RememberedPairs`] when written, a list of pairs when read.
     pairs: P,
-    /// Of each wall: the spheres whose history with it is not empty, in the order of their indices.
+    /// For each wall the spheres whose history with it is not empty, in the order of their indices.
     walls: Vec<Vec<(u32, H)>>,
 }
 
-/// As they are read.
+/// Histories as they are read.
 type SavedHistories<H> = Histories<Vec<(u32, u32, H)>, H>;
 
-/// Pairs whose history is not empty, of all near ones: both spheres and the history, in the order
-/// of the list. Written one by one, as there may be many: only their bytes are in memory a second
-/// time.
+/// The near pairs whose history is not empty: both spheres and the history, in the order of the
+/// list. They are written one by one, so that only their bytes are in memory a second time.
 struct RememberedPairs<'a, H> {
     near: &'a [NearPair],
     histories: &'a [H],
@@ -99,7 +99,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             moves: self.step.moves,
             particles: Cow::Borrowed(&self.particles),
             histories: encode(&Histories {
-                remembers: Self::HAS_HISTORY,
+                has_history: Self::HAS_HISTORY,
                 pairs,
                 walls: self.walls.iter().map(of_wall).collect(),
             }),
@@ -117,7 +117,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         } = state;
         let histories: SavedHistories<T::History> =
             decode(&histories).ok_or(StateError("its contacts follow another law"))?;
-        if histories.remembers != Self::HAS_HISTORY {
+        if histories.has_history != Self::HAS_HISTORY {
             return Err(StateError("its contacts follow another law"));
         }
         self.accept(&particles, &histories)?;
@@ -149,13 +149,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
         *present = particles.into_owned();
         for (wall, known) in self.walls.iter_mut().zip(histories.walls) {
-            wall.take_up(known);
+            wall.set(known);
         }
         self.make_lists(&histories.pairs)
             .map_err(|_| StateError("a sphere is out of bounds"))
     }
 
-    /// Makes sure that spheres and histories may be those of this scene.
+    /// Checks that spheres and histories may belong to this scene.
     fn accept(
         &self,
         particles: &Particles,
@@ -192,25 +192,25 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             .map_err(|_| StateError("a sphere is out of bounds"))
     }
 
-    /// Makes lists of neighbours for the present spheres, with these histories.
+    /// Builds lists of neighbours for the present spheres, with these histories.
     fn make_lists(&mut self, histories: &[(u32, u32, T::History)]) -> Result<(), Instability> {
         self.neighbours.stale = true;
         if self.neighbours.list.is_none() {
             return Ok(());
         }
-        self.alike = Self::alike(&self.particles);
-        self.neighbours.near = Near::new(N::ACTS, self.setup.shielded, 0.3 * self.setup.skin);
+        self.alike = SphereProperties::of_all::<N, T>(&self.particles);
+        self.neighbours.near = self.setup.near::<N>();
         self.forget_lists();
         let pairs = histories.iter().map(|&(i, j, _)| (i, j));
         self.neighbours.near.set_pairs(pairs);
         self.pair_history.clear();
         let histories = histories.iter().map(|&(_, _, history)| history);
         self.pair_history.extend(histories);
-        // A step may begin with a drift, which already goes by the near list.
+        // A step may begin with a drift, which checks the near pairs.
         self.refresh()
     }
 
-    /// Sees to it that lists are made anew, for spheres that are others or elsewhere.
+    /// Makes all lists invalid, after the spheres were replaced or sorted.
     pub(super) fn forget_lists(&mut self) {
         self.neighbours
             .list

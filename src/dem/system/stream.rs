@@ -1,9 +1,8 @@
-//! Forces and moves of a large scene in one pass through its spheres, or through those of each
-//! thread.
+//! Forces and moves of a large scene in one pass over its spheres, or over those of each thread.
 //!
 //! Pairs are sorted by their first spheres. Once the pairs of a sphere are done, no later pair
-//! reads its position: it can be moved while it is in the cache. What is done to a sphere, and in
-//! which order, is the same as if all forces came first.
+//! reads its position, and the sphere can be moved while it is in the cache. The operations on a
+//! sphere and their order are the same as if all forces came first.
 //!
 //! A thread never reads the spheres of another thread, which may have moved already. Pairs across a
 //! boundary read copies of the spheres around it. So do all pairs of a thread from the first sphere
@@ -11,12 +10,13 @@
 //! array.
 
 use super::System;
+use super::candidates::Candidates;
 use super::contact_task::{ContactSettings, ContactSlice, ContactTask, TooDeep};
 use super::division::{ThreadContacts, first_too_deep, threads};
-use super::moves::{Drift, FirstTooFast, Found, Moves};
+use super::moves::{FirstTooFast, Found, Moves};
 use super::partners::Partners;
 use super::sums::Sums;
-use super::touching::LOOK;
+use super::touching::CHUNK;
 use crate::dem::bodies::Spheres;
 use crate::dem::neighbours::NearPair;
 use crate::dem::profile::Profile;
@@ -28,22 +28,22 @@ use crate::particles::block::BLOCK;
 use crate::particles::bodies::Bodies;
 use fearless_simd::Level;
 
-/// Spheres are moved after this many near pairs: few enough that these are still in a near cache,
-/// so many that few lanes of blocks are left over.
-const SPAN: usize = 16 * LOOK;
+/// Spheres are moved after this many near pairs. They are few enough that the spheres are still in
+/// a near cache, and so many that few lanes of blocks stay empty.
+const SPAN: usize = 16 * CHUNK;
 
-/// What one thread does: forces and moves of its spheres.
+/// The work of one thread: forces and moves of its spheres.
 pub(super) struct Stream<'a, H> {
     spheres: Spheres<'a>,
-    /// How many of them are moved.
+    /// How many of them have been moved.
     moved: usize,
-    /// What is not done.
+    /// Contacts that are still to be computed.
     contacts: ThreadContacts<'a, H>,
     bodies: &'a mut Bodies,
     /// Copies of spheres around the boundaries.
     before: Option<Partners<'a>>,
     after: Option<Partners<'a>>,
-    /// Of pairs, and at each wall.
+    /// The first contact beyond the overlap limit among pairs and at each wall.
     too_deep: [TooDeep; 1 + TankWall::MOST],
     found: Found,
     profile: Option<Box<Profile>>,
@@ -59,75 +59,58 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             && division.is_none_or(|it| it.has_narrow_boundaries())
     }
 
-    /// Adds up all forces, with near pairs that hold, then kicks for these times (s), drifts for a
-    /// time (s), and clears the forces. Returns the first sphere beyond its speed limit, and notes
-    /// whether a contact is too deep.
+    /// Adds up all forces, kicks for these times (s), drifts for a time (s), and clears the forces.
+    /// The near pairs must hold. Returns the first sphere beyond its speed limit, and notes whether
+    /// a contact is too deep.
     pub(super) fn stream(&mut self, kicks: &[f64], drift: f64) -> FirstTooFast {
         if !std::mem::replace(&mut self.step.forces_are_zero, true) {
             self.particles.clear_forces();
         }
-        self.neighbours.age.time += drift;
-        self.neighbours.near_age.time += drift;
+        self.neighbours.let_pass(drift);
         debug_assert!(
             self.loading.age == 0.0,
             "springs are loaded by present velocities"
         );
-        let candidates = self.take_candidates();
         let settings = self.settings();
+        let near = &self.neighbours.near;
         let moves = Moves {
             effects: &self.setup.effects,
             kicks,
-            drift: Some(Drift {
-                dt: drift,
-                allowance: Some(
-                    self.neighbours
-                        .near
-                        .allowance(self.neighbours.near_age.time),
-                ),
-            }),
+            drift: Some(self.neighbours.drift(drift)),
             clear: true,
             limits: &self.setup.limits,
             dt: self.setup.dt,
         };
-        let reference = self.neighbours.near.anchor().position();
-        let spheres = Spheres::new(&mut self.particles, reference);
-        let (pairs, walls) = candidates.with_histories(&mut self.pair_history, &mut self.walls);
         self.bodies
             .resize_with(threads(self.division.as_ref()), Bodies::new);
         let bodies = &mut self.bodies[..];
+        let spheres = Spheres::new(&mut self.particles, near.anchor().position());
+        let candidates = Candidates::all(near.pairs(), &mut self.pair_history, &mut self.walls);
         let mut streams = match &mut self.division {
-            Some(division) => division.streams(spheres, pairs, walls, bodies),
+            Some(division) => division.streams(spheres, candidates, bodies),
             None => {
-                let all = ThreadContacts {
-                    crossing: ContactSlice::none(),
-                    pairs,
-                    walls,
-                    buffers: &mut self.buffers,
-                };
+                let all = ThreadContacts::all(candidates, &mut self.buffers);
                 vec![Stream::new(spheres, all, &mut bodies[0], (None, None))]
             }
         };
-        // A profile looks at one of several threads; the rest of its step is to wait for the
-        // others.
+        // A profile measures the first thread. Its `Part::Rest` includes the wait for the others.
         streams[0].profile = self.profile.take();
         let level = self.level;
         in_parallel(&mut streams, &|stream| {
-            stream.flow(level, &settings, &moves);
+            stream.run(level, &settings, &moves);
         });
         self.profile = streams[0].profile.take();
         self.step.too_deep = first_too_deep(streams.iter().map(|it| it.too_deep));
         let found = streams.iter().map(|it| it.found);
         let found = found.fold(Found::default(), Found::and);
-        drop(streams);
-        self.return_candidates(candidates);
         self.neighbours.stale |= found.far;
         found.too_fast
     }
 }
 
 impl<'a, H: History> Stream<'a, H> {
-    /// Of these spheres and contacts, with copies of the spheres around the boundaries before and
-    /// after them.
+    /// The work on these spheres and contacts, with copies of the spheres around the boundaries
+    /// before and after them.
     pub(super) fn new(
         spheres: Spheres<'a>,
         contacts: ThreadContacts<'a, H>,
@@ -147,7 +130,8 @@ impl<'a, H: History> Stream<'a, H> {
         }
     }
 
-    fn flow<N: NormalLaw, T: TangentialLaw<History = H>>(
+    /// Computes all contacts, and moves each sphere after its last one.
+    fn run<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,
         settings: &ContactSettings<N, T>,
@@ -165,7 +149,7 @@ impl<'a, H: History> Stream<'a, H> {
                 first,
             );
         }
-        // From there on spheres have pairs with those of later threads.
+        // The spheres from `inside` on have pairs with spheres of later threads.
         let inside = (self.after).map_or(end, |it| (it.first as usize).clamp(first, end));
         let own = &mut self.contacts.pairs;
         let within = (own.contacts).partition_point(|it| (it.i() as usize) < inside);
@@ -192,8 +176,8 @@ impl<'a, H: History> Stream<'a, H> {
         }
     }
 
-    /// Adds the forces of some pairs, crossing ones and others, and of walls on the next spheres,
-    /// those before `until`; with copies of all these, if they are given.
+    /// Adds the forces of some pairs, crossing ones and own ones, and of walls on the next spheres,
+    /// which end before `until`. Contacts read the spheres from `copies`, if these are given.
     fn add<N: NormalLaw, T: TangentialLaw<History = H>>(
         &mut self,
         level: Level,
@@ -210,16 +194,16 @@ impl<'a, H: History> Stream<'a, H> {
             *next = Some((*wall, known.split(count)));
         }
         let first = self.spheres.first;
-        let (partners, [force, torque]) = Partners::of(&mut self.spheres);
+        let (partners, [force, torque]) = Partners::of(&mut self.spheres, &[]);
         let partners = copies.unwrap_or(partners);
         let mut task = ContactTask {
             partners,
             sums: Sums {
                 first: first.wrapping_sub(partners.first as usize),
+                clear: false,
                 force,
                 torque,
             },
-            clear: false,
             buffers: self.contacts.buffers,
             crossing,
             pairs,
@@ -230,12 +214,12 @@ impl<'a, H: History> Stream<'a, H> {
         self.too_deep = task.too_deep;
     }
 
-    /// Moves the next spheres, those before `until`.
+    /// Moves the next spheres, which end before `until`.
     fn move_until(&mut self, level: Level, moves: &Moves<'_>, until: usize) {
         let from = std::mem::replace(&mut self.moved, until - self.spheres.first);
         let next = self.spheres.part(from..self.moved);
         let bodies = std::slice::from_mut(self.bodies);
-        let found = moves.of_all(next, bodies, level, &mut self.profile);
+        let found = moves.apply(next, bodies, level, &mut self.profile);
         self.found = self.found.and(found);
     }
 }

@@ -1,21 +1,37 @@
 //! Forces and torques, as contacts add to them.
 
+use crate::dem::threads::split;
 use crate::forces::friction::TangentialLaw;
 use crate::particles::vector::Vector;
 use fearless_simd::{Simd, f64x4};
 
 /// Forces and torques of some spheres, one after the other.
 pub(super) struct Sums<'a> {
-    /// The first one, as the partners of contacts are counted; wrapped where it comes before these.
+    /// The index of the first sphere, as [`Partners`](super::partners::Partners) count it. It wraps
+    /// around zero if the sphere comes before them.
     pub(super) first: usize,
+    /// Whether they are set to zero before anything is added.
+    pub(super) clear: bool,
     /// Forces (N).
     pub(super) force: &'a mut [Vector],
-    /// Torques (N m), of spheres that turn.
+    /// Torques (N m), of spheres that rotate.
     pub(super) torque: &'a mut [Vector],
 }
 
-impl Sums<'_> {
-    /// The same, for a loop: whose bounds then stay in registers, whatever is written.
+impl<'a> Sums<'a> {
+    /// Takes those of this number of spheres from the front.
+    pub(super) fn split(&mut self, count: usize) -> Sums<'a> {
+        let first = self.first;
+        self.first += count;
+        Sums {
+            first,
+            clear: self.clear,
+            force: split(&mut self.force, count),
+            torque: split(&mut self.torque, count),
+        }
+    }
+
+    /// Borrows the sums for a loop. Their bounds then stay in registers, whatever is written.
     #[inline(always)]
     pub(super) fn here<T: TangentialLaw>(&mut self) -> Sums<'_> {
         let torque = match T::ROTATES {
@@ -24,6 +40,7 @@ impl Sums<'_> {
         };
         Sums {
             first: self.first,
+            clear: false,
             force: self.force,
             torque,
         }
@@ -49,6 +66,6 @@ impl Sums<'_> {
 }
 
 #[inline(always)]
-fn add<S: Simd>(simd: S, sum: &mut Vector, force: f64x4<S>) {
-    *sum = Vector::of_row((sum.simd(simd) + force).into());
+fn add<S: Simd>(simd: S, sum: &mut Vector, addend: f64x4<S>) {
+    *sum = Vector::of_row((sum.simd(simd) + addend).into());
 }

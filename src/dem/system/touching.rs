@@ -1,5 +1,5 @@
-//! Which of those that are near each other touch: contacts are computed of these alone, unless
-//! nearly all do.
+//! Which near pairs touch. The laws are computed for these alone, unless nearly all near pairs
+//! touch.
 
 use super::contact_state::SphereProperties;
 use super::partners::Partners;
@@ -8,34 +8,34 @@ use crate::particles::block::{BLOCK, ROWS, row, turned};
 use fearless_simd::{Simd, SimdBase, SimdMask, f64x8, mask32x8, mask64x8, u32x8};
 use prefetch_index::prefetch_index;
 
-/// Contacts that are looked at before those that touch are computed: few enough to stay at hand, so
-/// many that few lanes are left over.
-pub(super) const LOOK: usize = 512;
+/// Near pairs that are tested before the laws are computed for those that touch. They are few
+/// enough to stay in the cache, and so many that few lanes of blocks stay empty.
+pub(super) const CHUNK: usize = 512;
 
-/// Histories that take this many bytes or more lie beyond the caches, and are prefetched.
-const CACHES: usize = 1 << 25;
+/// Histories of more bytes than this exceed the caches, and are prefetched.
+const CACHE_BYTES: usize = 1 << 25;
 
-/// Whether these histories, all that there are, come from that far.
-pub(super) fn come_from_far<H>(histories: &[H]) -> bool {
-    size_of_val(histories) > CACHES
+/// Whether all histories together exceed the caches.
+pub(super) fn exceed_caches<H>(histories: &[H]) -> bool {
+    size_of_val(histories) > CACHE_BYTES
 }
 
 /// Results are written eight at a time, so the last group needs extra room.
-const ROOM: usize = LOOK + ROWS;
+const ROOM: usize = CHUNK + ROWS;
 
-/// Contacts that touch, in the order of their list; or all, where few do not.
+/// Pairs that touch, in the order of the list; or all pairs, if nearly all touch.
 pub(super) struct Touching {
     pairs: [NearPair; ROOM],
-    /// The last few that are tested.
+    /// The last pairs to be tested, filled up to eight.
     rest: [NearPair; ROWS],
-    /// Where the histories are.
+    /// Where their histories are.
     entries: [u32; ROOM],
-    /// Where those of contacts are that do not touch.
+    /// Where the histories of pairs are that do not touch.
     apart: [u32; ROOM],
     /// Centre of the first sphere from that of the second (m).
     offset: [[f64; ROOM]; 3],
-    /// Whether histories are to be sent for.
-    pub(super) far: bool,
+    /// Whether histories are prefetched.
+    pub(super) prefetched: bool,
 }
 
 /// A block of contacts; lanes without one repeat the last.
@@ -45,16 +45,16 @@ pub(super) struct Lanes<'a> {
     pub(super) entries: Entries<'a>,
     /// Centres of the first spheres from those of the second (m), if they are known.
     pub(super) offset: Option<[&'a [f64; BLOCK]; 3]>,
-    /// How many lanes have one.
+    /// How many lanes hold a contact.
     pub(super) count: usize,
 }
 
 /// Where the histories of a block of contacts are.
 #[derive(Clone, Copy)]
 pub(super) enum Entries<'a> {
-    /// Each by itself.
+    /// At these indices.
     Listed(&'a [u32; BLOCK]),
-    /// One after the other, from there on.
+    /// One after the other from this index on.
     From(usize),
 }
 
@@ -66,11 +66,11 @@ impl Touching {
             entries: [0; ROOM],
             apart: [0; ROOM],
             offset: [[0.0; ROOM]; 3],
-            far: false,
+            prefetched: false,
         }
     }
 
-    /// The block from `at` on, with that many contacts.
+    /// The block from `at` on, of `found` contacts in all.
     #[inline(always)]
     pub(super) fn block(&self, at: usize, found: usize) -> Lanes<'_> {
         const FITS: &str = "a block lies within the room";
@@ -88,8 +88,8 @@ impl Touching {
         }
     }
 
-    /// The first [`BLOCK`] of these contacts, or all that there are, without a look at whether they
-    /// touch: the laws find out. The first one has its history at `from`.
+    /// The first [`BLOCK`] of these contacts, or all if there are fewer. Whether they touch is left
+    /// to the laws. The history of the first is at `from`.
     #[inline(always)]
     pub(super) fn first_of<'a>(&'a mut self, near: &'a [NearPair], from: usize) -> Lanes<'a> {
         let Some(pairs) = near.first_chunk() else {
@@ -111,9 +111,9 @@ impl Touching {
         }
     }
 
-    /// Finds the pairs that touch among these, up to [`LOOK`], the first of which has its history
-    /// at `from`; histories of the others begin anew. `alike` says what all spheres are like, if
-    /// they are alike. Says how many touch.
+    /// Finds the pairs that touch among at most [`CHUNK`] pairs, and returns how many they are. The
+    /// history of the first pair is at `from`. Pairs that do not touch lose their histories.
+    /// `alike` holds the properties of all spheres, if they are alike.
     #[inline(always)]
     pub(super) fn find<S: Simd, H: Default>(
         &mut self,
@@ -124,7 +124,7 @@ impl Touching {
         partners: &Partners<'_>,
         alike: Option<SphereProperties>,
     ) -> usize {
-        const { assert!(LOOK.is_multiple_of(BLOCK)) };
+        const { assert!(CHUNK.is_multiple_of(BLOCK)) };
         let (mut found, mut apart) = (0, 0);
         for (first, contacts) in (from..).step_by(ROWS).zip(near.chunks(ROWS)) {
             let eight = match <&[NearPair; ROWS]>::try_from(contacts) {
@@ -148,8 +148,8 @@ impl Touching {
                 lanes.compress(touch).store_slice(&mut column[all.clone()]);
             }
             if size_of::<H>() > 0 {
-                if self.far {
-                    send_for(histories, first);
+                if self.prefetched {
+                    prefetch_histories(histories, first);
                 }
                 keep_entries(simd, first, bits, &mut self.entries[all]);
                 let others = &mut self.apart[apart..apart + ROWS];
@@ -159,14 +159,20 @@ impl Touching {
             }
             found += kept;
         }
-        // Not where it is found: that branch could not be predicted.
+        // Not in the loop above, where this branch would be unpredictable.
+        self.clear_histories(apart, histories);
+        self.fill_up(found);
+        found
+    }
+
+    /// Clears the histories of the first `apart` pairs that do not touch.
+    #[inline(always)]
+    fn clear_histories<H: Default>(&self, apart: usize, histories: &mut [H]) {
         if size_of::<H>() > 0 {
             for &entry in &self.apart[..apart] {
                 histories[entry as usize] = H::default();
             }
         }
-        self.fill_up(found);
-        found
     }
 
     /// Repeats the last contact to the end of its block.
@@ -209,9 +215,9 @@ fn touches<S: Simd>(
     ((x * x + y * y + z * z).simd_lt(sum * sum), [x, y, z])
 }
 
-/// Prefetches the next eight histories.
+/// Prefetches the histories of the next eight pairs.
 #[inline(always)]
-fn send_for<H>(histories: &[H], first: usize) {
+fn prefetch_histories<H>(histories: &[H], first: usize) {
     const LINE: usize = 64;
     for entry in (first..first + ROWS).step_by(LINE / size_of::<H>().clamp(1, LINE)) {
         prefetch_index(histories, entry);
@@ -239,7 +245,7 @@ mod tests {
     use fearless_simd::Level;
     use proptest::prelude::*;
 
-    /// Spheres of radii from 0.5 to 1 in a row, each that far from the one before.
+    /// Spheres of radii from 0.5 to 1 in a row, each at this distance along x from the one before.
     fn spheres(gaps: &[f64]) -> Particles {
         let mut x = 0.0;
         let place = |gap: &f64| {
@@ -256,9 +262,10 @@ mod tests {
     }
 
     proptest! {
-        /// The same pairs as one by one, in their order, with their histories; the others forget.
+        /// The result is that of a test pair by pair: the same pairs in the same order, with their
+        /// histories. The other histories are cleared.
         #[test]
-        fn whoever_touches_is_found(
+        fn pairs_that_touch_are_found(
             gaps in prop::collection::vec(0.1..1.5, 1..120),
             from in 0..3_usize,
         ) {
@@ -267,7 +274,7 @@ mod tests {
             let near: Vec<NearPair> = (1..last).map(|j| NearPair::new(j - 1, j)).collect();
             let mut histories: Vec<u32> = (0..(from + near.len()) as u32).map(|k| k + 1).collect();
             let mut touching = Touching::new();
-            let sort_out = |touching: &mut Touching, histories: &mut Vec<u32>| {
+            let filter = |touching: &mut Touching, histories: &mut Vec<u32>| {
                 fearless_simd::dispatch!(Level::new(), simd => {
                     {
                         let all = Partners::all(&particles, &[]);
@@ -275,7 +282,7 @@ mod tests {
                     }
                 })
             };
-            let found = sort_out(&mut touching, &mut histories);
+            let found = filter(&mut touching, &mut histories);
             let touch = |pair: &NearPair| {
                 let [i, j] = pair.sides().map(|i| i as usize);
                 let offset = particles.position[i] - particles.position[j];
@@ -293,7 +300,7 @@ mod tests {
                 prop_assert_eq!(kept, touch(pair));
             }
             prop_assert!(histories[..from].iter().zip(1..).all(|(&it, k)| it == k));
-            // Or all are taken as they are.
+            // All pairs as they are.
             for at in (0..near.len()).step_by(BLOCK) {
                 let lanes = touching.first_of(&near[at..], from + at);
                 let entry = |k: usize| match lanes.entries {
@@ -308,7 +315,7 @@ mod tests {
                     prop_assert_eq!(entry(k), from + which);
                 }
             }
-            let found = sort_out(&mut touching, &mut histories);
+            let found = filter(&mut touching, &mut histories);
             // The lanes of the last block that have no pair repeat the last one.
             for at in (0..found).step_by(BLOCK) {
                 let lanes = touching.block(at, found);

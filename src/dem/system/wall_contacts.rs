@@ -1,4 +1,4 @@
-//! A wall, the spheres near it, and what their contacts with it remember.
+//! A wall, the spheres near it, and the histories of their contacts with it.
 
 use crate::dem::walls::{TankWall, Wall};
 use crate::particles::Particles;
@@ -12,15 +12,15 @@ pub(super) struct NearSphere {
     pub(super) entry: u32,
 }
 
-/// A wall, the spheres near it, and what their contacts with it remember. Only these have an entry:
-/// of a heap few spheres are near a wall.
+/// A wall, the spheres near it, and the histories of their contacts with it. Only these spheres
+/// have an entry, because few spheres of a heap are near a wall.
 pub(super) struct WallContacts<H> {
     pub(super) wall: TankWall,
-    /// In the order of their indices; while forces are evaluated it is elsewhere.
+    /// In the order of their indices.
     pub(super) near: Vec<NearSphere>,
-    /// In the same order. Histories of a law that has none take no memory.
+    /// In the same order. The history of a law without memory has size zero.
     pub(super) histories: Vec<H>,
-    /// The lists of before, for their memory.
+    /// Unused lists, kept for their memory.
     spare: (Vec<NearSphere>, Vec<H>),
 }
 
@@ -36,8 +36,9 @@ impl<H: Copy + Default> WallContacts<H> {
         }
     }
 
-    /// Finds the spheres that move and touch the wall, or will after a way of `margin` (m), and
-    /// forgets the histories of the others. Both lists are sorted, so one pass over each suffices.
+    /// Finds the moving spheres that touch the wall, or may after a displacement of `margin` (m),
+    /// and clears the histories of the others. Both lists are sorted, so one pass over each
+    /// suffices.
     pub(super) fn find(&mut self, particles: &Particles, margin: f64) {
         let (near, histories) = &mut self.spare;
         near.clear();
@@ -63,7 +64,7 @@ impl<H: Copy + Default> WallContacts<H> {
         std::mem::swap(&mut self.histories, histories);
     }
 
-    /// Follows the spheres that stay to their new places when others are removed.
+    /// Gives the spheres that stay their new indices, when others are removed.
     pub(super) fn retain(&mut self, keep: &[bool]) {
         let (near, histories) = (&self.near, &self.histories);
         let known = near
@@ -79,21 +80,21 @@ impl<H: Copy + Default> WallContacts<H> {
                 keep[next].then_some((place, history))
             })
             .collect();
-        self.take_up(staying);
+        self.set(staying);
     }
 
-    /// Follows the spheres to their new places.
+    /// Gives the spheres their new indices.
     pub(super) fn reorder(&mut self, places: &[u32]) {
         let known = self.near.iter().zip(&self.histories);
         let mut moved: Vec<(u32, H)> = known
             .map(|(it, history)| (places[it.i as usize], *history))
             .collect();
         moved.sort_unstable_by_key(|&(i, _)| i);
-        self.take_up(moved);
+        self.set(moved);
     }
 
-    /// Takes these histories for all that there are: of spheres in the order of their indices.
-    pub(super) fn take_up(&mut self, known: impl IntoIterator<Item = (u32, H)>) {
+    /// Replaces all entries by these spheres and histories, in the order of the indices.
+    pub(super) fn set(&mut self, known: impl IntoIterator<Item = (u32, H)>) {
         self.near.clear();
         self.histories.clear();
         for (entry, (i, history)) in (0..).zip(known) {

@@ -1,4 +1,4 @@
-//! Limits of the time step: what a scene's stiffest contact, its drag and its friction allow.
+//! Limits of the time step, by a scene's stiffest contact, its drag and its friction.
 //!
 //! Symplectic Euler and velocity Verlet evaluate forces once per step, at velocities half a step
 //! behind the positions. A linear oscillator x'' = -w^2 x - g x' then stays bounded while
@@ -7,14 +7,14 @@
 //! Adaptive Verlet cuts its steps itself where spheres touch. What is left is that no sphere moves
 //! by more than the displacement guard allows, and the drag, with g dt < 2 as for the first two.
 //!
-//! Every limit here is that criterion for one effect, at the fastest impact the scene lets expect
-//! or the deepest overlap it starts with. The smallest spheres decide, since all of these times
-//! grow with the radius.
+//! Every limit here is that criterion for one effect, at the fastest impact that the scene lets
+//! expect or at the deepest overlap at the start. The smallest spheres decide, because all of these
+//! times grow with the radius.
 //!
-//! Bounded is not accurate: an elastic impact at the limit takes two steps and ends with 0.6 to 2.4
-//! times its speed, at half the limit within 4 %, at a tenth within 0.03 %. Nor do the decisive
-//! limits know of several contacts of one sphere, which need that of twelve (tests/engine/stability
-//! measures both).
+//! Bounded is not accurate. An elastic impact at the limit takes two steps and ends with 0.6 to 2.4
+//! times its speed. At half the limit the error is below 4 %, at a tenth below 0.03 %. The decisive
+//! limits do not consider several contacts of one sphere, for which the limit of twelve contacts is
+//! advised (tests/engine/stability measures both).
 
 mod overlap;
 mod standing;
@@ -54,7 +54,7 @@ pub fn fastest_impact(scene: &Scene) -> f64 {
         }
         _ => 0.0,
     };
-    // What is fed in falls with the speed that it has.
+    // A sphere that is fed in starts to fall with its own speed.
     let free_fall = match scene.start {
         Start::Feed { .. } => libm::hypot(free_fall, start_speed),
         _ => free_fall,
@@ -64,7 +64,7 @@ pub fn fastest_impact(scene: &Scene) -> f64 {
     start_speed.max(free_fall).max(of_effects)
 }
 
-/// How far from the axis a sphere may get (m), if there are walls all around it.
+/// The largest distance of a sphere from the axis (m), if there are walls all around it.
 fn farthest_wall(tank: &Tank) -> Option<f64> {
     let [x, y] = tank.reach();
     tank.radius
@@ -102,7 +102,7 @@ pub fn shortest_contact(scene: &Scene) -> Option<f64> {
     collisions.first().map(|collision| collision.contact_time)
 }
 
-/// What the limits of effects and laws depend on.
+/// The properties of a scene on which the limits of effects and laws depend.
 fn regime(scene: &Scene) -> Regime<'_> {
     let Spheres {
         radius,
@@ -160,10 +160,10 @@ fn lowest_height(scene: &Scene) -> f64 {
     }
 }
 
-/// What the integrator of a scene makes of an oscillator.
+/// How the integrator of a scene treats an oscillator.
 pub(super) fn scheme_of(scene: &Scene) -> Scheme {
     let damping = match scene.time.integrator {
-        // Of adaptive Verlet only the drag: sub-steps take care of contacts.
+        // For adaptive Verlet this concerns the drag alone, as contacts have sub-steps.
         Integrator::SymplecticEuler | Integrator::VelocityVerlet | Integrator::AdaptiveVerlet => {
             1.0
         }
@@ -172,7 +172,7 @@ pub(super) fn scheme_of(scene: &Scene) -> Scheme {
     Scheme { damping }
 }
 
-/// All limits that apply to a scene, the decisive ones first, each group smallest first.
+/// All limits that apply to a scene: the decisive ones first, and in each group the smallest first.
 pub fn limits(scene: &Scene) -> Vec<Limit> {
     let regime = regime(scene);
     let mut limits = Vec::new();
@@ -203,7 +203,7 @@ pub fn largest_stable(scene: &Scene) -> Option<Limit> {
     limits(scene).into_iter().find(|limit| limit.decisive)
 }
 
-/// The least of all limits, whether decisive or not.
+/// The smallest of all limits, decisive or not.
 pub fn least(scene: &Scene) -> Option<Limit> {
     let limits = limits(scene).into_iter();
     limits.min_by(|a, b| a.seconds.total_cmp(&b.seconds))

@@ -7,10 +7,10 @@ use crate::particles::Particles;
 use crate::particles::vector::Vector;
 use crate::scene::{Scene, Start, Tank};
 
-/// The deepest overlap (m) of two listed spheres, or of one with a wall; zero where none touch.
-/// Other starts have none.
+/// The deepest overlap (m) of two listed spheres, or of one with a wall. Zero if none touch. Other
+/// starts have no overlap.
 pub(super) fn deepest_at_start(scene: &Scene) -> f64 {
-    // Radii may be dealt at random, which only placing the spheres tells.
+    // Radii may be drawn at random, so the spheres must be placed.
     let (Start::List { .. }, Ok(spheres)) = (&scene.start, start::place(scene)) else {
         return 0.0;
     };

@@ -1,9 +1,9 @@
-//! How the time step of a scene stands to its limits, and when that deserves a warning.
+//! The time step of a scene compared with its limits, and when to warn.
 
 use super::{Limit, limits};
 use crate::scene::Scene;
 
-/// How a time step stands to one limit.
+/// A time step compared with one limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Standing {
     /// The limit.
@@ -13,12 +13,12 @@ pub struct Standing {
 }
 
 impl Standing {
-    /// Above this share of a decisive limit there is a warning. A spring then has w dt > 1 and
-    /// swings 5 % too fast, 2 asin(w dt / 2) > pi/3 instead of 1; a relaxation at the rate g has
-    /// g dt > 1 and overshoots.
+    /// Above this part of a decisive limit there is a warning. A spring then has w dt > 1 and
+    /// oscillates 5 % too fast, 2 asin(w dt / 2) > pi/3 instead of 1. A relaxation at the rate g
+    /// has g dt > 1 and overshoots.
     pub const CAUTION: f64 = 0.5;
 
-    /// How a scene's step stands to each of its limits, in the order of [`limits`].
+    /// A scene's step compared with each of its limits, in the order of [`limits`].
     pub fn all(scene: &Scene) -> Vec<Self> {
         let of = |limit: Limit| Self {
             limit,
@@ -27,14 +27,14 @@ impl Standing {
         limits(scene).into_iter().map(of).collect()
     }
 
-    /// How a scene's step stands to the limit above which it is refused, if there is one.
+    /// A scene's step compared with the limit above which it is refused, if there is one.
     pub fn decisive(scene: &Scene) -> Option<Self> {
         Self::all(scene).into_iter().find(|it| it.limit.decisive)
     }
 
-    /// What may happen at this step, if that deserves a warning: above [`CAUTION`](Self::CAUTION)
-    /// times a decisive limit, and above an advised one. The Rayleigh time is left out: a step is
-    /// customarily a fifth of it, but no force of this engine travels as a surface wave.
+    /// The text of a warning, if the step deserves one: above [`CAUTION`](Self::CAUTION) times a
+    /// decisive limit, and above an advised one. There is no warning for the Rayleigh time. A step
+    /// is usually a fifth of it, but no force of this engine travels as a surface wave.
     pub fn consequence(&self) -> Option<&'static str> {
         let threshold = if self.limit.decisive {
             Self::CAUTION

@@ -186,7 +186,7 @@ fn the_smallest_sphere_decides() {
     for alone in limits(&scene("0.002")) {
         let among = limits(&mixed);
         let among = among.iter().find(|limit| limit.name == alone.name);
-        // Of the displacement the largest decides too: it knocks the smallest on.
+        // For the displacement the largest sphere matters too, as it hits the smallest.
         let knocked_on = if alone.name == DISPLACEMENT {
             2.0 * 8.0 / (8.0 + 1.0)
         } else {
@@ -198,14 +198,24 @@ fn the_smallest_sphere_decides() {
     close(fastest_impact(&mixed), (2.0 * 9.8 * 0.2_f64).sqrt(), 1e-12);
 }
 
-/// Whether x'' = -w^2 x - g x' stays bounded under a scheme; a loaded spring sums up its force.
-fn bounded(scheme: Integrator, loaded: bool, frequency: f64, rate: f64, dt: f64) -> bool {
+/// How a spring finds its force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum SpringForce {
+    /// From the position.
+    Elastic,
+    /// By adding its changes, as a spring of friction does.
+    Loaded,
+}
+
+/// Whether x'' = -w^2 x - g x' stays bounded under a scheme.
+fn bounded(scheme: Integrator, force: SpringForce, frequency: f64, rate: f64, dt: f64) -> bool {
+    let loaded = force == SpringForce::Loaded;
     let (mut position, mut velocity, mut latest) = (1.0, 0.0, 0.0);
     let mut spring = -frequency * frequency * position;
     for step in 0..20_000 {
         let square = frequency * frequency;
         match scheme {
-            // At the half steps of velocity Verlet the same.
+            // Velocity Verlet has the same values at its half steps.
             Integrator::SymplecticEuler
             | Integrator::VelocityVerlet
             | Integrator::AdaptiveVerlet => {
@@ -216,11 +226,11 @@ fn bounded(scheme: Integrator, loaded: bool, frequency: f64, rate: f64, dt: f64)
             }
             Integrator::SynchronisedVerlet => {
                 position += 0.5 * dt * velocity;
-                let foretold = velocity + 0.5 * dt * latest;
+                let predicted = velocity + 0.5 * dt * latest;
                 let time = if step == 0 { 0.5 * dt } else { dt };
                 spring -= square * velocity * time;
                 let force = if loaded { spring } else { -square * position };
-                latest = force - rate * foretold;
+                latest = force - rate * predicted;
                 velocity += dt * latest;
                 position += 0.5 * dt * velocity;
             }
@@ -239,9 +249,9 @@ fn the_damped_limit_is_where_an_oscillator_diverges() {
         for (frequency, dissipation) in [(5.0, 0.0), (1.0, 0.1), (3.0, 1.0), (10.0, 3.0)] {
             let rate = 2.0 / 3.0 * dissipation * frequency * frequency;
             let limit = scheme.oscillator(frequency, rate);
-            for loaded in [false, true] {
-                let name = format!("{} {loaded} {frequency}", integrator.name());
-                let bounded = |dt| bounded(integrator, loaded, frequency, rate, dt);
+            for force in [SpringForce::Elastic, SpringForce::Loaded] {
+                let name = format!("{} {force:?} {frequency}", integrator.name());
+                let bounded = |dt| bounded(integrator, force, frequency, rate, dt);
                 assert!(bounded(0.99 * limit), "{name}");
                 assert!(!bounded(1.01 * limit), "{name}");
             }

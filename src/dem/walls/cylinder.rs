@@ -26,7 +26,7 @@ impl Wall for Cylinder {
 
     #[inline(always)]
     fn is_near(&self, centre: Vector, radius: f64, margin: f64) -> bool {
-        // A reach below zero touches when its square says so.
+        // `contact` compares squares, so a negative reach counts by its absolute value.
         let reach = (self.radius - radius).abs() - margin;
         reach < 0.0 || centre.x * centre.x + centre.y * centre.y > reach * reach
     }

@@ -13,7 +13,7 @@ use crate::scene::Tank;
 /// Where a sphere is with respect to a wall.
 #[derive(Clone, Copy, Debug)]
 pub struct WallContact {
-    /// Whether it touches; the rest is finite, but means nothing, if it does not.
+    /// Whether it touches. If not, the rest is finite but meaningless.
     pub touches: bool,
     /// Overlap (m, positive).
     pub overlap: f64,
@@ -23,15 +23,17 @@ pub struct WallContact {
 
 /// A wall at rest.
 pub trait Wall: Copy + Send + 'static {
-    /// How a sphere there touches the wall. Free of branches, for a block of spheres at once.
+    /// The contact of a sphere at this position. It has no branches, for loops over blocks of
+    /// spheres.
     fn contact(&self, centre: Vector, radius: f64) -> WallContact;
 
-    /// Whether a sphere there touches the wall, or will after a way of `margin` (m).
+    /// Whether a sphere at this position touches the wall, or may after a displacement of `margin`
+    /// (m).
     fn is_near(&self, centre: Vector, radius: f64, margin: f64) -> bool;
 }
 
-/// A wall of a tank, whichever it is. Loops over contacts are compiled for each kind by itself;
-/// this is for all else.
+/// A wall of a tank, of any kind. Loops over contacts are compiled for each kind; all other code
+/// uses this type.
 #[derive(Clone, Copy, Debug)]
 pub enum TankWall {
     /// The floor.
@@ -61,7 +63,7 @@ impl TankWall {
         floor.into_iter().chain(sides.flatten()).collect()
     }
 
-    /// What it is called in a profile.
+    /// The part of a step to which its forces belong.
     pub fn part(&self) -> Part {
         match self {
             Self::Floor(_) => Part::Floor,

@@ -1,12 +1,12 @@
 //! Where labels change: for each setting, at each point, how much more often its labels disagree
 //! with those of the reference than seeds of the reference do among themselves.
 
+use crate::plot::PlotError;
 use crate::plot::color_bar::ColorBar;
 use crate::plot::diagram::{Diagram, Look};
 use crate::plot::grid::{Grid, GridAxis, Panel};
 use crate::plot::style::Fill;
 use crate::plot::svg::Svg;
-use crate::plot::PlotError;
 use crate::record::Program;
 use crate::study::accuracy::{AccuracyStudy, Errors, Evaluation, Outcome};
 use crate::study::comparison::{Comparison, PointDisagreement};
@@ -44,7 +44,10 @@ pub(super) fn draw(
         columns: None,
         rows: None,
     };
-    let values = grid.panels.iter().flat_map(|panel| panel.cells.iter().flatten().copied());
+    let values = grid
+        .panels
+        .iter()
+        .flat_map(|panel| panel.cells.iter().flatten().copied());
     let bar = ColorBar::new(values, true, "labels changed beyond noise".to_owned());
     let Some(bar) = bar else {
         return Err(PlotError::NoMeasures);
@@ -60,7 +63,13 @@ pub(super) fn draw(
     let curves = vec![Vec::new(); grid.panels.len()];
     let (size, body) = diagram.body(study.title.as_deref(), &curves, None)?;
     let title = study.title.clone().unwrap_or_default();
-    Ok(Svg::of_program("label-changes", title, program, size, &body))
+    Ok(Svg::of_program(
+        "label-changes",
+        title,
+        program,
+        size,
+        &body,
+    ))
 }
 
 /// The settings that are shown, but for the reference, those that change most labels.
@@ -79,7 +88,9 @@ fn shown(evaluation: &Evaluation) -> Vec<(&Outcome, &[PointDisagreement])> {
     all.sort_by(|one, other| other.1.total_cmp(&one.1));
     all.truncate(MOST_PANELS);
     all.sort_by_key(|it| it.0);
-    all.into_iter().map(|(_, _, outcome, points)| (outcome, points)).collect()
+    all.into_iter()
+        .map(|(_, _, outcome, points)| (outcome, points))
+        .collect()
 }
 
 /// The values of a panel, at their cells.

@@ -58,7 +58,10 @@ pub(super) fn draw(
         }],
         columns: 1,
         height: px(380),
-        labels: ["processor time of a run (s)".to_owned(), error_label(evaluation)],
+        labels: [
+            "processor time of a run (s)".to_owned(),
+            error_label(evaluation),
+        ],
         legend: legend(evaluation, &methods, floor),
         notes: &notes,
         ..Plan::default()
@@ -88,28 +91,39 @@ pub(super) fn draw(
         axes.draw()
     })?;
     let title = study.title.clone().unwrap_or_default();
-    Ok(Svg::of_program("work-precision", title, program, size, &body))
+    Ok(Svg::of_program(
+        "work-precision",
+        title,
+        program,
+        size,
+        &body,
+    ))
 }
 
 /// Settings with a cost and an error above zero. The reference has none.
 fn dots(evaluation: &Evaluation) -> Vec<Dot<'_>> {
     let outcomes = evaluation.outcomes.iter().enumerate();
     let dot = |(place, outcome): (usize, &'_ Outcome)| {
-        let (seconds, error) =
-            (outcome.cost.cpu_seconds, outcome.error(evaluation.counted_time)?);
+        let (seconds, error) = (
+            outcome.cost.cpu_seconds,
+            outcome.error(evaluation.counted_time)?,
+        );
         let is_reference =
             Some(place) == evaluation.reference && !matches!(outcome.errors, Errors::States(_));
         let is_shown = seconds > 0.0 && error > 0.0 && error.is_finite() && !is_reference;
-        is_shown.then_some(place).map(|place| (place, seconds, error))
+        is_shown
+            .then_some(place)
+            .map(|place| (place, seconds, error))
     };
     let shown = outcomes.filter_map(dot);
     shown
         .map(|(place, seconds, error)| {
             let outcome = &evaluation.outcomes[place];
             let ends = match &outcome.errors {
-                Errors::States(states) => {
-                    states.disagreement.as_ref().map(|it| [it.chance.low, it.chance.high])
-                }
+                Errors::States(states) => states
+                    .disagreement
+                    .as_ref()
+                    .map(|it| [it.chance.low, it.chance.high]),
                 _ => None,
             };
             Dot {
@@ -163,7 +177,9 @@ fn error_label(evaluation: &Evaluation) -> String {
     match &evaluation.outcomes[evaluation.as_it_is].errors {
         Errors::States(_) => "chance that labels disagree with the reference".to_owned(),
         Errors::Motion(_) => {
-            let at = evaluation.counted_time.and_then(|time| evaluation.times.get(time));
+            let at = evaluation
+                .counted_time
+                .and_then(|time| evaluation.times.get(time));
             match at {
                 Some(time) => format!("relative error of the motion at $t$ = {time} s"),
                 None => "relative error of the motion".to_owned(),
@@ -176,7 +192,10 @@ fn error_label(evaluation: &Evaluation) -> String {
 fn legend(evaluation: &Evaluation, methods: &[&str], floor: Option<Interval>) -> Vec<Entry> {
     let mut entries = Vec::new();
     for (index, method) in methods.iter().enumerate() {
-        let order = evaluation.orders.iter().find(|order| order.method == *method);
+        let order = evaluation
+            .orders
+            .iter()
+            .find(|order| order.method == *method);
         let text = match order {
             Some(order) => format!("{method} (order {:.1})", order.order.abs()),
             None => (*method).to_owned(),
@@ -195,8 +214,10 @@ fn legend(evaluation: &Evaluation, methods: &[&str], floor: Option<Interval>) ->
 fn notes(evaluation: &Evaluation) -> Vec<String> {
     let mut notes = vec![evaluation.finding.sentence.clone()];
     if let Some(time) = evaluation.chaotic_from {
-        notes.push(format!("From {time} s on the motion is chaotic: no setting is near the \
-                            reference there."));
+        notes.push(format!(
+            "From {time} s on the motion is chaotic: no setting is near the \
+                            reference there."
+        ));
     }
     notes
 }
@@ -208,7 +229,9 @@ fn draw_method(
     method: &str,
     ink: RGBColor,
 ) -> Drawn {
-    let own = dots.iter().filter(|dot| dot.outcome.method == method && !dot.is_base);
+    let own = dots
+        .iter()
+        .filter(|dot| dot.outcome.method == method && !dot.is_base);
     let mut own: Vec<&Dot<'_>> = own.collect();
     own.sort_by(|one, other| {
         let rung = |dot: &Dot<'_>| dot.outcome.rung.as_ref().map_or(0.0, |(_, value)| *value);

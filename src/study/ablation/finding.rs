@@ -67,9 +67,15 @@ impl Finding {
             Some(labels) if labels.excess.low > 0.0 => {
                 format!(" ({:.0} % of labels)", 100.0 * labels.excess.value)
             }
-            _ => it.states.largest_shift().map_or_else(String::new, |(name, shift)| {
-                format!(" ({name} by {:.1} of its spread)", shift.root_mean_square.value)
-            }),
+            _ => it
+                .states
+                .largest_shift()
+                .map_or_else(String::new, |(name, shift)| {
+                    format!(
+                        " ({name} by {:.1} of its spread)",
+                        shift.root_mean_square.value
+                    )
+                }),
         };
         let hidden = |it: &Ablated| {
             let labels = it.states.disagreement.as_ref();
@@ -85,15 +91,21 @@ impl Finding {
                 &hidden as &dyn Fn(&Ablated) -> String,
             ),
             (Verdict::Needed, "It changes with", &changed),
-            (Verdict::Undecided, "These runs cannot decide about", &hidden),
+            (
+                Verdict::Undecided,
+                "These runs cannot decide about",
+                &hidden,
+            ),
         ] {
             let names = named(verdict, more);
             match (names.is_empty(), verdict) {
                 (false, _) => sentences.push(format!("{text}: {names}.")),
                 (true, Verdict::NotNeeded) => {
-                    sentences.push("This scene needs all that was taken away, as far as these runs \
+                    sentences.push(
+                        "This scene needs all that was taken away, as far as these runs \
                                     tell."
-                        .to_owned());
+                            .to_owned(),
+                    );
                 }
                 _ => {}
             }

@@ -84,7 +84,9 @@ impl Ablation {
         let first = base.sweep.seeds.first().copied().unwrap_or(1);
         let count = seeds.unwrap_or(base.sweep.seeds.len().max(FEWEST_SEEDS));
         if count != base.sweep.seeds.len() {
-            base.sweep.seeds = (0..count as u64).map(|next| first.saturating_add(next)).collect();
+            base.sweep.seeds = (0..count as u64)
+                .map(|next| first.saturating_add(next))
+                .collect();
         }
         let scene = &base.sweep.scene;
         let singles = run::model_of(scene).simplifications(scene).into_iter();
@@ -93,7 +95,9 @@ impl Ablation {
         if ablation.comparison.settings.len() < 2 && ablation.skipped.is_empty() {
             return Err(AblationError::NothingToAblate(path.display().to_string()));
         }
-        ablation.skipped.sort_by(|one, other| one.name.cmp(&other.name));
+        ablation
+            .skipped
+            .sort_by(|one, other| one.name.cmp(&other.name));
         Ok(ablation)
     }
 
@@ -124,19 +128,32 @@ impl Ablation {
     ///
     /// # Errors
     /// If a pair cannot be run at a point.
-    pub fn with_pairs(&self, rows: &[Option<RunRow>], finding: &Finding) -> Result<Self, AblationError> {
+    pub fn with_pairs(
+        &self,
+        rows: &[Option<RunRow>],
+        finding: &Finding,
+    ) -> Result<Self, AblationError> {
         let ablated = self.evaluate(rows, finding.tolerance);
-        let mut matter: Vec<&Ablated> =
-            ablated.iter().filter(|it| it.verdict == Verdict::Needed).collect();
-        let excess = |it: &Ablated| it.states.disagreement.as_ref().map_or(0.0, |it| it.excess.value);
+        let mut matter: Vec<&Ablated> = ablated
+            .iter()
+            .filter(|it| it.verdict == Verdict::Needed)
+            .collect();
+        let excess = |it: &Ablated| {
+            it.states
+                .disagreement
+                .as_ref()
+                .map_or(0.0, |it| it.excess.value)
+        };
         matter.sort_by(|one, other| excess(other).total_cmp(&excess(one)));
         matter.truncate(MOST_IN_PAIRS);
         let singles: Vec<(String, Change)> = self.comparison.settings[1..]
             .iter()
             .map(|it| (it.name.clone(), it.change.clone()))
             .collect();
-        let chosen: Vec<&(String, Change)> =
-            singles.iter().filter(|(name, _)| matter.iter().any(|it| it.name == *name)).collect();
+        let chosen: Vec<&(String, Change)> = singles
+            .iter()
+            .filter(|(name, _)| matter.iter().any(|it| it.name == *name))
+            .collect();
         let mut pairs = Vec::new();
         for (place, one) in chosen.iter().enumerate() {
             for other in &chosen[place + 1..] {
@@ -145,7 +162,10 @@ impl Ablation {
                 }
             }
         }
-        let mut both = Self::new(self.base.clone(), singles.into_iter().chain(pairs).collect())?;
+        let mut both = Self::new(
+            self.base.clone(),
+            singles.into_iter().chain(pairs).collect(),
+        )?;
         both.skipped.extend(self.skipped.clone());
         both.skipped.sort_by(|one, other| one.name.cmp(&other.name));
         both.skipped.dedup();
@@ -182,8 +202,14 @@ impl Ablation {
 fn change_of(simplification: &Simplification) -> Change {
     let set = simplification.set.iter();
     Change {
-        set: set.map(|(key, value)| ((*key).to_owned(), value.clone())).collect(),
-        remove: simplification.remove.iter().map(|table| (*table).to_owned()).collect(),
+        set: set
+            .map(|(key, value)| ((*key).to_owned(), value.clone()))
+            .collect(),
+        remove: simplification
+            .remove
+            .iter()
+            .map(|table| (*table).to_owned())
+            .collect(),
         scale: Vec::new(),
     }
 }

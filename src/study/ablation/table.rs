@@ -34,7 +34,10 @@ pub fn write_ablation(ablated: &[Ablated], cost: &Cost, path: &Path) -> Result<(
     ]
     .map(str::to_owned)
     .into();
-    for it in ablated.first().map_or(&[][..], |first| &first.states.shifts) {
+    for it in ablated
+        .first()
+        .map_or(&[][..], |first| &first.states.shifts)
+    {
         let name = format!("{}_shift_rms", it.quantity);
         columns.extend([name.clone(), format!("{name}_low"), format!("{name}_high")]);
     }
@@ -43,7 +46,11 @@ pub fn write_ablation(ablated: &[Ablated], cost: &Cost, path: &Path) -> Result<(
         let labels = row.states.disagreement.as_ref();
         let shifts = row.states.shifts.iter().flat_map(|it| {
             let shift = it.shift.map(|it| it.root_mean_square);
-            [shift.map(|it| it.value), shift.map(|it| it.low), shift.map(|it| it.high)]
+            [
+                shift.map(|it| it.value),
+                shift.map(|it| it.low),
+                shift.map(|it| it.high),
+            ]
         });
         let cells = (
             (&row.name, row.verdict.words(), row.runs, row.missing),

@@ -90,17 +90,24 @@ fn setting(row: &Value, choice: &Choice) -> Result<CaseSetting, Problem> {
     }
     let mut change = choice.change.clone();
     change.set.retain(|(key, _)| key != INTEGRATOR);
-    if let Some((key, _)) = change.set.iter().find(|(key, _)| !key.starts_with("setup.")) {
+    if let Some((key, _)) = change
+        .set
+        .iter()
+        .find(|(key, _)| !key.starts_with("setup."))
+    {
         return Err(refuse(format!("`{key}` is no key of the set-up of a case")));
     }
     let mut tree = row.clone();
-    change.apply(&mut tree).map_err(|path| refuse(format!("`{path}` is not in a table")))?;
+    change
+        .apply(&mut tree)
+        .map_err(|path| refuse(format!("`{path}` is not in a table")))?;
     let case = Case::deserialize(tree)
         .map_err(|error| refuse(format!("with {}: {error}", choice.name)))?;
     let integrator = match choice.change.value(INTEGRATOR) {
         None => case.integrators.first().copied().unwrap_or_default(),
-        Some(word) => Integrator::deserialize(word)
-            .map_err(|_| refuse(format!("{word} is no integrator")))?,
+        Some(word) => {
+            Integrator::deserialize(word).map_err(|_| refuse(format!("{word} is no integrator")))?
+        }
     };
     Ok(CaseSetting {
         name: choice.name.clone(),

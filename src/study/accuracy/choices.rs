@@ -58,9 +58,9 @@ pub(super) fn choices(
         .collect();
     let count = match combine {
         Combine::Each => columns.iter().map(Vec::len).sum(),
-        Combine::All => columns.iter().fold(1, |all: usize, column| {
-            all.saturating_mul(column.len())
-        }),
+        Combine::All => columns
+            .iter()
+            .fold(1, |all: usize, column| all.saturating_mul(column.len())),
     };
     if count > MOST_CHOICES {
         let message = format!("the study has {count} settings");
@@ -116,13 +116,18 @@ fn combined(first: Vec<Choice>, second: Vec<Choice>) -> Vec<Choice> {
             change: one.change.then(&other.change),
         }
     };
-    let pairs = first.iter().flat_map(|one| second.iter().map(move |other| pair(one, other)));
+    let pairs = first
+        .iter()
+        .flat_map(|one| second.iter().map(move |other| pair(one, other)));
     pairs.collect()
 }
 
 /// The name of a line that has no other than its key.
 fn method_of_rung(choice: &Choice) -> String {
-    choice.rung.as_ref().map_or_else(String::new, |(key, _)| leaf(key).to_owned())
+    choice
+        .rung
+        .as_ref()
+        .map_or_else(String::new, |(key, _)| leaf(key).to_owned())
 }
 
 fn check(ladders: &[Ladder], variants: &[Variant], problems: &mut Vec<Problem>) {
@@ -132,7 +137,10 @@ fn check(ladders: &[Ladder], variants: &[Variant], problems: &mut Vec<Problem>) 
     }
     for (index, ladder) in ladders.iter().enumerate() {
         let path = format!("ladder[{index}]");
-        if ladders[..index].iter().any(|earlier| earlier.key == ladder.key) {
+        if ladders[..index]
+            .iter()
+            .any(|earlier| earlier.key == ladder.key)
+        {
             let message = format!("another ladder varies `{}` already", ladder.key);
             let problem = Problem::new(format!("{path}.key"), message);
             problems.push(problem.help("join the two lists of values"));
@@ -155,7 +163,10 @@ fn check(ladders: &[Ladder], variants: &[Variant], problems: &mut Vec<Problem>) 
         }
     }
     for (index, variant) in variants.iter().enumerate() {
-        if variants[..index].iter().any(|earlier| earlier.name == variant.name) {
+        if variants[..index]
+            .iter()
+            .any(|earlier| earlier.name == variant.name)
+        {
             let message = format!("the name \"{}\" is there twice", variant.name);
             let problem = Problem::new(format!("variant[{index}].name"), message);
             problems.push(problem.help("choose another one"));
@@ -180,7 +191,10 @@ mod tests {
     fn ladders_are_climbed_one_by_one_or_together() {
         let ladders = [
             ladder("time.dt", json!([1e-3, 1e-4])),
-            ladder("time.integrator", json!(["velocity-verlet", "symplectic-euler"])),
+            ladder(
+                "time.integrator",
+                json!(["velocity-verlet", "symplectic-euler"]),
+            ),
         ];
         let names = |combine| {
             let choices = choices(&ladders, &[], combine).unwrap();

@@ -126,9 +126,7 @@ impl AccuracyStudy {
                 let setting = &comparison.settings[place];
                 let sample = comparison.sample(place, rows);
                 let errors = match &comparison.measurement {
-                    Measurement::States(_) => {
-                        Errors::States(States::of(comparison, place, rows))
-                    }
+                    Measurement::States(_) => Errors::States(States::of(comparison, place, rows)),
                     Measurement::Motion(_) => {
                         Errors::Motion(MotionError::of(&sample, &reference, &quantities))
                     }
@@ -140,7 +138,10 @@ impl AccuracyStudy {
                     rung: setting.rung.clone(),
                     note: setting.note.clone(),
                     runs,
-                    unstable: sample.runs().filter(|it| it.label == Label::UNSTABLE).count(),
+                    unstable: sample
+                        .runs()
+                        .filter(|it| it.label == Label::UNSTABLE)
+                        .count(),
                     missing: sample.points.iter().map(Vec::len).sum::<usize>() - runs,
                     cost: sample.cost(),
                     errors,
@@ -181,7 +182,13 @@ impl AccuracyStudy {
             return Ok(None);
         };
         let outcomes = settings.iter().zip(&rows).map(|(it, row)| of_case(it, row));
-        Ok(Some(self.conclude(outcomes.collect(), None, 0, Vec::new(), Vec::new())))
+        Ok(Some(self.conclude(
+            outcomes.collect(),
+            None,
+            0,
+            Vec::new(),
+            Vec::new(),
+        )))
     }
 
     fn conclude(
@@ -193,7 +200,10 @@ impl AccuracyStudy {
         majorities: Vec<Majority>,
     ) -> Evaluation {
         let nearest = |time: usize| {
-            let others = outcomes.iter().enumerate().filter(|(at, _)| Some(*at) != reference);
+            let others = outcomes
+                .iter()
+                .enumerate()
+                .filter(|(at, _)| Some(*at) != reference);
             let errors = others.filter_map(|(_, it)| it.error(Some(time)).filter(|it| *it > 0.0));
             errors.fold(f64::INFINITY, f64::min)
         };
@@ -238,17 +248,16 @@ fn of_case(setting: &CaseSetting, row: &CaseRow) -> Outcome {
             force_evaluations: row.force_evaluations as f64,
         },
         errors: Errors::Case(
-            checks.iter().map(|check| (check.quantity.clone(), check.error)).collect(),
+            checks
+                .iter()
+                .map(|check| (check.quantity.clone(), check.error))
+                .collect(),
         ),
     }
 }
 
 /// The orders of methods that have at least two rungs, where errors are those of numbers.
-fn orders(
-    outcomes: &[Outcome],
-    reference: Option<usize>,
-    time: Option<usize>,
-) -> Vec<MethodOrder> {
+fn orders(outcomes: &[Outcome], reference: Option<usize>, time: Option<usize>) -> Vec<MethodOrder> {
     let mut lines: BTreeMap<(&str, &str), Vec<(f64, f64)>> = BTreeMap::new();
     for (place, outcome) in outcomes.iter().enumerate() {
         let is_number = !matches!(outcome.errors, Errors::States(_));

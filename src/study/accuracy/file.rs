@@ -159,5 +159,7 @@ impl Changes {
 }
 
 fn pairs<T: Clone>(map: &BTreeMap<String, T>) -> Vec<(String, T)> {
-    map.iter().map(|(key, value)| (key.clone(), value.clone())).collect()
+    map.iter()
+        .map(|(key, value)| (key.clone(), value.clone()))
+        .collect()
 }

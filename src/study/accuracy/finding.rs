@@ -67,7 +67,9 @@ fn cheapest(evaluation: &Evaluation) -> Option<&Outcome> {
     let within: Vec<&Outcome> = within.map(|(_, outcome)| outcome).collect();
     let seconds = |it: &&Outcome| it.cost.cpu_seconds;
     let least = within.iter().map(seconds).fold(f64::INFINITY, f64::min);
-    let near = within.into_iter().filter(|it| it.cost.cpu_seconds <= SAME_COST * least);
+    let near = within
+        .into_iter()
+        .filter(|it| it.cost.cpu_seconds <= SAME_COST * least);
     let error = |it: &Outcome| it.error(evaluation.counted_time).unwrap_or(0.0);
     near.min_by(|one, other| error(one).total_cmp(&error(other)))
 }
@@ -100,7 +102,10 @@ fn sentence(
             times(work_ratio)
         ),
     };
-    format!("The cheapest setting {wanted} is {}: {how_wrong}. {cost}.", cheapest.name)
+    format!(
+        "The cheapest setting {wanted} is {}: {how_wrong}. {cost}.",
+        cheapest.name
+    )
 }
 
 /// What is asked for.
@@ -114,13 +119,20 @@ fn wanted(evaluation: &Evaluation) -> String {
             );
             match tolerance.shift {
                 None => labels,
-                Some(shift) => format!("{labels} and shifts order parameters by at most {shift} of \
-                                        their spread"),
+                Some(shift) => format!(
+                    "{labels} and shifts order parameters by at most {shift} of \
+                                        their spread"
+                ),
             }
         }
         Errors::Motion(_) => {
-            let at = evaluation.counted_time.map_or(0.0, |time| evaluation.times[time]);
-            format!("with an error of at most {} at {at} s", short(tolerance.error))
+            let at = evaluation
+                .counted_time
+                .map_or(0.0, |time| evaluation.times[time]);
+            format!(
+                "with an error of at most {} at {at} s",
+                short(tolerance.error)
+            )
         }
         Errors::Case(_) => format!("with errors of at most {}", short(tolerance.error)),
     }

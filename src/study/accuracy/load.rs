@@ -82,7 +82,9 @@ fn check_case_keys(file: &AccuracyFile, document: &Document) -> Result<(), LoadE
     let problems: Vec<Problem> = given
         .map(|(key, _)| {
             let message = format!("`{key}` does not go with `case`");
-            Problem::new(*key, message).help("remove it: a case has known numbers").at_key()
+            Problem::new(*key, message)
+                .help("remove it: a case has known numbers")
+                .at_key()
         })
         .collect();
     document.accept(&problems)
@@ -226,7 +228,10 @@ fn reference(
     };
     let methods = |value: f64| {
         let finest = choices.iter().filter(|choice| {
-            choice.rung.as_ref().is_some_and(|(key, it)| key == "time.dt" && *it == value)
+            choice
+                .rung
+                .as_ref()
+                .is_some_and(|(key, it)| key == "time.dt" && *it == value)
         });
         finest.count()
     };
@@ -244,15 +249,20 @@ fn reference(
 /// Makes all settings start with the spheres of the scene as it is. Random places follow from all
 /// keys of a scene, so that each setting would have its own.
 fn start_alike(settings: &mut [Setting], problems: &mut Vec<Problem>) {
-    let Some(first) = settings.first() else { return };
+    let Some(first) = settings.first() else {
+        return;
+    };
     let scene = &first.sweep.scene;
     if !matches!(scene.start, Start::Random { .. }) {
         return;
     }
-    let (spheres, start) = (scene.spheres.clone(), match placed(scene) {
-        Ok(spheres) => Start::list(spheres),
-        Err(error) => return problems.push(Problem::new("scene", error.to_string())),
-    });
+    let (spheres, start) = (
+        scene.spheres.clone(),
+        match placed(scene) {
+            Ok(spheres) => Start::list(spheres),
+            Err(error) => return problems.push(Problem::new("scene", error.to_string())),
+        },
+    );
     for setting in settings {
         let own = &mut setting.sweep.scene;
         if own.spheres.count != spheres.count || own.spheres.radius != spheres.radius {
@@ -290,7 +300,9 @@ fn placed(scene: &Scene) -> Result<Vec<StartSphere>, BuildError> {
 fn keep_snapshots(setting: &mut Setting, times: &[f64], problems: &mut Vec<Problem>) {
     let time = &mut setting.sweep.scene.time;
     let frames = times.iter().map(|at| at / time.frame_interval);
-    let whole = frames.clone().all(|it| it >= 0.5 && (it - it.round()).abs() < 1e-6);
+    let whole = frames
+        .clone()
+        .all(|it| it >= 0.5 && (it - it.round()).abs() < 1e-6);
     if !whole || times.iter().any(|at| *at > time.duration * (1.0 + 1e-9)) {
         let message = format!(
             "with {}: the times must be whole multiples of `time.frame_interval` = {} s, up to \
@@ -304,9 +316,14 @@ fn keep_snapshots(setting: &mut Setting, times: &[f64], problems: &mut Vec<Probl
         return;
     }
     let frames: Vec<u64> = frames.map(|it| it.round() as u64).collect();
-    let common = frames.iter().fold(0, |one, &other| greatest_common_divisor(one, other));
+    let common = frames
+        .iter()
+        .fold(0, |one, &other| greatest_common_divisor(one, other));
     setting.sweep.scene.output.snapshot_interval = common as f64 * time.frame_interval;
-    time.duration = frames.iter().max().map_or(0.0, |&last| last as f64 * time.frame_interval);
+    time.duration = frames
+        .iter()
+        .max()
+        .map_or(0.0, |&last| last as f64 * time.frame_interval);
 }
 
 fn greatest_common_divisor(mut one: u64, mut other: u64) -> u64 {

@@ -17,20 +17,23 @@ impl MotionError {
     /// Compares the one run of a setting with that of the reference. The scale of a quantity is its
     /// largest size in the reference over all times, that of a component the largest one of all
     /// components of all spheres.
-    pub(super) fn of(
-        sample: &Sample<'_>,
-        reference: &Sample<'_>,
-        quantities: &[Quantity],
-    ) -> Self {
+    pub(super) fn of(sample: &Sample<'_>, reference: &Sample<'_>, quantities: &[Quantity]) -> Self {
         let scales = scales(reference, quantities);
         let errors = quantities.iter().enumerate().map(|(place, _)| {
             let (own, other) = (sample.first_value(place)?, reference.first_value(place)?);
             (scales[place] > 0.0).then(|| (own - other).abs() / scales[place])
         });
         let errors: Vec<Option<f64>> = errors.collect();
-        let times = quantities.iter().filter_map(|it| it.time).max().map_or(0, |last| last + 1);
+        let times = quantities
+            .iter()
+            .filter_map(|it| it.time)
+            .max()
+            .map_or(0, |last| last + 1);
         let at = |time: usize| {
-            let own = quantities.iter().zip(&errors).filter(|(it, _)| it.time == Some(time));
+            let own = quantities
+                .iter()
+                .zip(&errors)
+                .filter(|(it, _)| it.time == Some(time));
             let own: Vec<f64> = own.filter_map(|(_, error)| *error).collect();
             let squares: f64 = own.iter().map(|error| error * error).sum();
             (!own.is_empty()).then(|| (squares / own.len() as f64).sqrt())
@@ -53,7 +56,10 @@ fn scales(reference: &Sample<'_>, quantities: &[Quantity]) -> Vec<f64> {
         both || stem(one) == stem(other)
     };
     let scale = |one: &Quantity| {
-        let alike = quantities.iter().enumerate().filter(|(_, other)| is_alike(one, other));
+        let alike = quantities
+            .iter()
+            .enumerate()
+            .filter(|(_, other)| is_alike(one, other));
         alike.map(|(place, _)| size(place)).fold(0.0, f64::max)
     };
     quantities.iter().map(scale).collect()

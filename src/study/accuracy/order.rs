@@ -24,10 +24,15 @@ pub fn fitted_order(points: &[(f64, f64)], reference: Option<f64>) -> Option<(f6
             };
             libm::log(libm::pow(step, order) - reference)
         };
-        let misfits = points.iter().map(|(step, error)| libm::log(*error) - model(*step));
+        let misfits = points
+            .iter()
+            .map(|(step, error)| libm::log(*error) - model(*step));
         let misfits: Vec<f64> = misfits.collect();
         let mean = misfits.iter().sum::<f64>() / misfits.len() as f64;
-        misfits.into_iter().map(move |it| it - mean).collect::<Vec<_>>()
+        misfits
+            .into_iter()
+            .map(move |it| it - mean)
+            .collect::<Vec<_>>()
     };
     let squares = |order: f64| misfits(order).iter().map(|it| it * it).sum::<f64>();
     let order = minimum(ORDERS, squares);
@@ -59,12 +64,18 @@ mod tests {
             let steps = [1e-3, 5e-4, 2.5e-4];
             let plain = steps.map(|step: f64| (step, 7.0 * step.powf(order)));
             let found = fitted_order(&plain, None).unwrap();
-            assert!((found.0 - order).abs() < 1e-6 && found.1 < 1e-6, "{found:?}");
+            assert!(
+                (found.0 - order).abs() < 1e-6 && found.1 < 1e-6,
+                "{found:?}"
+            );
             let finest = 1.25e-4_f64;
             let error = |step: f64| 7.0 * (step.powf(order) - finest.powf(order));
             let relative = steps.map(|step| (step, error(step)));
             let found = fitted_order(&relative, Some(finest)).unwrap();
-            assert!((found.0 - order).abs() < 1e-6 && found.1 < 1e-6, "{found:?}");
+            assert!(
+                (found.0 - order).abs() < 1e-6 && found.1 < 1e-6,
+                "{found:?}"
+            );
         }
     }
 

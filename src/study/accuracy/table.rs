@@ -25,16 +25,19 @@ pub fn write_accuracy(evaluation: &Evaluation, path: &Path) -> Result<(), StoreE
     });
     let rows: Vec<Vec<(String, String)>> = cells.collect();
     // A setting without runs lacks the columns of intervals.
-    let names: Vec<&String> = rows.iter().max_by_key(|row| row.len()).map_or_else(Vec::new, |row| {
-        row.iter().map(|(name, _)| name).collect()
-    });
+    let names: Vec<&String> = rows
+        .iter()
+        .max_by_key(|row| row.len())
+        .map_or_else(Vec::new, |row| row.iter().map(|(name, _)| name).collect());
     table.write_record(&names).map_err(|error| fail(&error))?;
     for row in &rows {
         let cell = |name: &&String| {
             let own = row.iter().find(|(own, _)| own == *name);
             own.map_or("", |(_, cell)| cell.as_str())
         };
-        table.write_record(names.iter().map(cell)).map_err(|error| fail(&error))?;
+        table
+            .write_record(names.iter().map(cell))
+            .map_err(|error| fail(&error))?;
     }
     let bytes = table.into_inner().map_err(|error| fail(&error))?;
     write_atomic(path, &bytes)
@@ -56,7 +59,10 @@ fn common(evaluation: &Evaluation, outcome: &Outcome) -> Vec<(String, String)> {
         ("missing", outcome.missing.to_string()),
         ("cpu_seconds", outcome.cost.cpu_seconds.to_string()),
         ("sphere_steps", outcome.cost.sphere_steps.to_string()),
-        ("force_evaluations", outcome.cost.force_evaluations.to_string()),
+        (
+            "force_evaluations",
+            outcome.cost.force_evaluations.to_string(),
+        ),
         ("within", within.to_string()),
     ]
     .map(|(name, cell)| (name.to_owned(), cell))
@@ -74,10 +80,15 @@ fn errors(errors: &Errors) -> Vec<(String, String)> {
     match errors {
         Errors::States(states) => {
             let disagreement = states.disagreement.iter().flat_map(|it| {
-                [("chance", it.chance), ("floor", it.floor), ("excess", it.excess)]
+                [
+                    ("chance", it.chance),
+                    ("floor", it.floor),
+                    ("excess", it.excess),
+                ]
             });
-            let mut cells: Vec<_> =
-                disagreement.flat_map(|(name, it)| of_interval(name, it)).collect();
+            let mut cells: Vec<_> = disagreement
+                .flat_map(|(name, it)| of_interval(name, it))
+                .collect();
             for it in &states.shifts {
                 // No shift is known where the reference has no spread; its columns stay empty.
                 let shift = it.shift.map(|it| [it.mean, it.root_mean_square]);
@@ -103,7 +114,8 @@ fn errors(errors: &Errors) -> Vec<(String, String)> {
             times.map(cell).collect()
         }
         Errors::Case(errors) => {
-            let cell = |(name, error): (&String, &f64)| (format!("error_{name}"), error.to_string());
+            let cell =
+                |(name, error): (&String, &f64)| (format!("error_{name}"), error.to_string());
             errors.iter().map(cell).collect()
         }
     }

@@ -87,7 +87,10 @@ impl Base {
         let held = self.hold_impulse(change);
         for change in [Some(change), held.as_ref()].into_iter().flatten() {
             change.apply(&mut tree).map_err(|path| {
-                vec![Problem::new(path.clone(), format!("`{path}` is not in a table"))]
+                vec![Problem::new(
+                    path.clone(),
+                    format!("`{path}` is not in a table"),
+                )]
             })?;
         }
         let mut sweep = self.sweep.clone();
@@ -120,7 +123,10 @@ impl Base {
         let taken = change.paths().into_iter().chain(change.remove.clone());
         for path in taken {
             if let Some(axis) = axes.iter().find(|axis| is_within(&axis.key, &path)) {
-                let message = format!("`{path}` is changed, but the axis `{}` varies it", axis.name);
+                let message = format!(
+                    "`{path}` is changed, but the axis `{}` varies it",
+                    axis.name
+                );
                 let help = "leave the axis out, or do not change the key";
                 return Err(vec![Problem::new(path, message).help(help)]);
             }

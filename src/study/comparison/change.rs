@@ -38,7 +38,10 @@ impl Change {
         let first = self.set.iter().filter(|(path, _)| {
             !replaced(path) && !next.remove.iter().any(|removed| is_within(path, removed))
         });
-        let removed = self.remove.iter().filter(|path| !next.remove.contains(path));
+        let removed = self
+            .remove
+            .iter()
+            .filter(|path| !next.remove.contains(path));
         Self {
             set: first.chain(&next.set).cloned().collect(),
             remove: removed.chain(&next.remove).cloned().collect(),
@@ -64,12 +67,18 @@ impl Change {
         };
         let others = places(other);
         let meets = |one: &String, other: &String| is_within(one, other) || is_within(other, one);
-        places(self).iter().any(|one| others.iter().any(|other| meets(one, other)))
+        places(self)
+            .iter()
+            .any(|one| others.iter().any(|other| meets(one, other)))
     }
 
     /// The value that it gives to a key.
     pub fn value(&self, key: &str) -> Option<&Value> {
-        let (path, value) = self.set.iter().rev().find(|(path, _)| is_within(key, path))?;
+        let (path, value) = self
+            .set
+            .iter()
+            .rev()
+            .find(|(path, _)| is_within(key, path))?;
         let rest = key[path.len()..].split('.').filter(|part| !part.is_empty());
         rest.fold(Some(value), |value, part| value?.get(part))
     }
@@ -185,7 +194,10 @@ mod tests {
 
     #[test]
     fn a_table_of_another_law_replaces_the_old_one() {
-        let tree = applied(&Change::of_key("drag", json!({ "law": "constant", "linear": 3.0 })));
+        let tree = applied(&Change::of_key(
+            "drag",
+            json!({ "law": "constant", "linear": 3.0 }),
+        ));
         assert_eq!(tree["drag"], json!({ "law": "constant", "linear": 3.0 }));
         let tree = applied(&Change::of_key("drag", json!({ "linear": 3.0 })));
         let joined = json!({ "law": "diameter", "linear": 3.0, "quadratic": 2.0 });

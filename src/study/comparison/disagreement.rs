@@ -42,13 +42,14 @@ impl Disagreement {
         let seeds: Vec<usize> = compared.iter().map(|[own, _]| own.len()).collect();
         let mean = |weights: &Weights, of_point: &dyn Fn(&[Vec<Label>; 2], &[f64]) -> f64| {
             let points = compared.iter().zip(&weights.points);
-            let sum: f64 = points.map(|(labels, weights)| of_point(labels, weights)).sum();
+            let sum: f64 = points
+                .map(|(labels, weights)| of_point(labels, weights))
+                .sum();
             sum / compared.len() as f64
         };
         let chance = |[own, other]: &[Vec<Label>; 2], weights: &[f64]| chance(own, other, weights);
-        let floor = |[_, other]: &[Vec<Label>; 2], weights: &[f64]| {
-            self::chance(other, other, weights)
-        };
+        let floor =
+            |[_, other]: &[Vec<Label>; 2], weights: &[f64]| self::chance(other, other, weights);
         let estimate = |purpose: &str, of_point: &dyn Fn(&[Vec<Label>; 2], &[f64]) -> f64| {
             interval(&seeds, purpose, |weights| mean(weights, of_point))
         };

@@ -21,7 +21,11 @@ pub struct Majority {
 /// number that leaves as many.
 pub fn majorities(sample: &Sample<'_>) -> Vec<Majority> {
     let labels = sample.labels_with(sample);
-    let most = labels.iter().map(|[labels, _]| labels.len() / 2).min().unwrap_or(0);
+    let most = labels
+        .iter()
+        .map(|[labels, _]| labels.len() / 2)
+        .min()
+        .unwrap_or(0);
     let mut random = stream("splits of seeds");
     let mut of_count = |seeds: usize| {
         let mut wrong = 0;
@@ -38,7 +42,10 @@ pub fn majorities(sample: &Sample<'_>) -> Vec<Majority> {
             chance: wrong as f64 / (SPLITS * labels.len()).max(1) as f64,
         }
     };
-    (1..=most).filter(|count| count % 2 == 1).map(&mut of_count).collect()
+    (1..=most)
+        .filter(|count| count % 2 == 1)
+        .map(&mut of_count)
+        .collect()
 }
 
 fn shuffle(labels: &mut [Label], random: &mut rand_pcg::Pcg64) {

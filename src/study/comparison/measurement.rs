@@ -84,8 +84,13 @@ impl Measurement {
             Self::States(sieves) => {
                 let verdict = classify(record, sieves)?;
                 let values = match order_parameters(verdict.family) {
-                    measures if measures.is_empty() => motion_at(record, record.scene.time.duration),
-                    measures => measures.iter().map(|(place, _)| verdict.values[*place]).collect(),
+                    measures if measures.is_empty() => {
+                        motion_at(record, record.scene.time.duration)
+                    }
+                    measures => measures
+                        .iter()
+                        .map(|(place, _)| verdict.values[*place])
+                        .collect(),
                 };
                 Ok(Measured {
                     label: verdict.label,
@@ -116,7 +121,9 @@ impl Measurement {
 /// The measures of a family that say what a run did, with their places among all of them.
 fn order_parameters(family: &Family) -> Vec<(usize, &'static Measure)> {
     let measures = family.measures().enumerate();
-    measures.filter(|(_, measure)| !measure.is_evidence).collect()
+    measures
+        .filter(|(_, measure)| !measure.is_evidence)
+        .collect()
 }
 
 /// Names and units of what is measured of the motion at a time.
@@ -164,7 +171,13 @@ fn motion_at(record: &RunRecord, time: f64) -> Vec<Option<f64>> {
         }
     }
     let count = record.mass.len() as f64;
-    let mut values = vec![kinetic, rotational, height / count, distance / count, momentum];
+    let mut values = vec![
+        kinetic,
+        rotational,
+        height / count,
+        distance / count,
+        momentum,
+    ];
     if record.scene.spheres.count <= FEW {
         values.extend(snapshot.velocity.iter());
     }

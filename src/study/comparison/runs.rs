@@ -89,7 +89,10 @@ impl Table for Comparing<'_> {
         let measured = self.comparison.measurement.measure(record);
         let (label, values) = match measured {
             Ok(measured) => (measured.label, measured.values),
-            Err(_) => (Label::UNSTABLE, vec![None; self.comparison.quantities().len()]),
+            Err(_) => (
+                Label::UNSTABLE,
+                vec![None; self.comparison.quantities().len()],
+            ),
         };
         RunRow {
             id: job.id.clone(),

@@ -48,7 +48,11 @@ impl<'a> Sample<'a> {
             let (own, other) = pairs.map(|(own, other)| (own.label, other.label)).unzip();
             [own, other]
         };
-        self.points.iter().zip(&other.points).map(of_point).collect()
+        self.points
+            .iter()
+            .zip(&other.points)
+            .map(of_point)
+            .collect()
     }
 
     /// The same for the values of a quantity: seeds count of which both runs have one.
@@ -60,7 +64,11 @@ impl<'a> Sample<'a> {
             let (own, other) = pairs.unzip();
             [own, other]
         };
-        self.points.iter().zip(&other.points).map(of_point).collect()
+        self.points
+            .iter()
+            .zip(&other.points)
+            .map(of_point)
+            .collect()
     }
 
     /// The value of a quantity in the first run that has it.
@@ -68,4 +76,3 @@ impl<'a> Sample<'a> {
         self.runs().find_map(|run| *run.values.get(quantity)?)
     }
 }
-

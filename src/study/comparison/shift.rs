@@ -29,7 +29,8 @@ impl Shift {
         purpose: &str,
     ) -> Option<Self> {
         let values = sample.values_with(reference, quantity);
-        let compared: Vec<&[Vec<f64>; 2]> = values.iter().filter(|[own, _]| own.len() > 1).collect();
+        let compared: Vec<&[Vec<f64>; 2]> =
+            values.iter().filter(|[own, _]| own.len() > 1).collect();
         let count = compared.len() as f64;
         let variances = compared.iter().map(|[_, reference]| variance(reference));
         let spread = (variances.sum::<f64>() / count).sqrt();
@@ -44,7 +45,10 @@ impl Shift {
         let seeds: Vec<usize> = differences.iter().map(Vec::len).collect();
         let over_points = |weights: &Weights, of_point: fn(&[f64], &[f64]) -> f64| {
             let points = differences.iter().zip(&weights.points);
-            points.map(|(values, weights)| of_point(values, weights)).sum::<f64>() / count
+            points
+                .map(|(values, weights)| of_point(values, weights))
+                .sum::<f64>()
+                / count
         };
         let mean = interval(&seeds, &format!("{purpose}, mean"), |weights| {
             over_points(weights, mean)
@@ -64,19 +68,31 @@ impl Shift {
 fn variance(values: &[f64]) -> f64 {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
-    let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
+    let squares: f64 = values
+        .iter()
+        .map(|value| (value - mean) * (value - mean))
+        .sum();
     squares / (count - 1.0)
 }
 
 /// Weighted mean.
 fn mean(values: &[f64], weights: &[f64]) -> f64 {
-    let sum: f64 = values.iter().zip(weights).map(|(value, weight)| weight * value).sum();
+    let sum: f64 = values
+        .iter()
+        .zip(weights)
+        .map(|(value, weight)| weight * value)
+        .sum();
     sum / weights.iter().sum::<f64>()
 }
 
 /// The square of the mean, without bias: the weighted mean of products of different seeds.
 fn square_of_mean(values: &[f64], weights: &[f64]) -> f64 {
-    let weighted = || values.iter().zip(weights).map(|(value, weight)| weight * value);
+    let weighted = || {
+        values
+            .iter()
+            .zip(weights)
+            .map(|(value, weight)| weight * value)
+    };
     let sum: f64 = weighted().sum();
     let own: f64 = weighted().map(|it| it * it).sum();
     let total: f64 = weights.iter().sum();

@@ -29,7 +29,12 @@ impl States {
         let purpose = &comparison.settings[place].name;
         let quantities = comparison.quantities().into_iter().enumerate();
         let shift = |(place, quantity): (usize, super::Quantity)| ShiftOf {
-            shift: Shift::of(&sample, &reference, place, &format!("{purpose}, {}", quantity.name)),
+            shift: Shift::of(
+                &sample,
+                &reference,
+                place,
+                &format!("{purpose}, {}", quantity.name),
+            ),
             quantity: quantity.name,
         };
         Self {
@@ -41,7 +46,10 @@ impl States {
     /// Whether at most this share of the labels changes, and order parameters shift by at most so
     /// many of their spreads, for certain: the upper ends of the intervals say so.
     pub fn are_within(&self, labels: f64, shift: Option<f64>) -> bool {
-        let few = self.disagreement.as_ref().is_some_and(|it| it.excess.high <= labels);
+        let few = self
+            .disagreement
+            .as_ref()
+            .is_some_and(|it| it.excess.high <= labels);
         let known = || self.shifts.iter().filter_map(|it| it.shift.as_ref());
         let near = |most: f64| known().all(|it| it.root_mean_square.high <= most);
         few && shift.is_none_or(near)
@@ -49,7 +57,10 @@ impl States {
 
     /// The order parameter that is shifted most, for which the lower end of the interval counts.
     pub fn largest_shift(&self) -> Option<(&str, &Shift)> {
-        let known = self.shifts.iter().filter_map(|it| Some((it.quantity.as_str(), &it.shift)));
+        let known = self
+            .shifts
+            .iter()
+            .filter_map(|it| Some((it.quantity.as_str(), &it.shift)));
         let known = known.filter_map(|(name, shift)| Some((name, shift.as_ref()?)));
         known.max_by(|(_, one), (_, other)| {
             let low = |it: &Shift| it.root_mean_square.low;

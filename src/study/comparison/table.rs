@@ -98,7 +98,12 @@ pub fn read_runs(comparison: &Comparison, path: &Path) -> Result<Vec<RunRow>, St
     let mut table = csv::Reader::from_path(path).map_err(fail)?;
     let axes = comparison.axes();
     let quantities = comparison.quantities();
-    if table.headers().map_err(fail)?.iter().ne(columns(axes, &quantities)) {
+    if table
+        .headers()
+        .map_err(fail)?
+        .iter()
+        .ne(columns(axes, &quantities))
+    {
         return Ok(Vec::new());
     }
     let measured = comparison.measurement.digest();
@@ -107,7 +112,11 @@ pub fn read_runs(comparison: &Comparison, path: &Path) -> Result<Vec<RunRow>, St
         let row = row.map_err(fail)?;
         let line = row.position().map_or(1, csv::Position::line);
         let parsed = parse(&row, axes.len(), quantities.len(), &measured).ok_or_else(|| {
-            StoreError::text(path, line, "this is no row of a comparison; delete the file")
+            StoreError::text(
+                path,
+                line,
+                "this is no row of a comparison; delete the file",
+            )
         })?;
         rows.extend(parsed.filter(|row| known.insert(row.id.clone())));
     }
@@ -125,10 +134,13 @@ fn parse(
     let (_seed, label) = (cells.first()?.parse::<u64>().ok()?, cells.get(1)?);
     let mut labels = FAMILIES.into_iter();
     let label = labels.find_map(|family| family.label(label))?;
-    let values = cells.get(2..2 + quantities)?.iter().map(|cell| match *cell {
-        "" => Some(None),
-        text => Some(Some(text.parse().ok()?)),
-    });
+    let values = cells
+        .get(2..2 + quantities)?
+        .iter()
+        .map(|cell| match *cell {
+            "" => Some(None),
+            text => Some(Some(text.parse().ok()?)),
+        });
     let values = values.collect::<Option<Vec<_>>>()?;
     let [steps, evaluations, cpu_seconds, how, id] = cells.get(2 + quantities..)? else {
         return None;

@@ -61,13 +61,18 @@ impl Map {
 
 fn sample(rows: &[RunRow], seeds: usize) -> Sample<'_> {
     Sample {
-        points: rows.chunks(seeds).map(|rows| rows.iter().map(Some).collect()).collect(),
+        points: rows
+            .chunks(seeds)
+            .map(|rows| rows.iter().map(Some).collect())
+            .collect(),
     }
 }
 
 /// How many of so many trials see a difference in labels, and in the order parameter.
 fn differences(seeds: usize, changed: usize, shift: f64, trials: usize) -> [usize; 2] {
-    let mut random = stream(&format!("{seeds} seeds, {changed} changed, {shift} shifted"));
+    let mut random = stream(&format!(
+        "{seeds} seeds, {changed} changed, {shift} shifted"
+    ));
     let mut seen = [0, 0];
     for trial in 0..trials {
         let map = Map::new(25, &mut random);
@@ -89,8 +94,14 @@ fn differences(seeds: usize, changed: usize, shift: f64, trials: usize) -> [usiz
 fn what_is_alike_is_called_alike() {
     for seeds in [3, 5, 10] {
         let [labels, parameter] = differences(seeds, 0, 0.0, 40);
-        assert!(labels <= 4, "{labels} of 40 false alarms in labels, {seeds} seeds");
-        assert!(parameter <= 4, "{parameter} of 40 false alarms in shifts, {seeds} seeds");
+        assert!(
+            labels <= 4,
+            "{labels} of 40 false alarms in labels, {seeds} seeds"
+        );
+        assert!(
+            parameter <= 4,
+            "{parameter} of 40 false alarms in shifts, {seeds} seeds"
+        );
     }
 }
 
@@ -108,7 +119,11 @@ fn the_same_runs_do_not_differ_but_something_may_have_hidden() {
     let labels = Disagreement::of(&own, &own, "itself").unwrap();
     assert_eq!((labels.excess.value, labels.excess.low), (0.0, 0.0));
     // Three in a hundred pairs of runs, by the rule of three.
-    assert!((labels.excess.high - 0.03).abs() < 1e-3, "{}", labels.excess.high);
+    assert!(
+        (labels.excess.high - 0.03).abs() < 1e-3,
+        "{}",
+        labels.excess.high
+    );
     let parameter = Shift::of(&own, &own, 0, "itself").unwrap();
     assert_eq!(parameter.mean.value, 0.0);
     assert_eq!(parameter.root_mean_square.value, 0.0);

@@ -1,8 +1,8 @@
 //! Which spheres may touch one another within a step.
 
 use crate::dem::neighbours::NearPair;
-use crate::dem::system::candidates::Candidates;
 use crate::dem::system::wall_contacts::NearSphere;
+use crate::dem::walls::TankWall;
 
 /// Spheres that may touch one another within a step, directly or through others, and all that they
 /// may touch.
@@ -11,33 +11,44 @@ pub(super) struct Island {
     /// Their indices, in rising order.
     pub(super) spheres: Vec<u32>,
     /// Their contacts, possible ones included.
-    pub(super) candidates: Candidates,
+    pub(super) contacts: IslandContacts,
+}
+
+/// Contacts of an island, possible ones included.
+#[derive(Default)]
+pub(in crate::dem::system) struct IslandContacts {
+    /// Pairs, in the order of the list.
+    pub(in crate::dem::system) pairs: Vec<NearPair>,
+    /// Where the histories of these pairs are among those of all near pairs.
+    pub(in crate::dem::system) entries: Vec<u32>,
+    /// Spheres near each wall.
+    pub(in crate::dem::system) walls: [Vec<NearSphere>; TankWall::MOST],
 }
 
 impl Island {
     fn clear(&mut self) {
         self.spheres.clear();
-        self.candidates.pairs.clear();
-        self.candidates.entries.clear();
-        self.candidates.walls.iter_mut().for_each(Vec::clear);
+        self.contacts.pairs.clear();
+        self.contacts.entries.clear();
+        self.contacts.walls.iter_mut().for_each(Vec::clear);
     }
 }
 
 /// The parts into which contacts divide the spheres.
 #[derive(Default)]
 pub(super) struct Islands {
-    /// Another sphere of the same island, on the way to the first of it.
+    /// Another sphere of the same island, on the path to the first sphere of it.
     parent: Vec<u32>,
-    /// Whether a sphere touches anything, or may.
+    /// Whether a sphere touches anything or may touch it.
     active: Vec<bool>,
-    /// The island of each sphere that is the first of one.
+    /// The island of each sphere that is the first of an island.
     island_of: Vec<u32>,
     islands: Vec<Island>,
     used: usize,
 }
 
 impl Islands {
-    /// Makes every sphere a part of its own, which touches nothing.
+    /// Makes every sphere an island of its own, which touches nothing.
     pub(super) fn reset(&mut self, spheres: usize) {
         self.parent.clear();
         self.parent.extend(0..spheres as u32);
@@ -50,8 +61,8 @@ impl Islands {
         self.active[sphere as usize] = true;
     }
 
-    /// Notes that two spheres may touch, of which the first `fixed` do not move: they join no
-    /// parts.
+    /// Notes that two spheres may touch. The first `fixed` spheres do not move, and join no
+    /// islands.
     pub(super) fn join(&mut self, i: u32, j: u32, fixed: usize) {
         self.touch(j);
         if (i as usize) < fixed {
@@ -62,7 +73,7 @@ impl Islands {
         self.parent[i.max(j) as usize] = i.min(j);
     }
 
-    /// The first sphere of the part.
+    /// The first sphere of the island of a sphere.
     fn first(&mut self, sphere: u32) -> u32 {
         let mut i = sphere;
         while self.parent[i as usize] != i {
@@ -73,12 +84,13 @@ impl Islands {
         i
     }
 
-    /// Whether a sphere touches nothing, and will not.
+    /// Whether a sphere touches nothing, now or within the step.
     pub(super) fn is_free(&self, sphere: usize) -> bool {
         !self.active[sphere]
     }
 
-    /// Whether the contact of two spheres is one of an island; of a pair the second always moves.
+    /// Whether the contact of two spheres belongs to an island. The second sphere of a pair always
+    /// moves.
     pub(super) fn holds_pair(&mut self, i: u32, j: u32, fixed: usize) -> bool {
         if (i as usize) < fixed {
             return self.active[j as usize];
@@ -86,7 +98,7 @@ impl Islands {
         self.active[i as usize] && self.active[j as usize] && self.first(i) == self.first(j)
     }
 
-    /// Puts what may touch into islands, in the order of the indices.
+    /// Puts spheres that may touch and their contacts into islands, in the order of the indices.
     pub(super) fn collect<'a>(
         &mut self,
         pairs: &[NearPair],
@@ -113,16 +125,16 @@ impl Islands {
         for (pair, entry) in pairs.iter().zip(0..) {
             if self.holds_pair(pair.i(), pair.j(), fixed) {
                 let first = self.first(pair.j());
-                let candidates = &mut self.island(first).candidates;
-                candidates.pairs.push(*pair);
-                candidates.entries.push(entry);
+                let contacts = &mut self.island(first).contacts;
+                contacts.pairs.push(*pair);
+                contacts.entries.push(entry);
             }
         }
         for (wall, near) in walls.enumerate() {
             for &sphere in near {
                 if !self.is_free(sphere.i as usize) && sphere.i as usize >= fixed {
                     let first = self.first(sphere.i);
-                    self.island(first).candidates.walls[wall].push(sphere);
+                    self.island(first).contacts.walls[wall].push(sphere);
                 }
             }
         }

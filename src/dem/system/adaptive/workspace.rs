@@ -1,31 +1,32 @@
-//! What a step of adaptive Verlet works with.
+//! Buffers of a step of adaptive Verlet.
 
 use super::islands::{Island, Islands};
 use crate::dem::walls::TankWall;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 
-/// What a sub-step may take of an island's fastest oscillation, h (w + g) with angular frequency w
-/// and damping rate g: an impact then lasts 27 sub-steps or more.
+/// The largest h (w + g) of a sub-step h, with angular frequency w and damping rate g of the
+/// island's fastest oscillation. An impact then lasts 27 sub-steps or more.
 const RESOLUTION: f64 = 0.15;
 
 /// Tolerance on a sphere's displacement beyond the prediction from its speed and the slow forces,
-/// in radii. Beyond it the step is repeated; contacts that the step resolves stay within it.
+/// in radii. If a sphere exceeds it, the step is repeated. Contacts that the step resolves stay
+/// within it.
 const LEEWAY: f64 = 1e-4;
 
-/// What a step of the scheme works with; nothing of it is needed from step to step.
+/// Buffers of a step of the scheme. Nothing in them is needed from step to step.
 #[derive(Default)]
 pub(in crate::dem::system) struct Workspace<H> {
     pub(super) start: Start<H>,
     pub(super) held: Held,
-    /// Forces and torques of all but contacts in the middle of the step.
+    /// Forces and torques of the effects in the middle of the step.
     pub(super) force: Vec<Vector>,
     pub(super) torque: Vec<Vector>,
-    /// What the forces at the start of the step may add to the speed of each sphere, were they
-    /// twice as large (m/s), and how far it may get (m).
+    /// How much twice the force at the start of the step adds to the speed of each sphere (m/s),
+    /// and how far the sphere may move (m).
     pub(super) gain: Vec<f64>,
     pub(super) reach: Vec<f64>,
-    /// How far each sphere got at most, squared (m2).
+    /// The largest displacement of each sphere so far, squared (m2).
     way_squared: Vec<f64>,
     pub(super) islands: Islands,
     /// Squared frequency (1/s2) and damping rate (1/s) of each sphere at its contacts.
@@ -33,13 +34,13 @@ pub(in crate::dem::system) struct Workspace<H> {
     pub(super) damping: Vec<f64>,
 }
 
-/// What spheres have while something else is tried with them.
+/// Velocities and forces that are put back after a prediction.
 #[derive(Default)]
 pub(super) struct Held {
-    /// Of every sphere.
+    /// Those of every sphere.
     pub(super) velocity: Vec<Vector>,
     pub(super) spin: Vec<Vector>,
-    /// Of those of an island.
+    /// Those of the spheres of an island.
     pub(super) force: Vec<Vector>,
     pub(super) torque: Vec<Vector>,
 }
@@ -74,7 +75,7 @@ impl<H: Copy> Start<H> {
 }
 
 impl<H> Workspace<H> {
-    /// Finds how far each sphere may get in a step. The largest of these ways (m).
+    /// Finds how far each sphere may move in a step. Returns the largest of these distances (m).
     pub(super) fn find_reach(&mut self, particles: &Particles, dt: f64) -> f64 {
         let forces = particles.force.iter().zip(&particles.inverse_mass);
         self.gain.clear();
@@ -103,14 +104,14 @@ impl<H> Workspace<H> {
         ((dt * fastest / RESOLUTION).ceil() as u64).max(1)
     }
 
-    /// Notes how far a sphere is from where it started.
+    /// Notes how far a sphere is from its position at the start.
     pub(super) fn note_way(&mut self, i: usize, particles: &Particles) {
         let squared = (particles.position[i] - self.start.position[i]).norm_squared();
         self.way_squared[i] = self.way_squared[i].max(squared);
     }
 
-    /// Gives spheres that got farther than they might twice the room that they took. The largest
-    /// reach (m), if there are any.
+    /// Allows spheres that moved too far twice their displacement. Returns the largest reach (m),
+    /// if there are such spheres.
     pub(super) fn widen(&mut self, dt: f64) -> Option<f64> {
         let mut strayed = false;
         for ((squared, reach), gain) in self

@@ -6,22 +6,10 @@ use crate::forces::friction::{History, LoadedSpring, Spring, TangentialLaw, arm}
 use crate::particles::block::{BLOCK, ROWS};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
-use fearless_simd::Simd;
 
 impl<H: History> ContactBlock<H> {
-    /// Gathers springs.
-    #[inline(always)]
-    pub(super) fn gather_springs<S: Simd>(&mut self, simd: S, history: impl Fn(usize) -> H) {
-        if Self::HAS_HISTORY {
-            self.spring.fill::<S>(
-                #[inline(always)]
-                |k| history(k).spring().force.simd(simd),
-            );
-        }
-    }
-
-    /// Adds friction to the forces: the springs, up to the limit of friction; with `FIRST_ONLY`,
-    /// the first torque alone, where both are the same or the other is not needed.
+    /// Adds friction to the forces: the springs, up to the limit of friction. `FIRST_ONLY` leaves
+    /// out the second torque, where it equals the first or is not needed.
     #[inline(always)]
     pub(super) fn add_friction_to_all<T: TangentialLaw<History = H>, const FIRST_ONLY: bool>(
         &mut self,
@@ -33,7 +21,7 @@ impl<H: History> ContactBlock<H> {
         for at in (0..BLOCK).step_by(ROWS) {
             let eight = at..at + ROWS;
             let slides = |k: usize| self.squared[k] > self.limit[k] * self.limit[k];
-            // In a bed at rest hardly any contact does, and the root is a long way.
+            // In a bed at rest hardly any contact slides, and the root takes long.
             if eight.clone().fold(false, |any, k| any | slides(k)) {
                 for k in eight.clone() {
                     self.inverse_root[k] = inverse_square_root(self.squared[k]);
@@ -76,7 +64,7 @@ impl<H: History> ContactBlock<H> {
         }
     }
 
-    /// Stores a contact whose spring is loaded, before the limit of friction applies.
+    /// Stores a contact whose spring is loaded. The limit of friction is applied later.
     #[inline(always)]
     pub(super) fn store_loaded<T: TangentialLaw>(&mut self, k: usize, loaded: &LoadedContact) {
         let touches = loaded.touches;
@@ -95,8 +83,8 @@ impl<H: History> ContactBlock<H> {
         self.lever[k] = loaded.lever;
     }
 
-    /// Turns springs into the planes across the normals: in a loop of its own, as the roots of
-    /// pairs are found.
+    /// Turns springs into the planes across the normals, in a loop of its own like that of the
+    /// roots.
     #[inline(always)]
     pub(super) fn turn_springs(&mut self, normal: impl Fn(&Self, usize) -> Vector) {
         if Self::HAS_HISTORY {
@@ -114,27 +102,5 @@ impl<H: History> ContactBlock<H> {
             false => Vector::ZERO,
         };
         Spring { force }
-    }
-
-    /// Stores the histories of the contacts, each at its entry.
-    #[inline(always)]
-    pub(in crate::dem::system) fn store_histories<S: Simd>(
-        &self,
-        simd: S,
-        histories: &mut [H],
-        entry: impl Fn(usize) -> usize,
-    ) {
-        if !Self::HAS_HISTORY {
-            return;
-        }
-        for at in (0..BLOCK).step_by(ROWS) {
-            let rows = self.spring.rows(simd, at);
-            for k in 0..ROWS {
-                if let Some(history) = histories.get_mut(entry(at + k)) {
-                    let force = Vector::of_row(rows[k].into());
-                    *history = H::of_spring(Spring { force });
-                }
-            }
-        }
     }
 }

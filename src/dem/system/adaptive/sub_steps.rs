@@ -1,0 +1,227 @@
+//! The motion of one island: a step in sub-steps.
+
+use super::islands::{Island, IslandContacts};
+use super::kick;
+use super::workspace::Workspace;
+use crate::dem::bodies::Spheres;
+use crate::dem::system::System;
+use crate::dem::system::candidates::Candidates;
+use crate::dem::system::contact_laws::Loading;
+use crate::dem::system::contact_task::{ContactSlice, ContactTask};
+use crate::dem::system::partners::Partners;
+use crate::dem::system::sums::Sums;
+use crate::dem::system::wall_contacts::WallContacts;
+use crate::dem::walls::TankWall;
+use crate::forces::contact::NormalLaw;
+use crate::forces::friction::TangentialLaw;
+use crate::particles::vector::Vector;
+use crate::simulation::Instability;
+
+impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
+    /// Moves the spheres of an island by a step, in this number of sub-steps.
+    pub(super) fn move_island(
+        &mut self,
+        island: &Island,
+        sub_steps: u64,
+        work: &mut Workspace<T::History>,
+    ) -> Result<(), Instability> {
+        let time = self.setup.dt / sub_steps as f64;
+        let half = 0.5 * time;
+        self.step.moves += sub_steps * island.spheres.len() as u64;
+        for &i in &island.spheres {
+            let (i, particles) = (i as usize, &mut self.particles);
+            particles.force[i] = work.start.force[i];
+            if particles.rotate() {
+                particles.torque[i] = work.start.torque[i];
+            }
+        }
+        for sub_step in 0..sub_steps {
+            // Springs are loaded from one middle to the next, and at first from the start to the
+            // middle.
+            let duration = if sub_step == 0 { half } else { time };
+            self.loading = Loading::earlier(duration, half);
+            for &i in &island.spheres {
+                self.predict(i as usize, half, work);
+            }
+            if let Some(ledger) = &mut self.ledger {
+                let spheres = island.spheres.iter();
+                spheres.for_each(|&i| ledger.books.clear_sphere(i));
+            }
+            self.note_island(&island.contacts);
+            self.mark_ledger();
+            self.add_island_forces(&island.contacts);
+            self.check_overlaps()?;
+            for &i in &island.spheres {
+                self.finish(i as usize, time, work);
+            }
+        }
+        if Self::HAS_HISTORY {
+            self.load_springs(island, half, work);
+        }
+        Ok(())
+    }
+
+    /// Loads the springs of an island over the last `time` (s) of its step.
+    fn load_springs(&mut self, island: &Island, time: f64, work: &mut Workspace<T::History>) {
+        self.loading = Loading::present(time);
+        let spheres = || island.spheres.iter().map(|&i| i as usize);
+        let particles = &self.particles;
+        work.held.force.clear();
+        work.held
+            .force
+            .extend(spheres().map(|i| particles.force[i]));
+        work.held.torque.clear();
+        if particles.rotate() {
+            let torques = spheres().map(|i| particles.torque[i]);
+            work.held.torque.extend(torques);
+        }
+        self.add_island_forces(&island.contacts);
+        // Forces must remain those of the last middle. An overlap that is too deep is found by the
+        // next step.
+        let particles = &mut self.particles;
+        for (i, &force) in spheres().zip(&work.held.force) {
+            particles.force[i] = force;
+        }
+        for (i, &torque) in spheres().zip(&work.held.torque) {
+            particles.torque[i] = torque;
+        }
+        self.step.too_deep = None;
+    }
+
+    /// Moves a sphere to the middle of a sub-step, and gives it the velocity and spin that the
+    /// latest forces predict there. Its own velocity and spin are held.
+    fn predict(&mut self, i: usize, half: f64, work: &mut Workspace<T::History>) {
+        let particles = &mut self.particles;
+        particles.position[i] += particles.velocity[i] * half;
+        work.held.velocity[i] = particles.velocity[i];
+        if particles.rotate() {
+            work.held.spin[i] = particles.spin[i];
+        }
+        if Self::HAS_HISTORY {
+            self.earlier[i] = [particles.velocity[i].row(), particles.spin[i].row()];
+        }
+        kick(particles, i, half);
+        particles.force[i] = Vector::ZERO;
+        if particles.rotate() {
+            particles.torque[i] = Vector::ZERO;
+        }
+    }
+
+    /// Moves a sphere from the middle to the end of a sub-step.
+    fn finish(&mut self, i: usize, time: f64, work: &mut Workspace<T::History>) {
+        let particles = &mut self.particles;
+        particles.velocity[i] = work.held.velocity[i];
+        particles.force[i] += work.force[i];
+        if particles.rotate() {
+            particles.spin[i] = work.held.spin[i];
+            particles.torque[i] += work.torque[i];
+        }
+        kick(particles, i, time);
+        if let Some(ledger) = &mut self.ledger {
+            ledger.books.note_kick(i, particles, time);
+        }
+        particles.position[i] += particles.velocity[i] * (0.5 * time);
+        work.note_way(i, particles);
+    }
+
+    /// Adds the forces and torques of an island's contacts.
+    fn add_island_forces(&mut self, contacts: &IslandContacts) {
+        let settings = self.settings();
+        let mut histories = IslandHistories::of(contacts, &self.pair_history, &self.walls);
+        let mut spheres = Spheres::new(&mut self.particles, &[]);
+        let (partners, [force, torque]) = Partners::of(&mut spheres, &self.earlier);
+        let sums = Sums {
+            first: 0,
+            clear: false,
+            force,
+            torque,
+        };
+        let walls = self.walls.iter().map(|wall| wall.wall);
+        let candidates = histories.candidates(contacts, walls);
+        let mut task = ContactTask::of_all(partners, sums, candidates, &mut self.buffers);
+        task.add_contacts(self.level, &settings, &mut self.profile);
+        self.step.too_deep = self.step.too_deep.or(task.first_too_deep());
+        histories.put_back(contacts, &mut self.pair_history, &mut self.walls);
+    }
+}
+
+/// Copies of the histories of an island's contacts. The kernels expect the history of each contact
+/// at the index of the contact, and the originals lie among those of all contacts.
+struct IslandHistories<H> {
+    pairs: Vec<H>,
+    walls: [Vec<H>; TankWall::MOST],
+}
+
+impl<H: Copy> IslandHistories<H> {
+    fn of(contacts: &IslandContacts, pairs: &[H], walls: &[WallContacts<H>]) -> Self {
+        let copy = |entry: u32, all: &[H]| all[entry as usize];
+        let mut at_walls = [const { Vec::new() }; TankWall::MOST];
+        for ((copies, wall), near) in at_walls.iter_mut().zip(walls).zip(&contacts.walls) {
+            let near = near.iter();
+            copies.extend(near.map(|sphere| copy(sphere.entry, &wall.histories)));
+        }
+        let entries = contacts.entries.iter();
+        Self {
+            pairs: entries.map(|&entry| copy(entry, pairs)).collect(),
+            walls: at_walls,
+        }
+    }
+
+    /// The contacts, each with its history.
+    fn candidates<'a>(
+        &'a mut self,
+        contacts: &'a IslandContacts,
+        walls: impl Iterator<Item = TankWall>,
+    ) -> Candidates<'a, H> {
+        let mut at_walls = [const { None }; TankWall::MOST];
+        let near = contacts.walls.iter().zip(&mut self.walls);
+        for ((place, wall), (contacts, histories)) in at_walls.iter_mut().zip(walls).zip(near) {
+            let near = ContactSlice {
+                contacts: &contacts[..],
+                histories: &mut histories[..],
+            };
+            *place = Some((wall, near));
+        }
+        Candidates {
+            pairs: ContactSlice {
+                contacts: &contacts.pairs,
+                histories: &mut self.pairs,
+            },
+            walls: at_walls,
+        }
+    }
+
+    /// Writes the histories back to their entries.
+    fn put_back(self, contacts: &IslandContacts, pairs: &mut [H], walls: &mut [WallContacts<H>]) {
+        for (&entry, history) in contacts.entries.iter().zip(self.pairs) {
+            pairs[entry as usize] = history;
+        }
+        for ((copies, wall), near) in self.walls.into_iter().zip(walls).zip(&contacts.walls) {
+            for (sphere, history) in near.iter().zip(copies) {
+                wall.histories[sphere.entry as usize] = history;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Symptom: springs of an island of adaptive Verlet were those of other contacts. Cause: the
+    /// histories of some contacts were read by their places among these contacts, not by their
+    /// entries among all.
+    #[test]
+    fn some_contacts_find_their_histories_among_all() {
+        let contacts = IslandContacts {
+            entries: vec![1, 4],
+            ..IslandContacts::default()
+        };
+        let mut all = [10, 11, 12, 13, 14];
+        let mut histories = IslandHistories::of(&contacts, &all, &[]);
+        assert_eq!(histories.pairs, [11, 14]);
+        histories.pairs[1] = 24;
+        histories.put_back(&contacts, &mut all, &mut []);
+        assert_eq!(all, [10, 11, 12, 13, 24]);
+    }
+}
