@@ -20,9 +20,11 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Magnus {
-    /// Coefficient C (default 1).
+    /// Coefficient C (default 1, that of small Reynolds numbers; beyond it is less).
     #[serde(default = "one")]
-    #[schemars(transform = quantity("C_w", "", "coefficient of the Magnus lift").at_least(0.0))]
+    #[schemars(
+        transform = quantity("C_w", "", "coefficient of the Magnus lift").at_least(0.0).at_most(1e3)
+    )]
     pub coefficient: f64,
     /// Density rho of the fluid (kg/m3).
     #[schemars(transform = fluid_density())]
