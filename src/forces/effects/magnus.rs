@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 /// Lift of a spinning sphere that moves through a fluid (Rubinow and Keller, 1961):
 /// F = C pi r^3 rho (w x u), with spin w and velocity u relative to the air, which is at rest but
-/// for [swirl].
+/// for `swirl`.
 ///
 /// C is 1 at small Reynolds numbers. Beyond, the form is kept and C is to be chosen: by the
 /// measurements of Oesterlé and Bui Dinh (1998) it is about 1/3 at Re = 100, where r |w| = |u|.
