@@ -4,8 +4,8 @@ use super::bench::{Bench, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
 use crate::scene::{
-    AddedMass, Buoyancy, Contact, Coulomb, DemScene, Drag, Effects, Friction, Gravity, Linear,
-    Magnus, Scene, StartSphere, Swirl, Updraught,
+    AddedMass, Buoyancy, Contact, ContactDrag, Coulomb, DemScene, Drag, Effects, Friction, Gravity,
+    Linear, Magnus, Scene, StartSphere, Swirl, Updraught,
 };
 use serde::Deserialize;
 
@@ -97,7 +97,7 @@ fn contact() -> Contact {
     Contact::Linear(Linear {
         stiffness: 1.0,
         damping: 0.0,
-        drag: Default::default(),
+        drag: ContactDrag::Normal,
     })
 }
 

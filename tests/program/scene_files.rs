@@ -177,8 +177,7 @@ fn steel_is_lifted_as_its_comment_says() {
         (1.0, scene.tank.as_ref().unwrap().floor)
     );
     for (radius, expected) in [(0.002, 6.0), (0.004, 3.0), (0.006, 2.0)] {
-        let (linear, quadratic) = drag.coefficients(radius);
-        let lift = linear * air.speed + quadratic * air.speed * air.speed;
+        let lift = drag.coefficient(radius, air.speed) * air.speed;
         let volume = 4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius;
         let weight = volume * scene.spheres.density * 9.8;
         assert!(

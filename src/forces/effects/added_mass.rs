@@ -14,7 +14,9 @@ use serde::{Deserialize, Serialize};
 pub struct AddedMass {
     /// Coefficient C (default 1/2, that of a sphere far from others and from walls).
     #[serde(default = "half")]
-    #[schemars(transform = quantity("C_m", "", "coefficient of the added mass").at_least(0.0))]
+    #[schemars(
+        transform = quantity("C_m", "", "coefficient of the added mass").at_least(0.0).at_most(1e3)
+    )]
     pub coefficient: f64,
     /// Density rho of the fluid (kg/m3).
     #[schemars(transform = fluid_density())]

@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Buoyancy in a fluid (Archimedes): the weight of the fluid that a sphere displaces, against
-/// gravity; needs [gravity].
+/// gravity; needs `gravity`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Buoyancy {

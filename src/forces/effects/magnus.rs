@@ -13,16 +13,18 @@ use serde::{Deserialize, Serialize};
 
 /// Lift of a spinning sphere that moves through a fluid (Rubinow and Keller, 1961):
 /// F = C pi r^3 rho (w x u), with spin w and velocity u relative to the air, which is at rest but
-/// for [swirl].
+/// for `swirl`.
 ///
 /// C is 1 at small Reynolds numbers. Beyond, the form is kept and C is to be chosen: by the
 /// measurements of Oesterlé and Bui Dinh (1998) it is about 1/3 at Re = 100, where r |w| = |u|.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Magnus {
-    /// Coefficient C (default 1).
+    /// Coefficient C (default 1, that of small Reynolds numbers; beyond it is less).
     #[serde(default = "one")]
-    #[schemars(transform = quantity("C_w", "", "coefficient of the Magnus lift").at_least(0.0))]
+    #[schemars(
+        transform = quantity("C_w", "", "coefficient of the Magnus lift").at_least(0.0).at_most(1e3)
+    )]
     pub coefficient: f64,
     /// Density rho of the fluid (kg/m3).
     #[schemars(transform = fluid_density())]

@@ -69,9 +69,10 @@ macro_rules! effects {
 effects! {
     /// Gravity. Absent: none.
     gravity: Gravity = "gravity",
-    /// Buoyancy in a fluid, against gravity. Absent: none.
+    /// Buoyancy: the weight of the displaced fluid, against gravity. Absent: none.
     buoyancy: Buoyancy = "buoyancy",
-    /// Mass of fluid that moves with each sphere. Absent: none.
+    /// Mass C rho V of fluid that moves with each sphere, in impacts too; weights and moments of
+    /// inertia stay. Absent: none.
     added_mass: AddedMass = "",
     /// The drag law that `swirl` and `updraught` share. Needed by either.
     drag: Drag = "",
@@ -79,7 +80,8 @@ effects! {
     swirl: Swirl = "swirl",
     /// Rising air that lower spheres shield. Absent: none.
     updraught: Updraught = "updraught",
-    /// Lift of spinning spheres. Absent: none.
+    /// Lift of spheres with spin w and velocity u in a fluid at rest, or in that of `swirl`:
+    /// C pi r^3 rho w x u (Rubinow and Keller, 1961). Absent: none.
     magnus: Magnus = "Magnus lift",
     /// Viscous damping of spins. Absent: none.
     spin_damping: SpinDamping = "spin damping",
