@@ -28,6 +28,8 @@ pub(super) enum Key {
     Line(RGBColor),
     /// A dot.
     Dot(RGBColor),
+    /// A ring.
+    Ring(RGBColor),
 }
 
 /// An entry of a legend.
@@ -109,6 +111,10 @@ fn draw_key(sheet: &Sheet<'_>, key: Key, (left, middle): (i32, i32), cell: i32) 
         Key::Dot(color) => {
             let middle = (left.midpoint(right), middle);
             return sheet.draw(&Circle::new(middle, px(3), color.filled()));
+        }
+        Key::Ring(color) => {
+            let middle = (left.midpoint(right), middle);
+            return sheet.draw(&Circle::new(middle, px(5), color.stroke_width(15)));
         }
         Key::Line(color) => {
             let ends = [(left, middle), (right, middle)];

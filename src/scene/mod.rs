@@ -6,6 +6,7 @@
 //! is absent from the file does not exist in the simulation.
 
 mod accuracy;
+mod change;
 mod dem;
 mod file_kind;
 mod files;
@@ -24,6 +25,8 @@ mod validate;
 mod vary;
 
 pub use accuracy::Accuracy;
+pub use change::Change;
+pub(crate) use change::is_within;
 pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
     AddedMass, Buoyancy, Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Drag,

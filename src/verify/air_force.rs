@@ -34,7 +34,7 @@ impl Family for AirForce {
         "air-force"
     }
 
-    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let scene = Scene {
             dem: DemScene {
                 effects: Effects {

@@ -10,6 +10,7 @@ use crate::scene::{
     Spheres, Start, StartSphere, Tank, Time,
 };
 use serde::Deserialize;
+use std::collections::BTreeMap;
 
 /// What spheres and walls are made of.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -191,16 +192,19 @@ pub(super) fn moving(position: [f64; 3], velocity: [f64; 3]) -> StartSphere {
 }
 
 /// Where the simulations of one case run.
-pub(super) struct Bench {
+pub(super) struct Bench<'a> {
     integrator: Integrator,
+    /// The quantities that the case expects.
+    expected: &'a BTreeMap<String, f64>,
     steps: u64,
     moves: u64,
 }
 
-impl Bench {
-    pub(super) fn new(integrator: Integrator) -> Self {
+impl<'a> Bench<'a> {
+    pub(super) fn new(integrator: Integrator, expected: &'a BTreeMap<String, f64>) -> Self {
         Self {
             integrator,
+            expected,
             steps: 0,
             moves: 0,
         }
@@ -273,6 +277,11 @@ impl Bench {
             Integrator::AdaptiveVerlet => 0.0,
             Integrator::SynchronisedVerlet => 0.5,
         }
+    }
+
+    /// Whether the case expects a quantity, which may take simulations of its own.
+    pub(super) fn expects(&self, quantity: &str) -> bool {
+        self.expected.contains_key(quantity)
     }
 
     /// Steps of all simulations so far.

@@ -20,7 +20,7 @@ impl Family for Convergence {
         "convergence"
     }
 
-    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let dt = self.scene.time.dt;
         let states = [dt, 0.5 * dt, 0.25 * dt].map(|dt| self.end(dt, bench));
         let [coarse, middle, fine] = states;
@@ -32,7 +32,7 @@ impl Family for Convergence {
 
 impl Convergence {
     /// Places, and ways that velocities and surfaces would go in the duration (m), at the end.
-    fn end(&self, dt: f64, bench: &mut Bench) -> Result<Vec<f64>, VerifyError> {
+    fn end(&self, dt: f64, bench: &mut Bench<'_>) -> Result<Vec<f64>, VerifyError> {
         let duration = self.scene.time.duration;
         let scene = Scene {
             time: Time {

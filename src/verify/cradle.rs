@@ -40,7 +40,7 @@ impl Family for Cradle {
         "cradle"
     }
 
-    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let mass = self.material.mass(self.radius);
         let impact = self
             .material

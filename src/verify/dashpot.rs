@@ -41,7 +41,7 @@ impl Family for Dashpot {
     }
 
     /// Contact time and restitution, measured; the limit of the time step, 2/w, in closed form.
-    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let impact = self.closed_form();
         let dt = impact.contact_time() / self.steps_per_contact;
         let mut simulation = Simulation::new(&self.scene(dt, bench))?;
@@ -80,7 +80,7 @@ impl Dashpot {
     }
 
     /// They touch at the start; the partner rests at the origin.
-    fn scene(&self, dt: f64, bench: &Bench) -> Scene {
+    fn scene(&self, dt: f64, bench: &Bench<'_>) -> Scene {
         let distance = self.radius + self.partner_radius;
         let mut spheres = vec![moving([distance, 0.0, 0.0], [-self.speed, 0.0, 0.0])];
         let mut geometry = None;

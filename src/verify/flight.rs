@@ -52,7 +52,7 @@ impl Family for Flight {
         "flight"
     }
 
-    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let sphere = StartSphere {
             spin: self.spin,
             ..moving(self.position, self.velocity)

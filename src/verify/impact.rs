@@ -103,7 +103,7 @@ impl Family for Impact {
         "impact"
     }
 
-    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let mut mean = Measured::new();
         for phase in 0..self.phases {
             let phase = f64::from(phase) / f64::from(self.phases);
@@ -125,7 +125,7 @@ struct Moment {
 
 impl Impact {
     /// One impact that begins after the fraction `phase` of a step.
-    fn impact(&self, phase: f64, bench: &mut Bench) -> Result<Measured, VerifyError> {
+    fn impact(&self, phase: f64, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let material = self.hardened();
         let contact_time = self.elastic(&material).contact_time();
         let dt = self.dt.unwrap_or(contact_time / self.steps_per_contact);
@@ -219,7 +219,7 @@ impl Impact {
         self.partner_radius.unwrap_or(self.radius)
     }
 
-    fn scene(&self, material: &Material, begin: f64, dt: f64, bench: &Bench) -> Scene {
+    fn scene(&self, material: &Material, begin: f64, dt: f64, bench: &Bench<'_>) -> Scene {
         let (normal, tangent) = self.partner.frame();
         let sine = libm::sin(self.angle * PI / 180.0);
         let velocity = tangent * (self.speed * sine) - normal * self.normal_speed();

@@ -30,7 +30,7 @@ impl Family for Incline {
         "incline"
     }
 
-    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let tilt = self.angle * PI / 180.0;
         let weight = self.material.mass(self.radius) * self.gravity * libm::cos(tilt);
         let rest = self.material.overlap(self.radius, weight);

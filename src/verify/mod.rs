@@ -187,7 +187,7 @@ trait Family {
     fn name(&self) -> &'static str;
 
     /// Simulates the set-up and measures it.
-    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError>;
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError>;
 }
 
 /// Quantities and what was measured of them (SI units).
@@ -326,7 +326,7 @@ pub fn parse(text: &str) -> Result<Vec<Case>, toml::de::Error> {
 /// If the set-up cannot be simulated, or the case expects what its family does not measure.
 pub fn run(case: &Case, integrator: Integrator) -> Result<Outcome, VerifyError> {
     let started = cpu_time::of_this_thread();
-    let mut bench = Bench::new(integrator);
+    let mut bench = Bench::new(integrator, &case.expect);
     let measured = case.setup.family().measure(&mut bench)?;
     let check = |(quantity, &expected): (&String, &f64)| match measured.get(quantity) {
         Some(&measured) => Ok(Check {

@@ -46,7 +46,7 @@ impl Family for Oscillation {
         "oscillation"
     }
 
-    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let mass = self.material.mass(self.radius);
         let rest = self.material.overlap(self.radius, mass * self.gravity);
         let velocity = match self.mode {

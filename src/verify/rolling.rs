@@ -33,7 +33,7 @@ impl Family for Rolling {
         "rolling"
     }
 
-    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let mut simulation = Simulation::new(&self.scene(bench))?;
         // Sliding ends where the friction no longer has its full size: below the speed at which it
         // is regularised, or where the sliding turns round.
@@ -96,7 +96,7 @@ impl Moment {
 }
 
 impl Rolling {
-    fn scene(&self, bench: &Bench) -> Scene {
+    fn scene(&self, bench: &Bench<'_>) -> Scene {
         let weight = self.material.mass(self.radius) * self.gravity;
         let height = self.radius - self.material.overlap(self.radius, weight);
         let sphere = StartSphere {

@@ -43,7 +43,7 @@ impl Family for SilbertImpact {
     }
 
     /// Contact time, restitution and deepest overlap.
-    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let dt = self.elastic_time() / self.steps_per_contact;
         let mut simulation = Simulation::new(&self.scene(dt, bench))?;
         let (mut overlap, mut deepest) = (0.0, 0.0_f64);
@@ -93,7 +93,7 @@ impl SilbertImpact {
     }
 
     /// They touch at the start; the partner rests at the origin.
-    fn scene(&self, dt: f64, bench: &Bench) -> Scene {
+    fn scene(&self, dt: f64, bench: &Bench<'_>) -> Scene {
         let distance = match self.partner {
             Partner::Side => 0.0,
             Partner::Sphere | Partner::FixedSphere => self.radius + self.partner_radius(),

@@ -29,7 +29,7 @@ impl Family for Stack {
         "stack"
     }
 
-    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let height = |i: usize| (2 * i + 1) as f64 * self.radius;
         let spheres = (0..self.count).map(|i| at([0.0, 0.0, height(i)])).collect();
         let scene = Scene {

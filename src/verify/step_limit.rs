@@ -23,7 +23,7 @@ impl Family for StepLimit {
         "step-limit"
     }
 
-    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let side = |side: f64| {
             let place = [2.0 * side * self.radius, 0.0, 0.0];
             moving(place, [-0.5 * side * self.speed, 0.0, 0.0])

@@ -32,7 +32,7 @@ impl Family for Tripod {
         "tripod"
     }
 
-    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let distance = self.spread * self.radius;
         let foot = |i: usize| {
             let angle = 2.0 * PI * i as f64 / 3.0;

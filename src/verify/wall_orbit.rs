@@ -31,7 +31,7 @@ impl Family for WallOrbit {
         "wall-orbit"
     }
 
-    fn measure(&self, bench: &mut Bench) -> Result<Measured, VerifyError> {
+    fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let scene = Scene {
             tank: Some(Tank {
                 radius: Some(self.tank_radius),

@@ -93,7 +93,11 @@ fn sweep_of_table() -> String {
     for line in SWEEP.lines().filter(|line| !line.starts_with(SCENE_LINE)) {
         text += &format!("{line}\n");
     }
-    text += "\n# The scene that every simulation of the sweep starts from.\n";
+    text += "\n# The scene that every simulation of the sweep starts from.\n[scene]\n";
+    let is_accuracy = |line: &&str| line.starts_with("accuracy");
+    for line in SCENE.lines().filter(is_accuracy) {
+        text += &format!("{line}\n\n");
+    }
     // The scene's own heading and title are those of the sweep here.
     let tables = SCENE.lines().skip_while(|line| !line.starts_with('['));
     for line in tables {

@@ -48,7 +48,7 @@ pub(super) fn draw(
         .panels
         .iter()
         .flat_map(|panel| panel.cells.iter().flatten().copied());
-    let bar = ColorBar::new(values, true, "labels changed beyond noise".to_owned());
+    let bar = ColorBar::new(values, true, "labels changed".to_owned());
     let Some(bar) = bar else {
         return Err(PlotError::NoMeasures);
     };

@@ -70,8 +70,11 @@ pub(super) fn draw(
         let axes = page.axes(sheet, 0)?;
         let plot = axes.plot();
         if let Some(floor) = floor {
-            let corners = [(x.low, floor.high.max(y.low)), (x.high, y.low)];
-            plot.draw(&Rectangle::new(corners, palette::GUIDE.mix(0.35).filled()))?;
+            // Lighter where it may end.
+            for (top, share) in [(floor.high, 0.15), (floor.value, 0.3)] {
+                let corners = [(x.low, top.clamp(y.low, y.high)), (x.high, y.low)];
+                plot.draw(&Rectangle::new(corners, palette::GUIDE.mix(share).filled()))?;
+            }
         }
         let allowed = allowed(evaluation, floor);
         let ends = [(x.low, allowed), (x.high, allowed)];
@@ -202,7 +205,7 @@ fn legend(evaluation: &Evaluation, methods: &[&str], floor: Option<Interval>) ->
         };
         entries.push(Entry::new(Key::Line(color(index, methods.len())), &text));
     }
-    entries.push(Entry::new(Key::Dot(BLACK), "the scene as it is (ring)"));
+    entries.push(Entry::new(Key::Ring(BLACK), "the scene as it is"));
     entries.push(Entry::new(Key::Dashes, "allowed"));
     if floor.is_some() {
         let fill = style::Fill::Color(palette::lightened(palette::GUIDE, 0.65));

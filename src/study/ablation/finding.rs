@@ -101,11 +101,7 @@ impl Finding {
             match (names.is_empty(), verdict) {
                 (false, _) => sentences.push(format!("{text}: {names}.")),
                 (true, Verdict::NotNeeded) => {
-                    sentences.push(
-                        "This scene needs all that was taken away, as far as these runs \
-                                    tell."
-                            .to_owned(),
-                    );
+                    sentences.push("Nothing can be left out for certain.".to_owned());
                 }
                 _ => {}
             }

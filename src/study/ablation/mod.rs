@@ -8,11 +8,9 @@ pub use finding::{Finding, Verdict};
 pub use table::write_ablation;
 
 use crate::document::{LoadError, Problem};
-use crate::forces::simplification::Simplification;
 use crate::run;
-use crate::study::comparison::{
-    Base, Change, Comparison, Cost, Measurement, RunRow, Setting, States,
-};
+use crate::scene::Change;
+use crate::study::comparison::{Base, Comparison, Cost, Measurement, RunRow, Setting, States};
 use crate::sweep::PointError;
 use serde::Serialize;
 use std::path::Path;
@@ -90,7 +88,7 @@ impl Ablation {
         }
         let scene = &base.sweep.scene;
         let singles = run::model_of(scene).simplifications(scene).into_iter();
-        let singles = singles.map(|it| (it.name.clone(), change_of(&it)));
+        let singles = singles.map(|it| (it.name.clone(), Change::of_simplification(&it)));
         let mut ablation = Self::new(base, singles.collect())?;
         if ablation.comparison.settings.len() < 2 && ablation.skipped.is_empty() {
             return Err(AblationError::NothingToAblate(path.display().to_string()));
@@ -196,20 +194,5 @@ impl Ablation {
     /// What a run of the scene as it is costs.
     pub fn cost(&self, rows: &[Option<RunRow>]) -> Cost {
         self.comparison.sample(0, rows).cost()
-    }
-}
-
-fn change_of(simplification: &Simplification) -> Change {
-    let set = simplification.set.iter();
-    Change {
-        set: set
-            .map(|(key, value)| ((*key).to_owned(), value.clone()))
-            .collect(),
-        remove: simplification
-            .remove
-            .iter()
-            .map(|table| (*table).to_owned())
-            .collect(),
-        scale: Vec::new(),
     }
 }

@@ -2,7 +2,7 @@
 
 use super::choices::Choice;
 use crate::document::{Problem, suggest};
-use crate::scene::Integrator;
+use crate::scene::{Change, Integrator};
 use crate::sweep::work;
 use crate::verify::{self, Case, Check};
 use serde::Deserialize;
@@ -49,7 +49,11 @@ impl CaseRow {
 const INTEGRATOR: &str = "integrator";
 
 /// The case as it is, and with all choices.
-pub(super) fn settings(name: &str, choices: &[Choice]) -> Result<Vec<CaseSetting>, Vec<Problem>> {
+pub(super) fn settings(
+    name: &str,
+    common: &Change,
+    choices: &[Choice],
+) -> Result<Vec<CaseSetting>, Vec<Problem>> {
     let Some(row) = verify::row(name) else {
         let names = verify::cases().iter().map(|case| case.name.as_str());
         let help = match suggest(name, names) {
@@ -61,15 +65,15 @@ pub(super) fn settings(name: &str, choices: &[Choice]) -> Result<Vec<CaseSetting
     };
     let mut problems = Vec::new();
     let as_it_is = Choice {
-        path: "case".to_owned(),
+        path: "base".to_owned(),
         name: "as it is".to_owned(),
         method: "as it is".to_owned(),
         rung: None,
-        change: Default::default(),
+        change: Change::default(),
     };
     let all = std::iter::once(&as_it_is).chain(choices);
     let settings = all.filter_map(|choice| {
-        let setting = setting(&row, choice);
+        let setting = setting(&row, common, choice);
         setting.map_err(|problem| problems.push(problem)).ok()
     });
     let settings: Vec<_> = settings.collect();
@@ -79,7 +83,7 @@ pub(super) fn settings(name: &str, choices: &[Choice]) -> Result<Vec<CaseSetting
     }
 }
 
-fn setting(row: &Value, choice: &Choice) -> Result<CaseSetting, Problem> {
+fn setting(row: &Value, common: &Change, choice: &Choice) -> Result<CaseSetting, Problem> {
     let refuse = |message: String| {
         let help = "a case has the keys of its table in src/verify, such as `setup.dt`, and \
                     `integrator`";
@@ -88,7 +92,8 @@ fn setting(row: &Value, choice: &Choice) -> Result<CaseSetting, Problem> {
     if let Some(scale) = choice.change.scale.first() {
         return Err(refuse(format!("a case has no axis \"{}\"", scale.0)));
     }
-    let mut change = choice.change.clone();
+    let all = common.then(&choice.change);
+    let mut change = all.clone();
     change.set.retain(|(key, _)| key != INTEGRATOR);
     if let Some((key, _)) = change
         .set
@@ -103,7 +108,7 @@ fn setting(row: &Value, choice: &Choice) -> Result<CaseSetting, Problem> {
         .map_err(|path| refuse(format!("`{path}` is not in a table")))?;
     let case = Case::deserialize(tree)
         .map_err(|error| refuse(format!("with {}: {error}", choice.name)))?;
-    let integrator = match choice.change.value(INTEGRATOR) {
+    let integrator = match all.value(INTEGRATOR) {
         None => case.integrators.first().copied().unwrap_or_default(),
         Some(word) => {
             Integrator::deserialize(word).map_err(|_| refuse(format!("{word} is no integrator")))?

@@ -2,8 +2,7 @@
 
 use super::file::{Combine, Ladder, Variant};
 use crate::document::{Problem, number};
-use crate::scene::leaf;
-use crate::study::comparison::Change;
+use crate::scene::{Change, leaf};
 use serde_json::Value;
 
 /// Most settings of a study.

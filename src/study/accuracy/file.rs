@@ -1,8 +1,7 @@
 //! What the file of a study of accuracy may say.
 
 use crate::document::{Schema, unit};
-use crate::scene::Scene;
-use crate::study::comparison::Change;
+use crate::scene::{Change, Scene};
 use crate::sweep::{AxisEntry, SeedsEntry, or_path};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -28,6 +27,8 @@ pub(crate) struct AccuracyFile {
     /// Name of a case of `phase verify`, in place of `scene`: errors are then those of its known
     /// numbers. Ladders are over its own keys, such as `setup.dt`, and over `integrator`.
     pub(super) case: Option<String>,
+    /// What all settings have in common and the scene, or the case, does not.
+    pub(super) base: Option<Changes>,
     /// Axes, in place of those of a sweep that `scene` names.
     pub(super) axis: Option<Vec<AxisEntry>>,
     /// Seeds, in place of those of the sweep. Errors of labels and order parameters are told from

@@ -1,14 +1,14 @@
 //! From the file of a study of accuracy to the study.
 
 use super::choices::{Choice, choices};
-use super::file::{ACCURACY, AccuracyFile};
+use super::file::{ACCURACY, AccuracyFile, Changes};
 use super::{AccuracyStudy, Subject, cases};
 use crate::document::{Document, LoadError, Problem, number};
 use crate::run;
-use crate::scene::{FileKind, Scene, Start, StartSphere};
+use crate::scene::{Change, FileKind, Scene, Start, StartSphere};
 use crate::simulation::{BuildError, Snapshot};
 use crate::study::StudyName;
-use crate::study::comparison::{Base, Change, Comparison, Measurement, Setting};
+use crate::study::comparison::{Base, Comparison, Measurement, Setting};
 use crate::sweep::{
     check_axes, check_jobs, check_number_of_axes, check_steps, expand_axes, expand_seeds,
 };
@@ -50,7 +50,7 @@ pub(crate) fn of_document(document: &Document) -> Result<AccuracyStudy, LoadErro
     let subject = match (&file.case, &file.scene) {
         (Some(case), None) => {
             check_case_keys(&file, document)?;
-            let settings = cases::settings(case, &choices);
+            let settings = cases::settings(case, &common(&file), &choices);
             Subject::Case(settings.map_err(|problems| document.refuse(&problems))?)
         }
         (None, Some(_)) => Subject::Scene(Box::new(comparison(&file, &choices, document)?)),
@@ -159,6 +159,11 @@ fn check_kind(file: &AccuracyFile, base: &Base, problems: &mut Vec<Problem>) {
     }
 }
 
+/// What all settings have in common.
+fn common(file: &AccuracyFile) -> Change {
+    file.base.as_ref().map(Changes::change).unwrap_or_default()
+}
+
 /// The scene as it is, the reference if the file describes one, and all choices.
 fn settings(
     base: &Base,
@@ -167,11 +172,12 @@ fn settings(
     problems: &mut Vec<Problem>,
 ) -> Vec<Setting> {
     let mut settings = Vec::new();
+    let common = common(file);
     let reference = file.reference.as_ref().map(|changes| {
-        let change = changes.change();
+        let change = common.then(&changes.change());
         ("reference".to_owned(), REFERENCE.to_owned(), change)
     });
-    let as_it_is = (String::new(), AS_IT_IS.to_owned(), Change::default());
+    let as_it_is = ("base".to_owned(), AS_IT_IS.to_owned(), common.clone());
     for (path, name, change) in [as_it_is].into_iter().chain(reference) {
         match Setting::new(base, name, change) {
             Ok(setting) => settings.push(setting),
@@ -179,7 +185,7 @@ fn settings(
         }
     }
     for choice in choices {
-        match Setting::new(base, choice.name.clone(), choice.change.clone()) {
+        match Setting::new(base, choice.name.clone(), common.then(&choice.change)) {
             Ok(setting) => settings.push(Setting {
                 method: choice.method.clone(),
                 rung: choice.rung.clone(),

@@ -1,11 +1,9 @@
 //! What a comparison starts from: a scene, or a sweep over one, whose keys settings change.
 
-use super::Change;
-use super::change::is_within;
 use crate::classify::Family;
 use crate::document::{Document, LoadError, Problem, number};
 use crate::run::{self, Reading};
-use crate::scene::{FileKind, Friction, Scene};
+use crate::scene::{Change, FileKind, Friction, Scene, is_within};
 use crate::sweep::{self, PointScenes, Sweep};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};

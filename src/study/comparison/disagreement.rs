@@ -57,7 +57,8 @@ impl Disagreement {
         let mut excess = estimate(&format!("{purpose}, excess"), &|labels, weights| {
             chance(labels, weights) - floor(labels, weights)
         });
-        excess.high = excess.high.max(bound);
+        excess.low = excess.low.max(-1.0);
+        excess.high = excess.high.max(bound).min(1.0);
         let share = |interval: Interval| Interval {
             low: interval.low.clamp(0.0, 1.0),
             high: interval.high.max(bound).min(1.0),

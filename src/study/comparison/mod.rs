@@ -3,7 +3,6 @@
 
 mod base;
 mod bootstrap;
-mod change;
 mod disagreement;
 mod majority;
 mod measurement;
@@ -17,7 +16,6 @@ mod tests;
 
 pub(crate) use base::Base;
 pub use bootstrap::Interval;
-pub use change::Change;
 pub use disagreement::{Disagreement, PointDisagreement};
 pub use majority::{Majority, majorities};
 pub use measurement::{Measured, Measurement, Quantity};
@@ -28,6 +26,7 @@ pub use states::{ShiftOf, States};
 pub use table::{RunRow, read_runs, write_runs};
 
 use crate::document::Problem;
+use crate::scene::Change;
 use crate::sweep::{Axis, Job, PointError, Sweep};
 use std::collections::HashMap;
 

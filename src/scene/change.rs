@@ -1,9 +1,10 @@
-//! Changes of a scene's keys, which make one setting of a comparison out of another.
+//! Changes of a scene's keys: a simpler law, another step, an effect left out.
 
+use crate::forces::simplification::Simplification;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-/// What a setting changes of the scene: keys with their values, and tables that it leaves out.
+/// A change of a scene: keys with their new values, and tables that are left out.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Change {
     /// Paths of keys or tables, such as `time.dt`, with their new values, in order.
@@ -23,6 +24,22 @@ impl Change {
         Self {
             set: vec![(path.to_owned(), value)],
             ..Self::default()
+        }
+    }
+
+    /// The change that takes something away.
+    pub fn of_simplification(simplification: &Simplification) -> Self {
+        let set = simplification.set.iter();
+        Self {
+            set: set
+                .map(|(key, value)| ((*key).to_owned(), value.clone()))
+                .collect(),
+            remove: simplification
+                .remove
+                .iter()
+                .map(|&table| table.to_owned())
+                .collect(),
+            scale: Vec::new(),
         }
     }
 
@@ -87,7 +104,7 @@ impl Change {
     ///
     /// # Errors
     /// The path of a key whose table is no table.
-    pub(in crate::study) fn apply(&self, tree: &mut Value) -> Result<(), String> {
+    pub(crate) fn apply(&self, tree: &mut Value) -> Result<(), String> {
         for path in &self.remove {
             remove(tree, path);
         }
@@ -105,7 +122,7 @@ impl Change {
 }
 
 /// Whether the key at `path` is `table` or stands in it.
-pub(super) fn is_within(path: &str, table: &str) -> bool {
+pub(crate) fn is_within(path: &str, table: &str) -> bool {
     path.strip_prefix(table)
         .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
