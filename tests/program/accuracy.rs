@@ -48,8 +48,11 @@ set = { "time.dt" = 6.25e-6 }
 "#;
 
 fn evaluation(place: &Workplace, file: &str) -> Value {
-    let printed = place.phase(&["accuracy", file, "--no-plot", "--json"]).code(0).stdout;
-    let answer: Value = serde_json::from_slice(&printed).unwrap();
+    let printed = place
+        .phase(&["accuracy", file, "--no-plot", "--json"])
+        .code(0)
+        .stdout;
+    let answer: Value = serde_json::from_str(&printed).unwrap();
     answer["evaluation"].clone()
 }
 
@@ -71,10 +74,16 @@ fn the_cheapest_setting_of_a_motion_is_the_largest_step_within_the_tolerance() {
     assert!(work(&outcomes[2]) < work(&outcomes[3]));
     let sentence = found["finding"]["sentence"].as_str().unwrap();
     if error(best) > 0.0 {
-        assert!(sentence.contains("within") || sentence.contains("with an error"), "{sentence}");
+        assert!(
+            sentence.contains("within") || sentence.contains("with an error"),
+            "{sentence}"
+        );
     }
     let order = found["orders"][0]["order"].as_f64().unwrap();
-    assert!((0.7..1.4).contains(&order), "symplectic Euler is of first order, not {order}");
+    assert!(
+        (0.7..1.4).contains(&order),
+        "symplectic Euler is of first order, not {order}"
+    );
 
     // Nothing is good enough for a tolerance below all errors.
     place.write("study.toml", &study.replace("ERROR", "1e-12"));
@@ -87,16 +96,33 @@ fn the_cheapest_setting_of_a_motion_is_the_largest_step_within_the_tolerance() {
 fn runs_that_are_there_are_not_made_again() {
     let place = Workplace::new();
     place.write("study.toml", &format!("{MOTION}{SCENE}"));
-    let first = place.phase(&["accuracy", "study.toml", "--json"]).code(0).stdout;
-    let again = place.phase(&["accuracy", "study.toml", "--json"]).code(0).stdout;
-    let [first, again]: [Value; 2] = [first, again].map(|it| serde_json::from_slice(&it).unwrap());
+    let first = place
+        .phase(&["accuracy", "study.toml", "--json"])
+        .code(0)
+        .stdout;
+    let again = place
+        .phase(&["accuracy", "study.toml", "--json"])
+        .code(0)
+        .stdout;
+    let [first, again]: [Value; 2] = [first, again].map(|it| serde_json::from_str(&it).unwrap());
     // The step of the scene is on the ladder: one run serves both.
     assert_eq!((&first["runs"], &first["run_now"]), (&5.into(), &5.into()));
-    assert_eq!((&again["done_before"], &again["run_now"]), (&5.into(), &0.into()));
+    assert_eq!(
+        (&again["done_before"], &again["run_now"]),
+        (&5.into(), &0.into())
+    );
     let errors = |it: &Value| it["evaluation"]["outcomes"][2]["errors"].clone();
     assert_eq!(errors(&first), errors(&again));
-    for file in ["runs.csv", "accuracy.csv", "accuracy.json", "work-precision.svg"] {
-        assert!(place.path(&format!("results/study/{file}")).is_file(), "{file}");
+    for file in [
+        "runs.csv",
+        "accuracy.csv",
+        "accuracy.json",
+        "work-precision.svg",
+    ] {
+        assert!(
+            place.path(&format!("results/study/{file}")).is_file(),
+            "{file}"
+        );
     }
 }
 
@@ -120,7 +146,10 @@ fn a_case_has_known_numbers() {
     let orders = found["orders"].as_array().unwrap();
     assert_eq!(orders.len(), 2, "{orders:?}");
     let sentence = found["finding"]["sentence"].as_str().unwrap();
-    assert!(sentence.starts_with("The cheapest setting with errors of at most 0.010"), "{sentence}");
+    assert!(
+        sentence.starts_with("The cheapest setting with errors of at most 0.010"),
+        "{sentence}"
+    );
 }
 
 #[test]
@@ -181,7 +210,10 @@ fn the_impulse_of_spin_friction_is_held_and_said() {
     place.write("spin.toml", &study);
     let check = place.phase(&["check", "spin.toml", "--no-trial"]).code(0);
     check.says("mu/dt of \"spin\" friction is held: friction.coefficient = 0.04");
-    place.write("auto.toml", &study.replace("\ndt = 2e-4\n", "\ndt = \"auto\"\n"));
+    place.write(
+        "auto.toml",
+        &study.replace("\ndt = 2e-4\n", "\ndt = \"auto\"\n"),
+    );
     let refused = place.phase(&["check", "auto.toml", "--no-trial"]).code(2);
     refused.complains("another step is another friction");
 }

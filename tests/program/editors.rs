@@ -88,13 +88,11 @@ fn shipped_files_name_their_schema_in_the_first_line() {
     assert!(files.len() >= 9);
     for path in files {
         let text = std::fs::read_to_string(&path).unwrap();
-        let has_scene = toml::from_str::<toml::Table>(&text)
-            .unwrap()
-            .contains_key("scene");
-        let kind = match path.starts_with("sweeps/stability") {
-            true => "stability",
-            false if has_scene => "sweep",
-            false => "scene",
+        let keys = toml::from_str::<toml::Table>(&text).unwrap();
+        let kind = match keys.get("study").and_then(toml::Value::as_str) {
+            Some(study) => study,
+            None if keys.contains_key("scene") => "sweep",
+            None => "scene",
         };
         let up = "../".repeat(path.components().count() - 1);
         assert_eq!(

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod ablate;
+mod accuracy;
 mod checkpoint;
 mod command_line;
 mod cost;

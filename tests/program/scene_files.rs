@@ -3,7 +3,7 @@
 
 use phase::document::LoadError;
 use phase::scene::{self, Radii, Scene, Start};
-use phase::study::stability;
+use phase::study::{accuracy, stability};
 use phase::sweep::{self, Sweep};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
@@ -18,32 +18,32 @@ fn files(folder: &str) -> Vec<PathBuf> {
     files
 }
 
-fn is_sweep(path: &Path) -> bool {
+/// Of which kind a file is: the beginning of its name says so.
+fn kind(path: &Path) -> &'static str {
     let name = path.file_name().unwrap().to_str().unwrap();
-    name.starts_with("sweep-")
+    let kinds = ["sweep", "stability", "accuracy"].into_iter();
+    let mut own = kinds.filter(|kind| name.starts_with(&format!("{kind}-")));
+    own.next().unwrap_or("scene")
 }
 
-/// Whether a file is a study of stability.
-fn is_study(path: &Path) -> bool {
-    let name = path.file_name().unwrap().to_str().unwrap();
-    name.starts_with("stability-")
+/// What is wrong with a file, if anything.
+fn problems(path: &Path) -> Option<LoadError> {
+    match kind(path) {
+        "sweep" => sweep::load(path).err(),
+        "stability" => stability::load(path).err(),
+        "accuracy" => accuracy::load(path).err(),
+        _ => Scene::load(path).err(),
+    }
 }
 
 fn refusal(path: &Path) -> LoadError {
-    let refused = if is_sweep(path) {
-        sweep::load(path).err()
-    } else if is_study(path) {
-        stability::load(path).err()
-    } else {
-        scene::Scene::load(path).err()
-    };
-    refused.unwrap_or_else(|| panic!("{} is accepted", path.display()))
+    problems(path).unwrap_or_else(|| panic!("{} is accepted", path.display()))
 }
 
 #[test]
 fn every_bad_file_gives_its_message() {
     let files = files("tests/bad");
-    assert!(files.len() > 60);
+    assert!(files.len() > 60, "{} files", files.len());
     let mut different = Vec::new();
     for path in files {
         let message = format!("error: {}\n", refusal(&path));
@@ -62,14 +62,7 @@ fn every_bad_file_gives_its_message() {
 #[test]
 fn every_good_file_loads() {
     for path in files("tests/good") {
-        let loaded = if is_sweep(&path) {
-            sweep::load(&path).map(|_| ())
-        } else if is_study(&path) {
-            stability::load(&path).map(|_| ())
-        } else {
-            scene::Scene::load(&path).map(|_| ())
-        };
-        if let Err(error) = loaded {
+        if let Some(error) = problems(&path) {
             panic!("error: {error}");
         }
     }
@@ -244,7 +237,7 @@ fn sweeps_survive_json_exactly() {
 
 #[test]
 fn scenes_survive_json_and_toml_exactly() {
-    let is_scene = |path: &&PathBuf| !is_sweep(path) && !is_study(path);
+    let is_scene = |path: &&PathBuf| kind(path) == "scene";
     for path in files("tests/good").iter().filter(is_scene) {
         let scene = load_scene(path);
         let json = serde_json::to_string(&scene).unwrap();
@@ -409,7 +402,12 @@ proptest! {
     /// Whatever is done to a good file, it is loaded or refused.
     #[test]
     fn no_text_panics(
-        file in prop::sample::select(vec!["everything.toml", "steel.toml", "sweep-of-file.toml"]),
+        file in prop::sample::select(vec![
+            "everything.toml",
+            "steel.toml",
+            "sweep-of-file.toml",
+            "accuracy-motion.toml",
+        ]),
         from in 0_usize..1500,
         length in 0_usize..30,
         new in "[a-z0-9 .=\\[\\]{}\"',\n-]{0,8}|[1-9]e[0-9]{1,3}|-1|0|nan|inf|true|\u{e9}",
@@ -418,10 +416,10 @@ proptest! {
         let mut text = std::fs::read_to_string(&path).unwrap();
         let from = from.min(text.len());
         text.replace_range(from..(from + length).min(text.len()), &new);
-        let refused = if is_sweep(&path) {
-            sweep::from_str(&text, &path).err()
-        } else {
-            scene::Scene::from_toml(&text, &path).err()
+        let refused = match kind(&path) {
+            "sweep" => sweep::from_str(&text, &path).err(),
+            "accuracy" => accuracy::from_str(&text, &path).err(),
+            _ => Scene::from_toml(&text, &path).err(),
         };
         if let Some(error) = refused {
             prop_assert!(!error.to_string().is_empty());

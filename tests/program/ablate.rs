@@ -1,0 +1,103 @@
+//! `phase ablate`: each effect taken away, and whether the scene needs it.
+
+use crate::support::Workplace;
+use serde_json::Value;
+
+/// Eight spheres fall on a floor. The damping of their impacts decides how fast they are at the end;
+/// a damping of spins that is next to nothing decides nothing.
+const SCENE: &str = r#"
+[spheres]
+count = 8
+radius = 0.004
+density = 1000.0
+
+[contact]
+law = "hertz"
+young_modulus = 1e5
+poisson_ratio = 0.3
+dissipation_time = 2e-3
+
+[friction]
+law = "mindlin"
+coefficient = 0.2
+
+[spin_damping]
+coefficient = 1e-18
+
+[tank]
+radius = 0.02
+floor = 0.0
+
+[start]
+kind = "random"
+z_min = 0.01
+z_max = 0.06
+
+[gravity]
+acceleration = 9.8
+
+[time]
+dt = 2e-4
+duration = 0.4
+frame_interval = 4e-2
+"#;
+
+#[test]
+fn what_decides_is_found_and_what_does_not_is_called_not_needed() {
+    let place = Workplace::new();
+    place.write("scene.toml", SCENE);
+    let arguments = [
+        "ablate",
+        "scene.toml",
+        "--seeds",
+        "60",
+        "--tolerance",
+        "0.1",
+        "--no-pairs",
+        "--json",
+    ];
+    let answer: Value = serde_json::from_str(&place.phase(&arguments).code(0).stdout).unwrap();
+    let verdict = |name: &str| {
+        let all = answer["ablated"].as_array().unwrap().iter();
+        let mut own = all.filter(|it| it["name"] == name);
+        own.next().unwrap_or_else(|| panic!("{name}: {answer:#}"))["verdict"].clone()
+    };
+    assert_eq!(verdict("restitution to elastic"), "needed");
+    assert_eq!(verdict("gravity off"), "needed");
+    assert_eq!(verdict("spin damping off"), "not-needed");
+    let sentence = answer["finding"]["sentence"].as_str().unwrap();
+    assert!(
+        sentence.starts_with("This scene can do with: spin damping off"),
+        "{sentence}"
+    );
+    for file in ["runs.csv", "ablation.csv", "ablation.json", "ablation.svg"] {
+        let path = place.path(&format!("results/scene-ablation/{file}"));
+        assert!(path.is_file(), "{}", path.display());
+    }
+    // All of it again costs nothing.
+    let again: Value = serde_json::from_str(&place.phase(&arguments).code(0).stdout).unwrap();
+    assert_eq!(again["run_now"], 0);
+    assert_eq!(again["ablated"], answer["ablated"]);
+}
+
+#[test]
+fn a_scene_without_effects_and_a_single_seed_are_refused() {
+    let place = Workplace::new();
+    let bare = SCENE.split("[contact]").next().unwrap().to_owned()
+        + "[start]\nkind = \"random\"\nz_min = 0.01\nz_max = 0.06\n\n[tank]\nradius = 0.02\n\n\
+           [time]\ndt = 1e-3\nduration = 0.01\nframe_interval = 1e-3\n";
+    place.write("bare.toml", &bare);
+    place
+        .phase(&["ablate", "bare.toml"])
+        .code(2)
+        .complains("has no effect");
+    place.write("scene.toml", SCENE);
+    place
+        .phase(&["ablate", "scene.toml", "--seeds", "1"])
+        .code(2)
+        .complains("from 2");
+    place
+        .phase(&["ablate", "nowhere.toml"])
+        .code(2)
+        .complains("nowhere.toml");
+}
