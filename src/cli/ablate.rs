@@ -62,15 +62,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let ablation = Ablation::load(&arguments.file, arguments.seeds).map_err(Failure::refused)?;
     let options = &arguments.options;
     let signature = ("ablation.csv", "a table of ablations", &b"without,"[..]);
-    let file = arguments.file.with_file_name(format!(
-        "{}-ablation",
-        arguments
-            .file
-            .file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-    ));
-    let place = Place::open(&file, options, signature, console)?;
+    let place = Place::open("ablation", &arguments.file, options, signature, console)?;
     let table = Comparing::table(&place.folder);
     folders::refuse_to_replace(&table, "a table of runs", b"setting,")?;
     for Skipped { name, reason } in &ablation.skipped {

@@ -38,7 +38,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let study = accuracy::load(&arguments.file).map_err(Failure::refused)?;
     let options = &arguments.options;
     let signature = ("accuracy.csv", "a table of accuracy", &b"setting,"[..]);
-    let place = Place::open(&arguments.file, options, signature, console)?;
+    let place = Place::open("accuracy", &arguments.file, options, signature, console)?;
     match &study.subject {
         Subject::Scene(comparison) => of_scene(&study, comparison, options, &place, console),
         Subject::Case(settings) => {

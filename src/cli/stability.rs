@@ -38,7 +38,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let jobs = study.jobs().map_err(Failure::refused)?;
     let options = &arguments.options;
     let signature = ("stability.csv", "a table of stability", &b"integrator,"[..]);
-    let place = Place::open(&arguments.file, options, signature, console)?;
+    let place = Place::open("stability", &arguments.file, options, signature, console)?;
     let table = place.file(signature.0);
     let known = match options.force {
         true => Vec::new(),

@@ -17,7 +17,8 @@ use std::time::Duration;
 /// Where and how the runs of a study are made.
 #[derive(clap::Args)]
 pub(super) struct Options {
-    /// The results folder [default: results/NAME, the file's name without .toml].
+    /// The results folder [default: results/STUDY/NAME, with the name of the study or command, and
+    /// that of the file without .toml].
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// Runs at the same time [default: all cores].
@@ -50,18 +51,20 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Makes the folder for the results of a file. `table` is kept in it, and begins with
-    /// `signature`.
+    /// Makes the folder for the results of a file, by default in that of the study. `table` is kept in
+    /// it, and begins with `signature`.
     pub(super) fn open(
+        study: &str,
         file: &Path,
         options: &Options,
         (table, kind, signature): (&str, &str, &[u8]),
         console: &Console,
     ) -> Result<Self, Failure> {
-        let root = options
-            .out
-            .clone()
-            .unwrap_or_else(|| sweep::default_folder(file));
+        let by_default = || {
+            let name = file.file_stem().unwrap_or_default();
+            Path::new("results").join(study).join(name)
+        };
+        let root = options.out.clone().unwrap_or_else(by_default);
         let stop = interrupt::stop_on_signal(console)?;
         folders::make(&root)?;
         let folder = Folder::new(&root);

@@ -71,7 +71,7 @@ fn what_decides_is_found_and_what_does_not_is_called_not_needed() {
         "{sentence}"
     );
     for file in ["runs.csv", "ablation.csv", "ablation.json", "ablation.svg"] {
-        let path = place.path(&format!("results/scene-ablation/{file}"));
+        let path = place.path(&format!("results/ablation/scene/{file}"));
         assert!(path.is_file(), "{}", path.display());
     }
     // All of it again costs nothing.

@@ -359,7 +359,7 @@ fn a_study_of_stability_answers_in_json() {
     );
     let files = study["files"].as_array().unwrap();
     assert!(
-        files.contains(&"results/study/stability.png".into()),
+        files.contains(&"results/stability/study/stability.png".into()),
         "{study}"
     );
 }

@@ -217,15 +217,15 @@ fn rows_are_taken_over_and_labelled_by_the_threshold() {
     let place = Workplace::new();
     place.write("drop.toml", TINY);
     let first = place.phase(&["stability", "drop.toml"]).code(0);
-    let table = place.read("results/drop/stability.csv");
+    let table = place.read("results/stability/drop/stability.csv");
     first
         .says("12 runs: 12 made now")
-        .says("results/drop/stability.png");
+        .says("results/stability/drop/stability.png");
     place
         .phase(&["stability", "drop.toml"])
         .code(0)
         .says("12 runs: 0 made now");
-    assert_eq!(table, place.read("results/drop/stability.csv"));
+    assert_eq!(table, place.read("results/stability/drop/stability.csv"));
 
     // Whatever gains or loses energy at all is told apart by a threshold of nearly nothing.
     let stable = |table: &str| table.matches(",stable,").count();
@@ -234,7 +234,7 @@ fn rows_are_taken_over_and_labelled_by_the_threshold() {
         .phase(&["stability", "drop.toml", "--no-plot"])
         .code(0)
         .says("12 runs: 0 made now");
-    let strict = place.read("results/drop/stability.csv");
+    let strict = place.read("results/stability/drop/stability.csv");
     assert!(stable(&strict) < stable(&table), "{strict}");
 
     place.write("drop.toml", TINY);
@@ -242,7 +242,7 @@ fn rows_are_taken_over_and_labelled_by_the_threshold() {
         .phase(&["stability", "drop.toml", "--force", "--no-plot"])
         .code(0)
         .says("12 made now");
-    assert_eq!(table, place.read("results/drop/stability.csv"));
+    assert_eq!(table, place.read("results/stability/drop/stability.csv"));
 }
 
 #[test]
@@ -250,7 +250,7 @@ fn the_figure_has_a_panel_per_integrator_units_and_the_limit() {
     let place = Workplace::new();
     place.write("drop.toml", TINY);
     place.phase(&["stability", "drop.toml", "-j", "1"]).code(0);
-    let figure = place.read("results/drop/stability.svg");
+    let figure = place.read("results/stability/drop/stability.svg");
     for text in [
         "A drop",
         "velocity-verlet",
@@ -272,8 +272,8 @@ fn a_table_that_is_none_is_refused() {
     place
         .phase(&["stability", "drop.toml", "--no-plot"])
         .code(0);
-    let table = place.read("results/drop/stability.csv");
-    let path = "results/drop/stability.csv";
+    let table = place.read("results/stability/drop/stability.csv");
+    let path = "results/stability/drop/stability.csv";
     place.write(path, &table.replace("velocity-verlet", "velocity-verlat"));
     place
         .phase(&["stability", "drop.toml", "--no-plot"])
@@ -356,7 +356,7 @@ fn rows_of_another_build_are_told_of_until_they_are_made_anew() {
     place.phase(&again).code(0);
     quiet(place.phase(&again).code(0));
 
-    let path = "results/drop/stability.makers.csv";
+    let path = "results/stability/drop/stability.makers.csv";
     let mut makers: Vec<String> = place.read(path).lines().map(str::to_owned).collect();
     for row in &mut makers[1..4] {
         let id = row.split(',').next().unwrap();
