@@ -26,10 +26,9 @@ mod vary;
 pub use accuracy::Accuracy;
 pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
-    AddedMass, Buoyancy, Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Drag,
-    DragForm, DragLaw, Effects, FixedSphere, FixedSpheres, Friction, Geometry, Gravity, Guards,
-    Hertz, Hopper, LengthUnit, Linear, Magnus, Mindlin, Neighbours, Outlet, Rest, Silbert,
-    SilbertFriction, Spin, SpinDamping, Swirl, Updraught,
+    Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, FixedSphere, FixedSpheres,
+    Friction, Geometry, Guards, Hertz, Hopper, LengthUnit, Linear, Mindlin, Neighbours, Outlet,
+    Rest, Silbert, SilbertFriction, Spin,
 };
 pub use file_kind::FileKind;
 pub use keys::Notation;
@@ -45,6 +44,9 @@ pub(crate) use time::AUTO;
 pub use time::{Integrator, Time};
 pub(crate) use validate::{plural, rounded};
 pub(crate) use vary::Template;
+
+// All tables of effects.
+pub use crate::forces::effects::*;
 
 use crate::document::{Schema, quantity};
 use schemars::JsonSchema;
@@ -87,6 +89,15 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// What effects may need to know of this scene.
+    pub(crate) fn facts(&self) -> SceneFacts {
+        SceneFacts {
+            density: self.spheres.density,
+            rotates: self.dem.friction.is_some(),
+            cylinder: self.tank.as_ref().and_then(|tank| tank.radius),
+        }
+    }
+
     /// Spheres that start somewhere and move for a time, and nothing that acts on them: no
     /// contacts, no walls, no forces. Seed 1, and the default guards and output.
     ///

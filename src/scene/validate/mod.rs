@@ -50,7 +50,7 @@ impl Scene {
     }
 
     fn check_laws(&self, problems: &mut Vec<Problem>) {
-        problems.extend(self.dem.effects.problems(self.dem.friction.is_some()));
+        problems.extend(self.dem.effects.problems(&self.facts()));
         if self.dem.friction.is_some() && self.dem.contact.is_none() {
             let message = "[friction] acts at contacts, but there is no [contact]";
             let help = "add [contact] with `law = \"hertz\"`, or remove [friction]";
