@@ -186,7 +186,7 @@ impl HertzLaw {
 }
 
 impl NormalLaw for HertzLaw {
-    const WIDENS: bool = true;
+    const USES_CONTACT_RADIUS: bool = true;
 
     #[inline(always)]
     fn force(&self, overlap: f64, overlap_rate: f64, contact_radius: f64, _: f64) -> f64 {

@@ -91,7 +91,7 @@ impl SilbertFrictionLaw {
 
 impl TangentialLaw for SilbertFrictionLaw {
     const NEEDS_EFFECTIVE_MASS: bool = true;
-    const WIDENS: bool = true;
+    const USES_CONTACT_RADIUS: bool = true;
     const DRAGS: bool = true;
     type History = Spring;
 
