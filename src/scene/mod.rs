@@ -77,8 +77,8 @@ pub struct Scene {
     #[serde(flatten)]
     pub dem: DemScene,
     /// How accurate the numerics are to be: chooses `integrator`, `dt = "auto"` with its
-    /// `safety_factor`, and `frame_interval` of `time`, those of them that the file does not say. A
-    /// scene that runs has what was chosen, and no word here.
+    /// `safety_factor`, and `frame_interval` of `time`, if the file does not say them. A scene that
+    /// runs has the chosen settings instead of this key.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<Accuracy>,
     /// Time step, duration, frames, integrator.

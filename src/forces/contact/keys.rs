@@ -171,9 +171,9 @@ fn limits<K: ContactKeys>(keys: &K, collisions: &[Collision], regime: &Regime<'_
             name: "twelve contacts",
             seconds: least(6.0_f64.sqrt(), 6.0),
             decisive: false,
-            explanation: "(w dt)^2 + 2 g dt < 4 of a sphere with twelve such contacts, w and \
-                          g^(1/2) sqrt(6) times those of a pair: all of them are taken to act \
-                          along one line",
+            explanation: "(w dt)^2 + 2 g dt < 4 of a sphere with twelve such contacts, all taken \
+                          to act along one line: w^2 and the damping rate g are 6 times those of \
+                          a pair",
             consequence: Some("a sphere that many others squeeze may gain energy"),
         },
         regime.displacement(stiffest.speed),
