@@ -11,7 +11,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 pub(crate) struct Console {
     quiet: bool,
     verbose: bool,
-    /// Whether the result is what [`answer`](Console::answer) is told, and nothing else.
+    /// Whether only the JSON object of [`answer`](Console::answer) is printed as the result.
     json: bool,
     /// Files written so far.
     files: Mutex<Vec<PathBuf>>,
@@ -122,7 +122,7 @@ impl Console {
         self.note(format_args!("warning: {text}"));
     }
 
-    /// Says something that only few want to know.
+    /// Prints a note if `--verbose` is given.
     pub(crate) fn detail(&self, text: impl Display) {
         if self.verbose {
             complain(text);

@@ -101,8 +101,9 @@ impl Place {
     }
 }
 
-/// Makes the runs of a study with `run`, which is told whom to tell of them, and shows how far they
-/// are; and how long that took (s). Those for which `is_known` says so are done already.
+/// Makes the runs of a study by `run`, which gets a callback for events, and shows the progress.
+/// Returns the result of `run` and its duration (s). Runs for which `is_known` is true are done
+/// already.
 pub(super) fn with_progress<T>(
     jobs: &[Job],
     is_known: &dyn Fn(&Job) -> bool,

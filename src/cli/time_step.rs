@@ -1,4 +1,4 @@
-//! How time steps stand to their limits, as commands tell it.
+//! Time steps over their limits, as commands print them.
 
 use super::console::Console;
 use phase::dem::timestep::{self, Limit, Standing};
@@ -37,8 +37,8 @@ pub(super) fn tightest_limits(jobs: &[Job]) -> Vec<Tightest<'_>> {
     tightest
 }
 
-/// Says how the step of a scene stands to the limit above which it is refused, and whether it is
-/// coarse. What follows from a coarse step is left to `check`.
+/// Prints the step of a scene over the limit above which it is refused, and whether it is coarse.
+/// `check` explains the consequences of a coarse step.
 pub(super) fn tell_of_scene(scene: &Scene, console: &Console) {
     let standings = Standing::all(scene);
     let decisive = standings.first().filter(|it| it.limit.decisive);
@@ -46,7 +46,7 @@ pub(super) fn tell_of_scene(scene: &Scene, console: &Console) {
     note_coarse(standings.iter(), console);
 }
 
-/// Says it of the point of a sweep that is nearest its limit.
+/// As [`tell_of_scene`], for the point of a sweep that is nearest its limit.
 pub(super) fn tell_of_jobs(jobs: &[Job], axes: &[Axis], console: &Console) {
     let tightest = tightest_limits(jobs);
     match tightest.first().filter(|it| it.standing.limit.decisive) {
@@ -61,7 +61,7 @@ pub(super) fn tell_of_jobs(jobs: &[Job], axes: &[Axis], console: &Console) {
     note_coarse(tightest.iter().map(|it| &it.standing), console);
 }
 
-/// Says in one line to which limits the step comes too near, if there are any.
+/// Prints in one line the limits to which the step is too close, if there are any.
 fn note_coarse<'a>(standings: impl Iterator<Item = &'a Standing>, console: &Console) {
     let coarse = standings.filter(|standing| standing.consequence().is_some());
     let coarse = coarse.map(|Standing { limit, ratio }| {

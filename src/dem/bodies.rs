@@ -1,5 +1,11 @@
 //! Spheres in blocks, one column per quantity. Effects on single spheres are computed for a whole
 //! block at once.
+//!
+//! | type | what it holds |
+//! |---|---|
+//! | [`Particles`] | all spheres, one array per quantity |
+//! | [`Spheres`] | borrowed parts of these arrays: all spheres, or those of a thread |
+//! | [`Bodies`] | copies of a block of [`BLOCK`] spheres, one column per coordinate, for effects |
 
 use super::neighbours::Reference;
 use super::threads::{split, split_shared};
@@ -24,7 +30,7 @@ pub(super) struct Spheres<'a> {
     pub(super) inverse_mass: &'a [f64],
     pub(super) inertia: &'a [f64],
     pub(super) inverse_inertia: &'a [f64],
-    /// Where they were when near pairs were found. Empty if there are no near pairs.
+    /// Positions of the spheres when near pairs were found. Empty if there are no near pairs.
     pub(super) reference: &'a [Reference],
 }
 
@@ -52,7 +58,7 @@ impl<'a> Spheres<'a> {
         self.position.len()
     }
 
-    /// Some of them, by their places among these.
+    /// The spheres of a range, counted from the first of these spheres.
     pub(super) fn part(&mut self, range: Range<usize>) -> Spheres<'_> {
         let mut all = Spheres {
             first: self.first,
@@ -72,7 +78,7 @@ impl<'a> Spheres<'a> {
         all.split(range.len())
     }
 
-    /// Takes this number from the front, or all if there are fewer.
+    /// Splits off this number of spheres at the front, or all if there are fewer.
     pub(super) fn split(&mut self, count: usize) -> Self {
         let first = self.first;
         self.first += count.min(self.len());
@@ -94,7 +100,7 @@ impl<'a> Spheres<'a> {
 }
 
 impl Bodies {
-    /// Reads a block of spheres from index `from` on: masses, forces, and what else is asked for.
+    /// Reads a block of spheres from index `from` on: masses, forces, and the columns of `asked`.
     #[inline(always)]
     pub(super) fn take<S: Simd>(
         &mut self,

@@ -10,14 +10,14 @@ use crate::simulation::{Guard, Instability};
 pub(super) struct Limits {
     /// Largest overlap, in radii of the smaller partner.
     pub(super) overlap: f64,
-    /// If no component of a velocity is beyond this (m/s), every sphere is within its speed limit.
+    /// If all velocity components are below this (m/s), no sphere exceeds its speed limit.
     pub(super) slow: f64,
     displacement: f64,
     horizontal: f64,
     vertical: f64,
 }
 
-/// A sphere that is too fast for its limit.
+/// A sphere that exceeds its speed limit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TooFast {
     sphere: usize,
@@ -56,7 +56,7 @@ impl Limits {
         limits
     }
 
-    /// Sets the speed limit for these spheres.
+    /// Sets `slow` for these spheres.
     pub(super) fn fit(&mut self, radius: &[f64], dt: f64) {
         self.slow = f64::MAX;
         for &radius in radius {
@@ -64,7 +64,7 @@ impl Limits {
         }
     }
 
-    /// Includes the limit of another sphere.
+    /// Includes one more sphere in `slow`.
     pub(super) fn add_sphere(&mut self, radius: f64, dt: f64) {
         // Slightly less than 1 / sqrt(3), to allow for rounding.
         self.slow = self.slow.min(0.577 * self.largest_speed(radius, dt));
@@ -76,8 +76,8 @@ impl Limits {
         self.displacement * radius / dt
     }
 
-    /// Refuses positions that are not a number or out of bounds, and spins whose squares are not
-    /// finite.
+    /// Reports the first sphere whose spin has no finite square, or whose position is not a number or
+    /// out of bounds.
     pub(super) fn check_positions(
         &self,
         particles: &Particles,
@@ -125,8 +125,8 @@ impl Limits {
         })
     }
 
-    /// The first sphere that is too fast for its limit, of those with these velocities and radii;
-    /// their indices begin at `first`.
+    /// The first sphere that exceeds its speed limit, of those with these velocities and radii. Their
+    /// indices begin at `first`.
     pub(super) fn first_too_fast(
         &self,
         first: usize,
@@ -146,7 +146,7 @@ impl Limits {
         })
     }
 
-    /// The report of a sphere that is too fast for its limit.
+    /// The report of a sphere that exceeds its speed limit.
     pub(super) fn speed_broken(&self, step: u64, dt: f64, found: TooFast) -> Instability {
         let TooFast {
             sphere,

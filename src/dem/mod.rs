@@ -3,6 +3,9 @@
 //! The effects of a [`Scene`](crate::scene::Scene) are fixed when its [`Simulation`] is built: the
 //! inner loops are compiled for the laws in use, and what the scene does not name allocates and
 //! computes nothing.
+//!
+//! The page `docs/engine.md` explains how it works: lists, blocks of pairs, threads, and why bits
+//! depend on nothing but the input.
 
 mod barrier;
 mod bodies;

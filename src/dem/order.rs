@@ -62,8 +62,7 @@ pub(super) fn found_anew(particles: &Particles) -> Option<Vec<u32>> {
     Some(fixed.chain(keys.into_iter().map(|(_, i)| i)).collect())
 }
 
-/// The order that takes spheres with the numbers `from` to the numbers `to`. Fixed spheres keep
-/// their places.
+/// The order that turns the numbering `from` into `to`. Fixed spheres keep their places.
 pub(super) fn between(from: &[u32], to: &[u32], fixed: usize) -> Vec<u32> {
     let moving = |numbers: &[u32]| -> Vec<u32> {
         let numbers = numbers[fixed..].iter();
@@ -78,7 +77,7 @@ pub(super) fn between(from: &[u32], to: &[u32], fixed: usize) -> Vec<u32> {
     order
 }
 
-/// Whether the numbers of the moving spheres are a permutation, counted from 0.
+/// Whether the numbers of the moving spheres are a permutation of 0, 1, 2, ...
 pub(super) fn is_one(numbers: &[u32], fixed: usize) -> bool {
     let numbers = numbers.get(fixed..).unwrap_or_default();
     let mut known = vec![false; numbers.len()];

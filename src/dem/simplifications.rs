@@ -1,5 +1,6 @@
 //! What a scene may do without, or replace by something simpler.
 
+use crate::forces::effects::SceneFacts;
 use crate::forces::simplification::MeanSphere;
 pub use crate::forces::simplification::Simplification;
 use crate::scene::{Contact, Scene};
@@ -14,12 +15,16 @@ pub fn simplifications(scene: &Scene) -> Vec<Simplification> {
         mass: spheres.shape.mass(spheres.density, radius),
         density: spheres.density,
     };
-    let rotates = scene.dem.friction.is_some();
-    let mut all = effects.simplifications(rotates, &mean);
+    let facts = scene.facts();
+    let mut all = effects.simplifications(&facts, &mean);
     if let (Some(contact), Some(friction)) = (&scene.dem.contact, &scene.dem.friction) {
         let mut removed = vec!["friction"];
-        // What acts on spins has none without friction.
-        removed.extend(effects.removed_with(None, false));
+        // Without friction there are no spins, nor effects that need them.
+        let without_spins = SceneFacts {
+            rotates: false,
+            ..facts
+        };
+        removed.extend(effects.removed_with(None, &without_spins));
         all.extend(friction.simplifications(contact, removed));
     }
     let contact = scene.dem.contact.iter();

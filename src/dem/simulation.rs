@@ -252,7 +252,7 @@ fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
         walls: tank.map(TankWall::of_tank).unwrap_or_default(),
         effects: scene.dem.effects.build(&Targets {
             radii: &particles.radius,
-            density: scene.spheres.density,
+            scene: scene.facts(),
         }),
         shielded: scene.dem.effects.updraught.is_some(),
         limits: Limits::new(scene, particles),

@@ -2,8 +2,7 @@
 
 use std::cell::LazyCell;
 
-/// The limit that adaptive Verlet, whose sub-steps resolve contacts, shares with the others: there
-/// it decides.
+/// Name of the displacement limit. Advice for most integrators; decisive for adaptive Verlet.
 pub(crate) const DISPLACEMENT: &str = "displacement";
 
 /// A limit of the time step.
@@ -17,12 +16,14 @@ pub struct Limit {
     pub decisive: bool,
     /// Formula and meaning, in one line.
     pub explanation: &'static str,
-    /// What may happen near it or, of mere advice, above it, if that deserves a warning.
+    /// Warning text, if there is one: what happens close to a decisive limit, or above an advised
+    /// one.
     pub consequence: Option<&'static str>,
 }
 
 impl Limit {
-    /// The consequence of coarse steps for what relaxes, such as a velocity toward the air's.
+    /// The consequence of coarse steps for a velocity or spin that relaxes, as towards that of the
+    /// air.
     pub(crate) const PASSES_ITS_END: Option<&str> =
         Some("stable, but relaxing velocities overshoot and oscillate from step to step");
 
@@ -33,9 +34,9 @@ impl Limit {
     );
 }
 
-/// What the limits of effects and laws depend on.
+/// What the limits of effects and laws are computed from.
 pub(crate) struct Regime<'a> {
-    /// What the integrator makes of an oscillator.
+    /// How stable the integrator keeps an oscillator.
     pub(crate) scheme: Scheme,
     /// Radius of the smallest sphere (m).
     pub(crate) smallest_radius: f64,
@@ -65,7 +66,7 @@ pub(crate) struct Regime<'a> {
     pub(crate) lowest_height: f64,
     /// The guard on displacements in a step, in radii.
     pub(crate) displacement_guard: f64,
-    /// The deepest overlap (m) at the start, found on demand.
+    /// The deepest overlap (m) at the start, computed when it is first used.
     pub(crate) deepest_at_start: LazyCell<f64, Box<dyn FnOnce() -> f64 + 'a>>,
 }
 
@@ -76,14 +77,14 @@ impl Regime<'_> {
         self.inertia_factor * mass * self.smallest_radius * self.smallest_radius
     }
 
-    /// 1 + m r^2 / I, with the inertial mass m: a force at the surface moves it as if the mass were
-    /// that much less.
+    /// 1 + m r^2 / I, with the inertial mass m: a force at the surface accelerates the contact point
+    /// this many times more than the centre.
     pub(crate) fn surface_factor(&self) -> f64 {
         1.0 + self.inertial_factor / self.inertia_factor
     }
 
-    /// The limit at which the fastest sphere reaches the displacement guard: the smallest one, that
-    /// the largest one has knocked on at this speed (m/s).
+    /// The limit at which the fastest sphere reaches the displacement guard: the smallest sphere,
+    /// hit by the largest at this speed (m/s).
     pub(crate) fn displacement(&self, speed: f64) -> Limit {
         let (light, heavy) = (self.smallest_mass, self.largest_mass);
         let knocked_on = 2.0 * heavy / (heavy + light);
@@ -101,8 +102,8 @@ impl Regime<'_> {
     }
 }
 
-/// How stable an integrator keeps an oscillator: by the criterion of symplectic Euler, with the
-/// damping rate times a factor.
+/// How stable an integrator keeps an oscillator: the criterion of symplectic Euler, with the damping
+/// rate multiplied by a factor.
 #[derive(Clone, Copy)]
 pub(crate) struct Scheme {
     /// Factor on damping rates.
@@ -110,8 +111,8 @@ pub(crate) struct Scheme {
 }
 
 impl Scheme {
-    /// Largest step (s) at which an oscillator of that angular frequency w (1/s) and damping rate g
-    /// (1/s) stays bounded.
+    /// Largest step (s) at which an oscillator x'' = -w^2 x - g x' of angular frequency w (1/s) and
+    /// damping rate g (1/s) stays bounded.
     pub(crate) fn oscillator(self, frequency: f64, rate: f64) -> f64 {
         // The positive root of (w dt)^2 + 2 g dt = 4, in the form that does not cancel.
         let rate = self.damping * rate;

@@ -1,9 +1,9 @@
-//! A block of spheres, one column per quantity: what acts on single spheres is computed for all of
-//! it at once.
+//! A block of spheres, one column per quantity. Effects on single spheres are computed for a whole
+//! block at once.
 
 use super::block::{BLOCK, Column, Columns};
 
-/// What effects ask for besides masses and forces.
+/// Columns that effects read besides masses and forces. The engine fills them in `dem/bodies.rs`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Asked {
     /// Centres and velocities.
@@ -13,7 +13,7 @@ pub(crate) struct Asked {
 }
 
 impl Asked {
-    /// What one or the other asks for.
+    /// The columns of both.
     pub(crate) fn or(self, other: Self) -> Self {
         Self {
             motion: self.motion || other.motion,
@@ -26,7 +26,7 @@ impl Asked {
 pub(crate) struct Bodies {
     /// Index of the first sphere.
     pub(crate) first: usize,
-    /// How many they are.
+    /// Number of spheres.
     pub(crate) count: usize,
     /// Forces so far (N).
     pub(crate) force: Columns,

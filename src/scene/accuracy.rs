@@ -18,7 +18,7 @@ pub enum Accuracy {
     Reference,
 }
 
-/// What a word stands for.
+/// The settings that a word stands for.
 struct Settings {
     integrator: &'static str,
     safety_factor: f64,

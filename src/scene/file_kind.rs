@@ -24,7 +24,7 @@ const SCENE_KEY: &str = "spheres";
 const STUDY_KEY: &str = "study";
 
 impl FileKind {
-    /// Of a document, and the key that says so: a scene has its spheres.
+    /// The kind of a document, and the key that tells it (of a scene, `spheres`).
     pub(crate) fn of(document: &Document) -> (Self, &'static str) {
         let tree: &Value = document.tree();
         let has = |key: &str| tree.get(key).is_some();
@@ -35,8 +35,8 @@ impl FileKind {
         }
     }
 
-    /// Refuses a document that is clearly of another kind. What has no key that tells is left to
-    /// the check of its keys.
+    /// Refuses a document that is clearly of another kind. A document without a key that tells its
+    /// kind is left to the check of keys.
     ///
     /// # Errors
     /// What it is, with the command for it.

@@ -4,8 +4,8 @@ use super::{Contact, Door, Friction, Geometry, Outlet, Rest};
 use super::{DemScene, Effects, Guards, Neighbours, Output, Scene, Spheres, Start, Tank, Time};
 use serde::Serialize;
 
-/// What determines the motion, in the order of keys that every identity is made of. Random numbers
-/// derive from it: another order would be another motion.
+/// The keys that determine the motion, in the order in which identities are computed. Random
+/// numbers derive from the identity, so another order would change the motion.
 #[derive(Serialize)]
 struct Motion<'a> {
     seed: u64,
@@ -87,7 +87,7 @@ impl Scene {
         }
     }
 
-    /// The scene without what changes nothing in its record but itself.
+    /// The scene without title and neighbour search, which change nothing that is measured.
     pub(crate) fn without_names(self) -> Self {
         Self {
             title: None,

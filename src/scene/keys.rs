@@ -123,8 +123,8 @@ impl Scene {
         })
     }
 
-    /// The scene, without the spheres that its start lists if none of these keys is theirs: a tree
-    /// of values takes more than a kilobyte for each.
+    /// The scene, without the spheres that its start lists if no key belongs to one of them. In a
+    /// tree of values a sphere takes more than a kilobyte.
     pub(super) fn for_keys(&self, keys: &[&str]) -> Cow<'_, Self> {
         match self.apart_from_list() {
             Some((scene, _)) if !keys.iter().any(|key| key.starts_with(LIST_KEY)) => {
@@ -198,7 +198,7 @@ fn collect_table(
     path: &str,
     keys: &mut Vec<NumericKey>,
 ) {
-    // The keys of a table that is not there would bring an effect that is not there.
+    // Setting a key of an absent table would add an effect.
     let Some(value) = value else { return };
     for key in &table.keys {
         let path = key.path(path);
@@ -208,7 +208,7 @@ fn collect_table(
 }
 
 impl Notation {
-    /// That of a key in any scene that has it.
+    /// The notation of a key in any scene that has it.
     fn anywhere(path: &str) -> Option<Self> {
         let mut found = None;
         SCENE.kind.visit("", &mut |known, key| {
@@ -219,7 +219,7 @@ impl Notation {
         found
     }
 
-    /// That of a key in a table with these values.
+    /// The notation of a key in a table with these values.
     fn of(key: &'static Key, table: &Value) -> Option<Self> {
         let quantity = key.quantity.as_ref()?;
         (!quantity.symbol.is_empty()).then(|| Self {

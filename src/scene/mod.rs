@@ -29,10 +29,9 @@ pub use change::Change;
 pub(crate) use change::is_within;
 pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
-    AddedMass, Buoyancy, Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Drag,
-    DragForm, DragLaw, Effects, FixedSphere, FixedSpheres, Friction, Geometry, Gravity, Guards,
-    Hertz, Hopper, LengthUnit, Linear, Magnus, Mindlin, Neighbours, Outlet, Rest, Silbert,
-    SilbertFriction, Spin, SpinDamping, Swirl, Updraught,
+    Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, FixedSphere, FixedSpheres,
+    Friction, Geometry, Guards, Hertz, Hopper, LengthUnit, Linear, Mindlin, Neighbours, Outlet,
+    Rest, Silbert, SilbertFriction, Spin,
 };
 pub use file_kind::FileKind;
 pub use keys::Notation;
@@ -48,6 +47,9 @@ pub(crate) use time::AUTO;
 pub use time::{Integrator, Time};
 pub(crate) use validate::{plural, rounded};
 pub(crate) use vary::Template;
+
+// All tables of effects.
+pub use crate::forces::effects::*;
 
 use crate::document::{Schema, quantity};
 use schemars::JsonSchema;
@@ -78,8 +80,8 @@ pub struct Scene {
     #[serde(flatten)]
     pub dem: DemScene,
     /// How accurate the numerics are to be: chooses `integrator`, `dt = "auto"` with its
-    /// `safety_factor`, and `frame_interval` of `time`, those of them that the file does not say. A
-    /// scene that runs has what was chosen, and no word here.
+    /// `safety_factor`, and `frame_interval` of `time`, if the file does not say them. A scene that
+    /// runs has the chosen settings instead of this key.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub accuracy: Option<Accuracy>,
     /// Time step, duration, frames, integrator.
@@ -90,6 +92,15 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// What effects may need to know of this scene.
+    pub(crate) fn facts(&self) -> SceneFacts {
+        SceneFacts {
+            density: self.spheres.density,
+            rotates: self.dem.friction.is_some(),
+            cylinder: self.tank.as_ref().and_then(|tank| tank.radius),
+        }
+    }
+
     /// Spheres that start somewhere and move for a time, and nothing that acts on them: no
     /// contacts, no walls, no forces. Seed 1, and the default guards and output.
     ///

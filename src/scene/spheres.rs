@@ -23,25 +23,25 @@ pub struct Spheres {
             .unit_where("shape", "disc", "kg/m²")
     )]
     pub density: f64,
-    /// What the mass of one is.
+    /// Shape of the spheres.
     #[serde(default, skip_serializing_if = "is_default")]
     pub shape: Shape,
 }
 
-/// What the mass of a sphere is.
+/// Shape of the spheres, from which their mass follows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Shape {
-    /// A sphere in space: 4/3 pi rho r^3.
+    /// A sphere in space, of mass 4/3 pi rho r^3.
     #[default]
     Sphere,
-    /// A disc in the plane y = 0: rho r^2 (Remmers, 2009), and a moment of inertia of half that
-    /// times r^2.
+    /// A disc in the plane y = 0, of mass m = rho r^2 (Remmers, 2009) and moment of inertia m r^2 /
+    /// 2.
     Disc,
 }
 
 impl Shape {
-    /// Mass (kg) of one of this density and radius (m).
+    /// Mass (kg) of a sphere of this density and radius (m).
     pub fn mass(self, density: f64, radius: f64) -> f64 {
         match self {
             Self::Sphere => density * (4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius),

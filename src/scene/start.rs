@@ -47,7 +47,7 @@ pub enum Start {
         // A million of them are in memory once, however often the scene is copied.
         spheres: Arc<Vec<StartSphere>>,
     },
-    /// One sphere after the other, all at one place and with one velocity, from time zero on.
+    /// One sphere after the other, all at the same place with the same velocity, from time zero on.
     Feed {
         /// Centre of a sphere when it comes in (m).
         #[schemars(transform = unit("m"))]
@@ -56,7 +56,7 @@ pub enum Start {
         #[serde(default)]
         #[schemars(transform = unit("m/s"))]
         velocity: [f64; 3],
-        /// Time between two spheres (s); a whole number of steps. One that finds its place taken
+        /// Time between two spheres (s); a whole number of steps. A sphere whose place is taken
         /// waits for the next of these times.
         #[schemars(
             transform = quantity("Δt_{feed}", "s", "time between spheres that come in").above(0.0)
@@ -96,7 +96,8 @@ impl Start {
 }
 
 impl Scene {
-    /// If its start lists spheres: the scene without them, and these.
+    /// The scene without the spheres that its start lists, and these spheres; none if it lists
+    /// none.
     pub(crate) fn apart_from_list(&self) -> Option<(Self, &[StartSphere])> {
         let Start::List { spheres } = &self.start else {
             return None;

@@ -5,7 +5,7 @@ use crate::document::quantity;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// In the place of a time step: one that follows from the scene.
+/// Value of `time.dt` with which the program chooses the time step.
 pub(crate) const AUTO: &str = "auto";
 
 /// Time step, duration, frames, integrator.
@@ -16,8 +16,8 @@ pub struct Time {
     /// every limit of the scene and that divides `frame_interval` and the interval of a feed.
     #[schemars(transform = seconds("Δt", "time step").or(AUTO))]
     pub dt: f64,
-    /// With `dt = "auto"` only: the largest step over the least limit, advised limits included
-    /// (default 0.2). A scene that runs has a number for its step, and none here.
+    /// With `dt = "auto"` only: the step is at most this times the smallest limit, advised limits
+    /// included (default 0.2). Absent once the step is chosen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(
         transform = quantity("f", "", "time step over its least limit").above(0.0).at_most(1.0)
@@ -56,12 +56,12 @@ pub enum Integrator {
     /// Velocity Verlet, forces at the half-step velocity: second order without
     /// velocity-dependent forces, first order with them.
     VelocityVerlet,
-    /// Velocity Verlet with forces from places and velocities of one moment, the middle of the
-    /// step: second order, and no sticking between spheres of very different sizes (Vyas et al.,
-    /// 2025).
+    /// Velocity Verlet with forces from positions and velocities of the same moment, the middle of
+    /// the step: second order, and no sticking between spheres of very different sizes (Vyas et
+    /// al., 2025).
     SynchronisedVerlet,
-    /// The same with sub-steps for spheres that touch, as many as their impacts need: the time step
-    /// has to resolve all but the contacts.
+    /// As `synchronised-verlet`, with sub-steps for spheres that touch, as many as their impacts
+    /// need. The time step need not resolve contacts.
     AdaptiveVerlet,
 }
 

@@ -1,5 +1,5 @@
-//! Scenes as trees of values. Texts are read by way of these, files and records alike, so that what
-//! reads scenes is compiled once and not for each way a text comes.
+//! Scenes as trees of values. Files and records are read through such trees, so that the code that
+//! reads scenes is compiled only once.
 
 use super::{SCENE, Scene};
 use crate::document::kind::Kind;

@@ -13,13 +13,13 @@ use std::borrow::Cow;
 pub(crate) struct Template {
     tree: Value,
     keys: Vec<NumericKey>,
-    /// The start that all scenes share, where it lists spheres and none of the keys is theirs: a
-    /// tree of values takes more than a kilobyte for each.
+    /// The start that all scenes share, if it lists spheres and no key belongs to one of them. In a
+    /// tree of values a sphere takes more than a kilobyte.
     start: Option<Start>,
 }
 
 impl Template {
-    /// For values at these paths.
+    /// A template for values at these paths.
     ///
     /// # Errors
     /// If a path is not a numeric key of the scene.

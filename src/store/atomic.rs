@@ -51,7 +51,7 @@ pub(super) fn write_atomic_with(
     .map_err(|error| StoreError::writing(path, error))
 }
 
-/// Whether a file is on the disk when its name is.
+/// Whether a file is made durable before it gets its name.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Durable {
     Yes,
@@ -129,7 +129,7 @@ fn is_alive(process: u32) -> bool {
     {
         let process = i32::try_from(process).ok();
         let process = process.and_then(rustix::process::Pid::from_raw);
-        // It may belong to somebody else, and then must not be asked.
+        // A process of another user exists, too, although it may not be signalled.
         process.is_some_and(|process| {
             rustix::process::test_kill_process(process) != Err(rustix::io::Errno::SRCH)
         })

@@ -3,9 +3,9 @@
 //!
 //! The names are those of the thesis's control script (Rice, 2012, section 7.2):
 //! `dump_r00.003_p03750.0_f006.0.npy`. The script pads the radius to six characters, the analysis
-//! of section 7.3 cuts out five; names are read here by their letters, so either will do. Of
-//! another seed than 1, which the thesis does not know, `_s2` follows. A run that broke off has all
-//! its coordinates at 1 from there on, which is how the analysis knows it.
+//! of section 7.3 cuts out five; names are read here by their letters, so either will do. For a
+//! seed other than 1, `_s2` and so on follows (the thesis has no seeds). In the dump of an unstable
+//! run all coordinates are 1 from the end of the run on; by this the analysis recognises it.
 
 use super::StoreError;
 use super::export::write_array;

@@ -11,7 +11,7 @@ pub(super) struct Hashed<'a, W> {
 }
 
 impl<'a, W: Write> Hashed<'a, W> {
-    /// That of a file so far empty.
+    /// A hashed file, which is empty so far.
     pub(super) fn new(file: &'a mut W) -> Self {
         Self {
             file,
@@ -20,8 +20,7 @@ impl<'a, W: Write> Hashed<'a, W> {
         }
     }
 
-    /// Ends the content after what somebody wrote, who may have failed: a mark follows it, then its
-    /// hash.
+    /// Ends the content: a mark follows it, then its hash. `written` is the result of the writer.
     ///
     /// # Errors
     /// The failure of the file, or else of the writer.
@@ -55,7 +54,7 @@ impl<W: Write> Write for Hashed<'_, W> {
 }
 
 impl<W> Hashed<'_, W> {
-    /// The result, with its failure kept if it is one: after an interruption one tries again.
+    /// The result. A failure is kept, except an interruption, after which writers try again.
     fn noted<T>(&mut self, result: io::Result<T>) -> io::Result<T> {
         result.map_err(|error| {
             let kind = error.kind();
@@ -72,7 +71,7 @@ mod tests {
     use super::*;
     use io::ErrorKind::{Interrupted, StorageFull};
 
-    /// A disk that is interrupted once, and full when what it was given must be stored.
+    /// A disk that is interrupted once, and turns out to be full when it is flushed.
     #[derive(Default)]
     struct Disk {
         content: Vec<u8>,

@@ -5,18 +5,18 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// The right to write to a place, given back when dropped, or when the process ends in whatever
-/// way.
+/// The right to write to a place: a locked file. Unlocked when dropped, or however the process
+/// ends.
 #[derive(Debug)]
 pub struct Lock {
     file: File,
-    /// The file, if it goes with the right.
+    /// The path of the file, if it is removed with the lock.
     passing: Option<PathBuf>,
 }
 
 impl Lock {
-    /// Takes the right that a file stands for, which is made if it is not there, and stays. None if
-    /// another process has it.
+    /// Locks a file, which is made if it is absent, and stays. None if another process has locked
+    /// it.
     ///
     /// # Errors
     /// If the file cannot be made or locked.
@@ -26,8 +26,8 @@ impl Lock {
         Ok(file.map(|file| Self { file, passing }))
     }
 
-    /// Takes the right to write a file, for which `.NAME.lock` beside it stands as long as somebody
-    /// has it. None if another process has it.
+    /// Takes the right to write a file NAME: locks `.NAME.lock` beside it, which is removed with
+    /// the lock. None if another process has locked it.
     ///
     /// # Errors
     /// Those of [`Lock::take`].
@@ -41,14 +41,14 @@ impl Lock {
         Ok(file.map(|file| Self { file, passing }))
     }
 
-    /// Whether another process has the right that a file stands for.
+    /// Whether another process has locked a file.
     pub fn is_taken(path: &Path) -> bool {
         let lock = File::open(path).map(|file| file.try_lock_shared());
         matches!(lock, Ok(Err(TryLockError::WouldBlock)))
     }
 
-    /// Gives the right back, and removes the file first if it goes with it, so that nobody else
-    /// can have it under this name.
+    /// Unlocks the file. If it is to be removed, it is removed first, so that no other process can
+    /// lock it under this name.
     fn give_back(&self) -> io::Result<()> {
         if let Some(path) = &self.passing {
             fs::remove_file(path)?;
@@ -59,7 +59,7 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // What cannot be removed is an empty file, which is in nobody's way.
+        // If it cannot be removed, an empty file stays, which does no harm.
         let _ = self.give_back();
     }
 }

@@ -55,7 +55,7 @@ enum Spacing {
     Log,
 }
 
-/// Columns of the tables that axes share with other things.
+/// Other columns in the tables of results; no axis may have such a name.
 const RESERVED: [&str; 7] = [
     "id",
     "seed",

@@ -168,8 +168,8 @@ impl Folder {
         fs::create_dir_all(&path).map_err(|source| FolderError::Io { path, source })
     }
 
-    /// Removes the temporary files that a killed process left behind. Only for who holds the
-    /// lock.
+    /// Removes the temporary files that a killed process left behind. Only the process that holds
+    /// the lock may call this.
     ///
     /// # Errors
     /// If the folder cannot be read or a file not be removed.

@@ -114,7 +114,7 @@ pub(crate) struct PointScenes<'a> {
 }
 
 impl<'a> PointScenes<'a> {
-    /// Those that `scene` becomes at the points. Its numbers must be in their ranges.
+    /// The scenes of all points, made of `scene`, whose numbers must be in their ranges.
     pub(crate) fn new(scene: &Scene, axes: &'a [Axis]) -> Result<Self, PointError> {
         let keys: Vec<&str> = axes.iter().map(|axis| axis.key.as_str()).collect();
         let template = Template::new(scene, &keys)
@@ -122,7 +122,7 @@ impl<'a> PointScenes<'a> {
         Ok(Self { axes, template })
     }
 
-    /// The scene of a point, of which nothing is checked but the ranges of its numbers.
+    /// The scene of a point. Only the ranges of its numbers are checked.
     pub(crate) fn unchecked(&mut self, values: &[f64]) -> Result<Scene, PointError> {
         let scene = self.template.with(values);
         scene.map_err(|problems| PointError::new(self.axes, values, problems))

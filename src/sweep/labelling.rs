@@ -171,7 +171,7 @@ pub fn refuse_to_lose_labels<'a>(
     folder: &Folder,
     kept: impl IntoIterator<Item = &'a str>,
 ) -> Result<(), LabellingError> {
-    // What cannot be read is nothing to keep.
+    // A table that cannot be read need not be kept.
     let Ok(table) = store::read_labels(&folder.labels()) else {
         return Ok(());
     };
@@ -188,7 +188,7 @@ pub fn refuse_to_lose_labels<'a>(
     }
 }
 
-/// How many rows are of runs that had none before.
+/// Number of rows of runs that had no row before.
 fn new_rows(before: &LabelTable, after: &LabelTable) -> usize {
     let known: HashSet<&str> = before.rows.iter().map(|row| row.id.as_str()).collect();
     let is_new = |row: &&LabelRow| !known.contains(row.id.as_str());
@@ -199,7 +199,7 @@ impl Sweep {
     /// Whether the sieves of the sweep can judge all of its jobs.
     ///
     /// # Errors
-    /// What keeps them from it.
+    /// Why they cannot.
     pub fn check_sieves(&self, jobs: &[Job]) -> Result<(), ClassifyError> {
         jobs.iter()
             .try_for_each(|job| self.sieves.check(&job.scene))

@@ -325,8 +325,8 @@ pub(crate) fn check_jobs(jobs: usize, help: &str, problems: &mut Vec<Problem>) -
     jobs <= MOST_JOBS
 }
 
-/// Takes up what is wrong with the points of a grid: the problems of the first, and the number of
-/// the others.
+/// Adds what is wrong with the points of a grid: the problems of the first point, and the number of
+/// other points with problems.
 pub(crate) fn check_points(
     mut errors: impl Iterator<Item = PointError>,
     axes: &[Axis],
@@ -350,7 +350,8 @@ pub(crate) fn check_points(
     }
 }
 
-/// Where a problem of a point shows: at the axis that sets the key, or at the scene.
+/// The place in the file that is shown for the problem of a point: the axis that sets the key, or
+/// the scene.
 fn place(path: &str, axes: &[Axis], tree: &Value) -> String {
     let sets = |axis: &Axis| {
         let rest = path.strip_prefix(&axis.key);

@@ -153,7 +153,7 @@ fn differing_keys_of_motion(a: &Scene, b: &Scene) -> Vec<String> {
         ..scene.without_list().without_names()
     };
     let mut keys = differing_keys(&motion(a), &motion(b));
-    // Two lists compared as such: trees of values would take kilobytes for each sphere.
+    // Lists are compared directly: trees of values would take kilobytes for each sphere.
     if matches!((a.apart_from_list(), b.apart_from_list()), (Some((_, a)), Some((_, b))) if a != b)
     {
         keys.push(LIST_KEY.to_owned());

@@ -24,7 +24,7 @@ pub struct Pool<'a> {
     pub checkpoint_interval: Duration,
     /// Whether runs go on from checkpoints that are there.
     pub resume: bool,
-    /// Is told what happens.
+    /// Called for every event.
     pub watch: &'a (dyn Fn(Event<'_>) + Sync),
 }
 

@@ -3,7 +3,7 @@
 /// Largest number of values of one axis.
 pub(super) const MOST_VALUES: usize = 100_000;
 
-/// How many steps of `step` lead from `from` to `to`, if a whole number does so within rounding.
+/// Number of steps of `step` from `from` to `to`, if it is whole within rounding.
 pub(super) fn whole_steps(from: f64, to: f64, step: f64) -> Option<f64> {
     let steps = (to - from) / step;
     let whole = libm::round(steps);
@@ -48,7 +48,7 @@ fn ends(from: f64, to: f64, count: usize, at: impl Fn(f64) -> f64) -> Vec<f64> {
         .collect()
 }
 
-/// `value` to as many decimals as give `scale` that many significant digits.
+/// `value`, rounded to the decimals that `scale` has with this number of significant digits.
 fn clean(value: f64, scale: f64, digits: i32) -> f64 {
     let scientific = format!("{scale:e}");
     let exponent = scientific

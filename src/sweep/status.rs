@@ -46,7 +46,7 @@ pub struct UnderWay {
 }
 
 impl UnderWay {
-    /// What the checkpoint of a job says; none if there is none that this build could go on from.
+    /// The checkpoint of a job, if there is one from which this build can go on.
     fn of(folder: &Folder, job: &Job) -> Option<Self> {
         let checkpoints = folder.checkpoints(&job.id, Duration::ZERO);
         let checkpoint = store::read_checkpoint(checkpoints.path(), &job.scene).ok()??;

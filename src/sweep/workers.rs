@@ -15,7 +15,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Where the results of jobs are kept.
 pub(crate) trait Results: Sync {
-    /// Keeps what is wanted of a run that has ended.
+    /// Stores the result of a run that has ended.
     fn keep(&self, job: &Job, record: &RunRecord) -> Result<(), StoreError>;
 
     /// The checkpoints of a job.
@@ -25,7 +25,7 @@ pub(crate) trait Results: Sync {
     fn note_failures(&self, failures: &[Failure]) -> Result<(), StoreError>;
 }
 
-/// Workers, and with which callbacks they run jobs.
+/// How jobs are run: number of workers, place of results, callbacks.
 pub(crate) struct Workers<'a> {
     /// Where results go.
     pub(crate) results: &'a dyn Results,
@@ -36,7 +36,7 @@ pub(crate) struct Workers<'a> {
     pub(crate) stop: &'a AtomicBool,
     /// Whether runs go on from checkpoints that are there.
     pub(crate) resume: bool,
-    /// Is told what happens.
+    /// Called for every event.
     pub(crate) watch: &'a (dyn Fn(Event<'_>) + Sync),
 }
 
@@ -145,7 +145,7 @@ impl Workers<'_> {
         };
         match self.results.keep(job, &record) {
             Ok(()) => {
-                // What cannot be removed now is when the sweep is run again.
+                // If it cannot be removed now, the next run of the sweep removes it.
                 let _ = self.results.checkpoints(job).remove();
                 (self.watch)(Event::Finished(job, &record, left));
                 Ending::Finished(record, resumed)
@@ -168,8 +168,8 @@ impl Workers<'_> {
         run
     }
 
-    /// Advances a run to its end and tells of it; whether it went on from a checkpoint, and the
-    /// work that was not told of.
+    /// Advances a run to its end and reports its progress. Returns its ending, whether it went on
+    /// from a checkpoint, and the work that was not reported.
     fn drive(&self, job: &Job, run: Run) -> (resume::Ending, bool, u64) {
         let first = run.progress().frame;
         let (mut frame, mut work) = (first, job.work_at(&run.progress()));
@@ -219,7 +219,7 @@ enum Ending {
 struct Tally {
     finished: usize,
     resumed: usize,
-    /// By position among the pending jobs.
+    /// Failures by position of their jobs among the pending ones.
     failures: BTreeMap<usize, Failure>,
     work: u64,
     cpu_seconds: f64,

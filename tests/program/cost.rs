@@ -60,9 +60,13 @@ fn the_total_is_what_a_run_takes() {
 #[test]
 fn what_a_scene_does_not_have_costs_nothing() {
     let whole = RunCost::measure(&realistic(0.4), LONG).unwrap();
+    let effects = ["gravity", "swirl", "updraught", "spin damping"];
     for part in Part::all() {
-        let absent = matches!(part, Part::Ledger | Part::Process | Part::Sides)
-            || ["buoyancy", "Magnus lift"].contains(&part.name());
+        let absent = match part {
+            Part::Ledger | Part::Process | Part::Sides => true,
+            Part::Effect(_) => !effects.contains(&part.name()),
+            _ => false,
+        };
         assert_eq!(part.is_in(&whole.record.scene), !absent, "{part:?}");
         assert_eq!(whole.seconds(part.name()) == 0.0, absent, "{part:?}");
     }
@@ -72,18 +76,12 @@ fn what_a_scene_does_not_have_costs_nothing() {
     scene.tank.as_mut().unwrap().floor = None;
     scene.output.ledger = true;
     let cost = RunCost::measure(&scene, LONG).unwrap();
-    let absent = [
-        "buoyancy",
-        "Magnus lift",
-        "updraught",
-        "counting shield",
-        "spin damping",
-        "floor",
-        "sides",
-        "feed, door, outlet",
-    ];
     for part in Part::all() {
-        let absent = absent.contains(&part.name());
+        let absent = match part {
+            Part::Shield | Part::Floor | Part::Sides | Part::Process => true,
+            Part::Effect(_) => !["gravity", "swirl"].contains(&part.name()),
+            _ => false,
+        };
         assert_eq!(part.is_in(&scene), !absent, "{part:?}");
         assert_eq!(cost.seconds(part.name()) == 0.0, absent, "{part:?}");
     }

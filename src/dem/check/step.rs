@@ -4,21 +4,21 @@ use crate::dem::timestep;
 use crate::document::{Problem, number};
 use crate::scene::{Scene, rounded};
 
-/// The step divided by the smallest limit, if the file does not give this factor.
+/// Default of `time.safety_factor`: the step divided by the smallest limit.
 ///
-/// A fifth of the Rayleigh time is what Altair's EDEM advises for dense packings ("Estimate
-/// Simulation Time" in its help). A fifth of the limit of
-/// twelve contacts, t_c / (2.015 sqrt(6)) with the duration t_c of a Hertz contact, resolves the
-/// shortest contact with about 25 steps; with a linear contact, t_c = pi / w, it is 19.
+/// Altair's EDEM advises a fifth of the Rayleigh time for dense packings ("Estimate Simulation Time"
+/// in its help). A fifth of the limit of twelve contacts, t_c / (2.015 sqrt(6)) with the duration t_c
+/// of a Hertz contact, resolves the shortest contact with about 25 steps; a linear contact, with t_c =
+/// pi / w, with 19.
 pub(crate) const SAFETY_FACTOR: f64 = 0.2;
 
 /// Steps per frame that can be counted exactly.
 const MOST_STEPS: f64 = 9e15;
 
-/// Largest number of parts of a frame that the feed's interval may be counted in.
+/// A frame is divided into at most this many parts to fit the feed's interval.
 const MOST_PARTS: u32 = 1000;
 
-/// How far, relatively, a number of parts may be from a whole one: little enough that no number of
+/// Largest relative distance of a number of parts from a whole number: so small that no number of
 /// parts fits by chance, and that a million steps still add up.
 const ROUNDING: f64 = 1e-9;
 
@@ -33,7 +33,7 @@ impl Scene {
         }
         let message = format!(
             "`time.dt` = {} s is {:.3} times the {} limit of {:.3e} s, above which the motion is \
-             unstable: {}; impacts at up to {:.3} m/s",
+             unstable (limit: {}; impacts at up to {:.3} m/s)",
             number(dt),
             dt / limit.seconds,
             limit.name,

@@ -123,7 +123,7 @@ impl Cells {
         self.rows_about(i, |row| {
             let index = &self.index[row.clone()];
             if self.position.is_empty() {
-                // A sphere of lower index is no partner that is asked for.
+                // Partners have higher indices.
                 for &j in index.iter().filter(|&&j| j as usize > i) {
                     let at = j as usize;
                     visit(j, particles.position[at], particles.radius[at]);

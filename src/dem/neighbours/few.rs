@@ -5,10 +5,10 @@ use super::{Reach, WORD};
 use crate::particles::Particles;
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
-/// Up to this number of spheres, all pairs are tested.
+/// Up to this number of spheres all pairs are tested.
 pub(super) const FEW: usize = 1024;
 
-/// Spheres that are tested at once.
+/// Spheres tested at once.
 const LANES: usize = 8;
 
 /// Centres and radii of a few spheres (m), one array per quantity.
@@ -19,9 +19,9 @@ pub(super) struct FewSpheres {
 }
 
 impl FewSpheres {
-    /// Takes the spheres, turned about the z axis by an angle of this sine and cosine.
+    /// Copies the spheres, turned about the z axis by an angle of this sine and cosine.
     pub(super) fn fill(&mut self, particles: &Particles, (sine, cosine): (f64, f64)) {
-        // The arrays are filled up with NaN, which is near nothing.
+        // The arrays are padded with NaN, which no sphere is near.
         let padded = particles.len().next_multiple_of(WORD);
         let positions = || particles.position.iter();
         let [x, y, z] = &mut self.coordinates;

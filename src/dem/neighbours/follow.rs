@@ -4,8 +4,8 @@
 use super::{Reach, VerletList};
 use crate::particles::Particles;
 
-/// At most one in this number of spheres may have left its margin. Each of these is compared with
-/// all spheres, so following more takes as long as building the list again.
+/// At most one in this number of spheres may have left its margin. Each stray is compared with all
+/// spheres, so following more strays takes as long as building the list again.
 const FEW_OF: usize = 24;
 
 /// At most this number of spheres may have left their margins.

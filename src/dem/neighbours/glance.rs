@@ -10,7 +10,7 @@ pub(super) struct Facts {
     pub(super) near: u64,
     /// Touching now.
     pub(super) touching: u64,
-    /// Their part in the shield may change.
+    /// Shielding may begin or end.
     pub(super) undecided: u64,
     /// The second sphere shields the first.
     pub(super) shields_first: u64,
@@ -73,8 +73,8 @@ impl Glance {
         eight.expect("a block is of whole groups")
     }
 
-    /// What holds for eight pairs while their offsets change by less than the margin (m). With a
-    /// shield, the offsets are first turned by the angle of this sine and cosine.
+    /// Facts of eight pairs that hold while the offset of no pair changes by more than the margin
+    /// (m). With a shield, offsets are first turned by the angle of this sine and cosine.
     #[inline(always)]
     pub(super) fn look<S: Simd>(
         &self,

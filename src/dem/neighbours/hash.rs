@@ -14,7 +14,7 @@ type Place = [i64; 3];
 /// equal hash share a chain, so every sphere keeps the coordinates of its cell.
 #[derive(Clone, Debug, Default)]
 pub(super) struct HashedCells {
-    /// The first sphere of each chain; a power of two of them.
+    /// The first sphere of each chain. The number of chains is a power of two.
     first: Vec<u32>,
     /// The sphere after each sphere in its chain.
     next: Vec<u32>,

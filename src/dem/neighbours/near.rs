@@ -69,7 +69,7 @@ pub struct Near {
     /// Sine and cosine of the angle by which the spheres are turned for the shield.
     turned: (f64, f64),
     pairs: Vec<NearPair>,
-    /// How many of them touched when they were found.
+    /// How many pairs touched when they were found.
     touching: usize,
     /// See [`Self::mostly_touch`].
     mostly_touch: bool,
@@ -126,7 +126,7 @@ impl Near {
         self.mostly_touch
     }
 
-    /// Replaces the pairs, and returns them. The memory of the new ones is used for the next list.
+    /// Returns the pairs, and keeps the memory of the given ones for the next list.
     pub fn exchange_pairs(&mut self, pairs: Vec<NearPair>) -> Vec<NearPair> {
         std::mem::replace(&mut self.pairs, pairs)
     }

@@ -35,13 +35,13 @@ impl NearPair {
         self.second
     }
 
-    /// As one number.
+    /// The pair as one number.
     #[inline(always)]
     pub(in crate::dem) fn word(self) -> u64 {
         u64::from(self.first) << 32 | u64::from(self.second)
     }
 
-    /// The pair of such a number.
+    /// The pair of a number made by [`Self::word`].
     #[inline(always)]
     pub(in crate::dem) fn of_word(word: u64) -> Self {
         Self::new((word >> 32) as u32, word as u32)

@@ -24,7 +24,7 @@ pub(super) enum Search {
     Cells(Cells, Option<f64>),
     /// Cells of this width (m) in a hash table.
     Hashed(HashedCells, f64),
-    /// Every sphere may be near every other.
+    /// Test all pairs.
     AllPairs,
 }
 
@@ -38,13 +38,13 @@ impl Search {
         }
     }
 
-    /// Whether another way to find the same pairs will do: the scene does not ask for this one.
+    /// Whether a faster search may replace this one, which the scene does not name.
     pub(super) fn may_be_replaced(&self) -> bool {
         matches!(self, Self::Cells(_, None))
     }
 
-    /// Sorts the spheres into cells for pairs of this reach, at most `distance` (m) long: their
-    /// horizontal distance, if they reach at any height.
+    /// Sorts the spheres into cells, to find pairs of this reach up to `distance` (m): with
+    /// [`Reach::Column`], up to this horizontal distance.
     pub(super) fn fill(
         &mut self,
         particles: &Particles,

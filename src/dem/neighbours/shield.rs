@@ -5,9 +5,9 @@ use super::{NearPair, Particles, WORD};
 use crate::particles::block::{ROWS, ones, row, turned};
 use fearless_simd::{Level, Simd, SimdBase, SimdMask, f64x8};
 
-/// For each sphere the number of spheres that shield it, updated for the pairs whose part in it may
-/// change. Few of these change from one step to the next. So their bits are compared with those of
-/// the step before, and only the differences are counted.
+/// For each sphere the number of spheres that shield it, updated for the undecided pairs: those in
+/// which shielding may change. Few of them change from one step to the next. So the bits of all
+/// undecided pairs are compared with those of the step before, and only the differences are counted.
 #[derive(Default)]
 pub(super) struct Shield {
     /// For each sphere the number of spheres that shield it.

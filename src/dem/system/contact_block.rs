@@ -141,7 +141,7 @@ impl<H: History> ContactBlock<H> {
             let offset = self.offset.vector(k);
             self.inverse_distance[k] = inverse_square_root(offset.norm_squared());
         }
-        if N::WIDENS || T::WIDENS {
+        if N::USES_CONTACT_RADIUS || T::USES_CONTACT_RADIUS {
             for k in 0..BLOCK {
                 let state = self.contact_state::<T, false>(k, self.properties[1].at(k));
                 self.contact_radius[k] = laws.contact_radius(&state, self.inverse_distance[k]);

@@ -50,7 +50,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
     /// The contact radius of two spheres (m).
     #[inline(always)]
     pub(super) fn contact_radius(&self, state: &ContactState, inverse_distance: f64) -> f64 {
-        if !Self::WIDENS {
+        if !Self::USES_CONTACT_RADIUS {
             return 0.0;
         }
         let [one, other] = state.properties;
@@ -126,7 +126,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             too_deep: touches & (overlap > self.overlap_limit * radius),
             normal,
             overlap,
-            contact_radius: match Self::WIDENS {
+            contact_radius: match Self::USES_CONTACT_RADIUS {
                 true => contact_radius(overlap, radius),
                 false => 0.0,
             },

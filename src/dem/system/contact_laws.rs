@@ -90,7 +90,7 @@ struct NormalForce {
 impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
     pub(super) const HAS_HISTORY: bool = size_of::<T::History>() > 0;
     /// Whether a law needs the contact radius.
-    pub(super) const WIDENS: bool = N::WIDENS | T::WIDENS;
+    pub(super) const USES_CONTACT_RADIUS: bool = N::USES_CONTACT_RADIUS | T::USES_CONTACT_RADIUS;
     /// Whether a law needs the effective mass.
     pub(super) const NEEDS_EFFECTIVE_MASS: bool =
         N::NEEDS_EFFECTIVE_MASS || T::NEEDS_EFFECTIVE_MASS;

@@ -46,8 +46,8 @@ pub struct Hertz {
 }
 
 impl Hertz {
-    /// Dissipation time A (s): as given, or the one that gives a pair of spheres of that radius (m)
-    /// and mass (kg) the restitution.
+    /// Dissipation time A (s): as given, or that with which two spheres of that radius (m) and mass
+    /// (kg) have the given restitution.
     pub fn dissipation_time(&self, radius: f64, mass: f64) -> f64 {
         match (self.dissipation_time, self.restitution) {
             (Some(time), _) => time,
@@ -170,7 +170,7 @@ impl HertzLaw {
         }
     }
 
-    /// The law without losses, of that K / sqrt(R_eff) (Pa).
+    /// The law without losses, with `modulus` = K / sqrt(R_eff) (Pa).
     pub(super) fn elastic(modulus: f64) -> Self {
         Self {
             modulus,
@@ -186,7 +186,7 @@ impl HertzLaw {
 }
 
 impl NormalLaw for HertzLaw {
-    const WIDENS: bool = true;
+    const USES_CONTACT_RADIUS: bool = true;
 
     #[inline(always)]
     fn force(&self, overlap: f64, overlap_rate: f64, contact_radius: f64, _: f64) -> f64 {

@@ -39,8 +39,8 @@ impl Impact {
         time_scale(self.effective_mass, self.stiffness, self.speed)
     }
 
-    /// The impact whose deepest overlap is `overlap` (m). It rebounds like a pair that is released
-    /// at rest from there.
+    /// The impact whose deepest overlap is `overlap` (m). Its rebound is that of a pair released at
+    /// rest from this overlap.
     pub fn from_overlap(self, overlap: f64) -> Self {
         let speed_squared = 0.8 * self.stiffness * overlap * overlap * overlap.sqrt();
         Self {
@@ -49,7 +49,7 @@ impl Impact {
         }
     }
 
-    /// Itself, or the release from an overlap (m) if that is faster.
+    /// This impact, or the release from an overlap (m) if that is faster.
     pub(super) fn or_release_from(self, overlap: f64) -> Self {
         let release = self.from_overlap(overlap);
         if release.speed > self.speed {

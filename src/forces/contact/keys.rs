@@ -11,7 +11,7 @@ use serde_json::json;
 /// Normal contact law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "law", rename_all = "kebab-case")]
-#[expect(missing_docs, reason = "what a law is stands at its keys")]
+#[expect(missing_docs, reason = "documented at the structs")]
 pub enum Contact {
     Hertz(Hertz),
     Linear(Linear),
@@ -45,14 +45,14 @@ pub(crate) trait ContactKeys {
     /// What the limit `damped contact` means.
     const DAMPED_LIMIT: &'static str;
 
-    /// The law, in a scene whose spheres have that mean radius (m), and one of that radius that
-    /// mass (kg).
+    /// The law, in a scene whose spheres have that mean radius (m). `mean_mass`: mass (kg) of a
+    /// sphere with that radius.
     fn law(&self, mean_radius: f64, mean_mass: f64) -> Self::Law;
 
-    /// The impacts that may limit the time step, the stiffest one first; none if nothing moves.
+    /// The impacts that may limit the time step, the stiffest first; empty if nothing moves.
     fn collisions(&self, regime: &Regime<'_>) -> Vec<Collision>;
 
-    /// Limits besides those that follow from the collisions.
+    /// Limits that do not follow from the collisions.
     fn other_limits(&self, _regime: &Regime<'_>) -> Vec<Limit> {
         Vec::new()
     }
@@ -68,7 +68,7 @@ pub(crate) trait ContactKeys {
     }
 }
 
-/// Contacts without losses, if they have any: a value at a key.
+/// The simplification to contacts without losses, `key` = `value`, if there are losses.
 pub(super) fn elastic(
     dissipates: bool,
     key: &'static str,
@@ -78,7 +78,7 @@ pub(super) fn elastic(
     dissipates.then_some(elastic).into_iter()
 }
 
-/// An impact of two partners, as it limits the time step.
+/// An impact of two partners: the numbers that limit the time step.
 pub(crate) struct Collision {
     /// Effective mass m1 m2 / (m1 + m2) (kg).
     pub(crate) effective_mass: f64,
@@ -92,12 +92,13 @@ pub(crate) struct Collision {
     pub(crate) largest_force: f64,
     /// Duration (s).
     pub(crate) contact_time: f64,
-    /// Radius sqrt(R_eff xi) of the contact (m) where it is deepest, if the law has one.
+    /// Radius sqrt(R_eff xi) of the contact (m) where it is deepest; 0 if the law does not use it.
     pub(crate) contact_radius: f64,
 }
 
 impl Collision {
-    /// Of an impact of an effective radius (m), with a damping rate (1/s).
+    /// The collision of an impact of partners of that effective radius (m), with that damping rate
+    /// (1/s).
     pub(super) fn of_impact(impact: &Impact, effective_radius: f64, rate: f64) -> Self {
         Self {
             effective_mass: impact.effective_mass,
@@ -170,9 +171,9 @@ fn limits<K: ContactKeys>(keys: &K, collisions: &[Collision], regime: &Regime<'_
             name: "twelve contacts",
             seconds: least(6.0_f64.sqrt(), 6.0),
             decisive: false,
-            explanation: "(w dt)^2 + 2 g dt < 4 of a sphere with twelve such contacts, w and \
-                          g^(1/2) sqrt(6) times those of a pair: all of them are taken to act \
-                          along one line",
+            explanation: "(w dt)^2 + 2 g dt < 4 of a sphere with twelve such contacts, all taken \
+                          to act along one line: w^2 and the damping rate g are 6 times those of \
+                          a pair",
             consequence: Some("a sphere that many others squeeze may gain energy"),
         },
         regime.displacement(stiffest.speed),

@@ -18,7 +18,7 @@ pub use silbert::{Silbert, SilbertLaw};
 /// (m) and the effective radius r1 r2 / (r1 + r2) (m; the sphere's own at a flat wall).
 #[inline(always)]
 pub fn contact_radius(overlap: f64, effective_radius: f64) -> f64 {
-    // Rounding may find partners that just touch a hair apart.
+    // By rounding, the overlap of touching spheres can be slightly negative.
     let overlap = if overlap > 0.0 { overlap } else { 0.0 };
     (effective_radius * overlap).sqrt()
 }
@@ -28,20 +28,20 @@ pub trait NormalLaw: Copy + Send + Sync + 'static {
     /// Whether there are contacts at all.
     const ACTS: bool = true;
 
-    /// Whether the law also drags at the partners where they slide along each other.
+    /// Whether partners that slide along each other are dragged, too.
     const DRAGS_SIDEWAYS: bool = false;
 
     /// Whether the force may be attractive.
     const ATTRACTS: bool = false;
 
     /// Whether the force depends on the [`contact_radius`].
-    const WIDENS: bool = false;
+    const USES_CONTACT_RADIUS: bool = false;
 
-    /// Whether the law asks for the effective mass; it need not be told otherwise.
+    /// Whether the law uses the effective mass. If not, [`force`](Self::force) may be given any.
     const NEEDS_EFFECTIVE_MASS: bool = false;
 
     /// Repulsive force (N) from the overlap (m), its rate (m/s), the [`contact_radius`] (m) and the
-    /// effective mass m1 m2 / (m1 + m2) (kg; the sphere's own at what does not move).
+    /// effective mass m1 m2 / (m1 + m2) (kg; at a wall or a fixed sphere, that of the moving sphere).
     fn force(
         &self,
         overlap: f64,
@@ -50,14 +50,14 @@ pub trait NormalLaw: Copy + Send + Sync + 'static {
         effective_mass: f64,
     ) -> f64;
 
-    /// The force (N) of partners that keep their distance.
+    /// The force (N) at that overlap (m) without relative velocity.
     fn elastic_force(&self, overlap: f64, effective_radius: f64) -> f64 {
         let contact_radius = contact_radius(overlap, effective_radius);
         self.force(overlap, 0.0, contact_radius, 0.0)
     }
 
-    /// Drag per tangential relative velocity of the centres (N s/m); asked for only if the law
-    /// [drags sideways](Self::DRAGS_SIDEWAYS).
+    /// Drag per tangential relative velocity of the centres (N s/m); used only if the law [drags
+    /// sideways](Self::DRAGS_SIDEWAYS).
     fn sideways_drag(&self) -> f64 {
         0.0
     }
@@ -65,14 +65,14 @@ pub trait NormalLaw: Copy + Send + Sync + 'static {
     /// Elastic energy (J) stored at that overlap.
     fn elastic_energy(&self, overlap: f64, effective_radius: f64) -> f64;
 
-    /// dF / d overlap (N/m) there.
+    /// dF / d overlap (N/m) at that overlap.
     fn stiffness(&self, overlap: f64, effective_radius: f64) -> f64;
 
-    /// dF / d overlap rate (N s/m) there, for an effective mass (kg).
+    /// dF / d overlap rate (N s/m) at that overlap, for an effective mass (kg).
     fn damping(&self, overlap: f64, effective_radius: f64, effective_mass: f64) -> f64;
 
-    /// Deepest overlap (m) of an impact without losses that has reached an overlap and still has a
-    /// speed (m/s), of an effective mass (kg).
+    /// Deepest overlap (m) of an impact without losses, which at the given overlap (m) still has the
+    /// given speed (m/s).
     fn deepest_overlap(
         &self,
         overlap: f64,

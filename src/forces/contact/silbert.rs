@@ -101,7 +101,7 @@ impl SilbertLaw {
 impl NormalLaw for SilbertLaw {
     const ATTRACTS: bool = true;
     const NEEDS_EFFECTIVE_MASS: bool = true;
-    const WIDENS: bool = true;
+    const USES_CONTACT_RADIUS: bool = true;
 
     #[inline(always)]
     fn force(

@@ -1,7 +1,7 @@
 //! Buoyancy: the fluid that a sphere displaces presses it against gravity.
 
 use super::gravity::GravityForce;
-use super::{Effect, EffectKeys, Effects, Targets};
+use super::{Effect, EffectKeys, Effects, SceneFacts, Targets};
 use crate::document::Problem;
 use crate::document::quantities::fluid_density;
 use schemars::JsonSchema;
@@ -27,12 +27,12 @@ impl Buoyancy {
 impl EffectKeys for Buoyancy {
     /// F = -rho_fluid V g = -(rho_fluid / rho) m g. A constant force limits no time step.
     fn effect(&self, all: &Effects, targets: &Targets<'_>) -> Option<Box<dyn Effect>> {
-        let ratio = self.ratio(targets.density);
+        let ratio = self.ratio(targets.scene.density);
         let acceleration = all.gravity.as_ref()?.components().map(|it| -ratio * it);
         Some(Box::new(GravityForce { acceleration }))
     }
 
-    fn problems(&self, all: &Effects, _: bool) -> Vec<Problem> {
+    fn problems(&self, all: &Effects, _: &SceneFacts) -> Vec<Problem> {
         if all.gravity.is_some() {
             return Vec::new();
         }

@@ -1,7 +1,7 @@
 //! The drag law that swirl and updraught share: force from the difference of two velocities.
 
 use super::schiller_naumann::{self, SchillerNaumann};
-use super::{Effect, EffectKeys, Effects, Targets};
+use super::{Effect, EffectKeys, Effects, SceneFacts, Targets};
 use crate::document::quantities::fluid_density;
 use crate::document::{Problem, quantity};
 use crate::forces::limit::{Limit, Regime};
@@ -76,7 +76,7 @@ pub enum DragLaw {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum DragForm {
-    /// |dv| dv: isotropic, as physics has it.
+    /// |dv| dv: isotropic (physically correct).
     #[default]
     Vector,
     /// dv_x |dv_x| and so on: each component by itself, as the thesis ran it.
@@ -84,8 +84,8 @@ pub enum DragForm {
 }
 
 impl Drag {
-    /// What the kernel needs of a sphere of that radius (m): c1 (kg/s) and c2 (kg/m), or those of
-    /// [`SchillerNaumann`].
+    /// Coefficients of a sphere of that radius (m) for the kernel: c1 (kg/s) and c2 (kg/m), or those
+    /// of [`SchillerNaumann`].
     fn coefficients(&self, radius: f64) -> (f64, f64) {
         let diameter = 2.0 * radius;
         match self.law {
@@ -103,7 +103,7 @@ impl Drag {
         }
     }
 
-    /// Force over speed (kg/s) on a sphere of that radius (m) that the air passes at a speed (m/s),
+    /// Force over speed (kg/s) on a sphere of that radius (m), in air that passes it at a speed (m/s)
     /// along one axis.
     pub fn coefficient(&self, radius: f64, speed: f64) -> f64 {
         let (c1, c2) = self.coefficients(radius);
@@ -113,7 +113,7 @@ impl Drag {
         }
     }
 
-    /// dF/du (kg/s) at a speed (m/s), the largest of all speeds up to that.
+    /// dF/du (kg/s) at a speed u (m/s), where it is larger than at any lower speed.
     fn slope(&self, radius: f64, speed: f64) -> f64 {
         let (c1, c2) = self.coefficients(radius);
         match self.law {
@@ -189,7 +189,7 @@ impl EffectKeys for Drag {
         all
     }
 
-    fn problems(&self, all: &Effects, _: bool) -> Vec<Problem> {
+    fn problems(&self, all: &Effects, _: &SceneFacts) -> Vec<Problem> {
         let mut problems = self.problems_of_law();
         if all.swirl.is_none() && all.updraught.is_none() {
             let message = "[drag] acts through [swirl] or [updraught], but there is neither";
@@ -201,8 +201,7 @@ impl EffectKeys for Drag {
 }
 
 impl Drag {
-    /// A linear drag in place of a quadratic one, with the same force where it carries the weight
-    /// of the mean sphere.
+    /// A linear drag in place of a quadratic one, with the same terminal speed of the mean sphere.
     fn linear_instead(&self, all: &Effects, mean: &MeanSphere) -> Option<Simplification> {
         let gravity = all.gravity_in_fluid(mean.density)?;
         let weight = mean.mass * gravity.acceleration.abs();
@@ -223,7 +222,7 @@ impl Drag {
         (self.quadratic != 0.0 && weight > 0.0).then(|| Simplification::setting(name, set))
     }
 
-    /// Keys that do not go with the law.
+    /// The problems of keys that do not go with the law.
     fn problems_of_law(&self) -> Vec<Problem> {
         if self.law == DragLaw::SchillerNaumann {
             let mut problems = schiller_naumann::problems(self);
@@ -249,7 +248,7 @@ impl Drag {
     }
 }
 
-/// What is wrong with a table that needs the drag law where there is none.
+/// The problem of a table that needs the drag law, in a scene without one.
 pub(super) fn missing_drag(all: &Effects, name: &str) -> Vec<Problem> {
     if all.drag.is_some() {
         return Vec::new();
@@ -329,7 +328,7 @@ pub(super) enum Form {
     SchillerNaumann,
 }
 
-/// Coefficients c1 and c2 of every sphere, in whole blocks.
+/// Coefficients c1 and c2 of every sphere, padded to whole blocks.
 pub(super) struct Coefficients {
     linear: Vec<f64>,
     quadratic: Vec<f64>,
@@ -347,7 +346,7 @@ impl Coefficients {
         Self { linear, quadratic }
     }
 
-    /// Those of a block.
+    /// The coefficients c1 and c2 of the spheres of a block.
     #[inline(always)]
     pub(super) fn of_block(&self, bodies: &Bodies) -> [&[f64]; 2] {
         let block = bodies.first..bodies.first + BLOCK;

@@ -1,6 +1,6 @@
 //! Lift of spinning spheres.
 
-use super::{Effect, EffectKeys, Effects, OneBody, Targets};
+use super::{Effect, EffectKeys, Effects, OneBody, SceneFacts, Targets};
 use crate::document::quantities::fluid_density;
 use crate::document::{Problem, quantity};
 use crate::forces::limit::{Limit, Regime};
@@ -38,15 +38,15 @@ impl Magnus {
     }
 }
 
-/// Angle (rad) by which the lift should turn a velocity in a step at most: the speed, which the
-/// lift does not change, then grows by 1 % per radian in schemes that know the velocity of half a
-/// step before.
+/// Largest angle (rad) by which the lift should turn a velocity in a step. The lift should not
+/// change the speed; in schemes that use the velocity of half a step before, it grows by 1 % per
+/// radian at this angle.
 const LARGEST_TURN: f64 = 0.02;
 
 impl EffectKeys for Magnus {
     fn effect(&self, all: &Effects, targets: &Targets<'_>) -> Option<Box<dyn Effect>> {
         Some(Box::new(Lift {
-            ratio: self.ratio(targets.density),
+            ratio: self.ratio(targets.scene.density),
             rotation: all.swirl.as_ref().map_or(0.0, |swirl| swirl.omega),
         }))
     }
@@ -68,8 +68,8 @@ impl EffectKeys for Magnus {
         })
     }
 
-    fn problems(&self, _: &Effects, rotates: bool) -> Vec<Problem> {
-        if rotates {
+    fn problems(&self, _: &Effects, scene: &SceneFacts) -> Vec<Problem> {
+        if scene.rotates {
             return Vec::new();
         }
         let message = "[magnus] lifts spheres that spin, but without [friction] there are no spins";

@@ -29,9 +29,10 @@ use fearless_simd::Level;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Declares all effects, in the order in which they are applied, those with a potential energy
-/// first: the table of a scene file, the type of its keys, and its name in profiles (empty if it
-/// has no loop: if only other effects use it, as they use the drag law, or it changes the spheres).
+/// List of all effects, in order of application. Effects with a potential energy come first: the
+/// ledger books the work of all after them as `work_of_air`. Each line: table name, struct, name in
+/// profiles ("" for a table that is no force itself, like the drag law or the added mass). The doc
+/// comment stands in the reference of keys, so it gives the formula.
 macro_rules! effects {
     ($($(#[doc = $description:literal])+ $table:ident: $keys:ident = $name:literal,)+) => {
         /// The effects on single spheres. One that is absent does not exist in the simulation.
@@ -45,20 +46,20 @@ macro_rules! effects {
         }
 
         impl Effects {
-            /// Their names in profiles; empty for tables that only other effects use.
+            /// Names in profiles; empty for tables that are no force themselves.
             const NAMES: &[&str] = &[$($name),+];
 
-            /// The tables of all, in the same order.
+            /// Names of all tables, in the same order.
             const TABLES: &[&str] = &[$(stringify!($table)),+];
 
-            /// Takes a table away.
+            /// Removes a table.
             fn remove(&mut self, table: &str) {
                 $(if table == stringify!($table) {
                     self.$table = None;
                 })+
             }
 
-            /// Their keys in the same order.
+            /// The tables that the scene has, in the same order.
             fn keys(&self) -> impl Iterator<Item = Option<&dyn EffectKeys>> {
                 [$(self.$table.as_ref().map(|keys| keys as &dyn EffectKeys)),+].into_iter()
             }
@@ -67,56 +68,78 @@ macro_rules! effects {
 }
 
 effects! {
-    /// Gravity. Absent: none.
+    /// Gravity: F = m g, straight down or tilted. Absent: none.
     gravity: Gravity = "gravity",
-    /// Buoyancy: the weight of the displaced fluid, against gravity. Absent: none.
+    /// Buoyancy: the weight of the displaced fluid, against gravity, F = -rho_fluid V g. Absent:
+    /// none.
     buoyancy: Buoyancy = "buoyancy",
     /// Mass C rho V of fluid that moves with each sphere, in impacts too; weights and moments of
     /// inertia stay. Absent: none.
     added_mass: AddedMass = "",
-    /// The drag law that `swirl` and `updraught` share. Needed by either.
+    /// The drag law that `swirl` and `updraught` share, and need: F = c1 u + c2 |u| u, with the
+    /// velocity u of the air relative to the sphere. `law` says what c1 and c2 are, or chooses
+    /// another formula.
     drag: Drag = "",
-    /// Drag toward air in rigid rotation about the axis. Absent: none.
+    /// Drag toward air in rigid rotation about the axis, of velocity Omega x r (Rice, 2012, eqs. 21
+    /// to 27): F = drag(Omega x r - v). Absent: none.
     swirl: Swirl = "swirl",
-    /// Rising air that lower spheres shield. Absent: none.
+    /// Rising air that lower spheres shield (Rice, 2012, eq. 24): F_z = s exp(-beta (z - z0))
+    /// alpha^n drag(v_air - v_z), with n the number of lower spheres whose centre lies within 2r in
+    /// |dx| and in |dy|, and `speed` v_air. Absent: none.
     updraught: Updraught = "updraught",
-    /// Lift of spheres with spin w and velocity u in a fluid at rest, or in that of `swirl`:
-    /// C pi r^3 rho w x u (Rubinow and Keller, 1961). Absent: none.
+    /// Magnus lift of spinning spheres (Rubinow and Keller, 1961): F = C pi r^3 rho w x u, with spin
+    /// w and velocity u relative to the fluid, which is at rest but for `swirl`. Absent: none.
     magnus: Magnus = "Magnus lift",
-    /// Viscous damping of spins. Absent: none.
+    /// Viscous damping of spins: torque -c w, with spin w. Absent: none.
     spin_damping: SpinDamping = "spin damping",
 }
 
 /// An effect, and its place among [all names](Effects::all_names).
 pub(crate) type PlacedEffect = (usize, Box<dyn Effect>);
 
-/// What effects act on.
+/// What effects may need to know of a scene, besides one another.
+#[derive(Clone, Copy)]
+pub(crate) struct SceneFacts {
+    /// Density of the spheres (kg/m3).
+    pub(crate) density: f64,
+    /// Whether spheres have spins.
+    pub(crate) rotates: bool,
+    /// Radius of the tank's cylindrical wall (m), if it has one.
+    #[allow(
+        dead_code,
+        reason = "for effects of the wall, of which there is none yet"
+    )]
+    pub(crate) cylinder: Option<f64>,
+}
+
+/// What an effect is built for.
 pub(crate) struct Targets<'a> {
     /// Radii of the spheres (m).
     pub(crate) radii: &'a [f64],
-    /// Their density (kg/m3).
-    pub(crate) density: f64,
+    /// The scene that the spheres are in.
+    pub(crate) scene: SceneFacts,
 }
 
 /// The table of an effect in a scene.
 pub(crate) trait EffectKeys {
-    /// The effect on these spheres; none if only others of `all` effects use the table, or if it
-    /// has no loop.
+    /// The effect on these spheres. None if the table is no force itself (drag, added mass). `all`
+    /// are the effects of the scene, of which it may use other tables.
     fn effect(&self, all: &Effects, targets: &Targets<'_>) -> Option<Box<dyn Effect>>;
 
-    /// Its limit of the time step, if it has one. Limits are not summed: an effect that relaxes what
-    /// another relaxes too must count the other's rate in.
+    /// Its limit of the time step, if it has one. The program takes the smallest limit, not their
+    /// combination. If two effects damp the same velocity, one of them must use the sum of both
+    /// rates.
     fn limit(&self, _all: &Effects, _regime: &Regime<'_>) -> Option<Limit> {
         None
     }
 
-    /// The fastest speed (m/s) that it gives a sphere up to that distance (m) from the axis.
+    /// The fastest speed (m/s) that the effect gives a sphere within that distance (m) of the axis.
     fn fastest(&self, _reach: f64) -> f64 {
         0.0
     }
 
-    /// Simpler stand-ins for this part, each as a change of the scene's keys: off, as `off` has it,
-    /// or a simpler law.
+    /// Simpler stand-ins for this effect, each as a change of the scene's keys: `off`, which removes
+    /// the table, or a simpler law.
     fn simplifications(
         &self,
         off: Simplification,
@@ -126,14 +149,20 @@ pub(crate) trait EffectKeys {
         vec![off]
     }
 
-    /// What is wrong with it beside `all` others; `rotates` says whether spheres have spins.
-    fn problems(&self, _all: &Effects, _rotates: bool) -> Vec<Problem> {
+    /// What is wrong with this table beside `all` effects of that scene.
+    fn problems(&self, _all: &Effects, _scene: &SceneFacts) -> Vec<Problem> {
         Vec::new()
+    }
+
+    /// Whether the effect keeps an array with a number per sphere. It then does not go with spheres
+    /// that come or go, and its loop implements `reorder`.
+    fn keeps_numbers_per_sphere(&self) -> bool {
+        false
     }
 }
 
 impl Effects {
-    /// How many act themselves.
+    /// Number of effects that are forces themselves.
     pub(crate) const COUNT: usize = {
         let (mut at, mut count) = (0, 0);
         while at < Self::NAMES.len() {
@@ -143,13 +172,13 @@ impl Effects {
         count
     };
 
-    /// Names of those that act themselves, in the order in which they are applied.
+    /// Names of the effects that are forces themselves, in order of application.
     pub fn all_names() -> impl Iterator<Item = &'static str> {
         let names = Self::NAMES.iter().copied();
         names.filter(|name| !name.is_empty())
     }
 
-    /// The keys of those that act themselves, in the same order.
+    /// Tables of the effects that are forces themselves, in the same order.
     fn acting(&self) -> impl Iterator<Item = Option<&dyn EffectKeys>> {
         let named = Self::NAMES.iter().zip(self.keys());
         named.filter_map(|(name, keys)| (!name.is_empty()).then_some(keys))
@@ -179,47 +208,49 @@ impl Effects {
         self.added_mass.as_ref().map_or(0.0, |it| it.ratio(density))
     }
 
-    /// Names of those that the scene has.
+    /// Names of the effects that the scene has and that are forces themselves.
     pub fn names(&self) -> impl Iterator<Item = &'static str> {
         let all = Self::all_names().zip(self.acting());
         all.filter_map(|(name, keys)| keys.is_some().then_some(name))
     }
 
-    /// Their limits of the time step.
+    /// Limits of the time step, of all effects that have one.
     pub(crate) fn limits(&self, regime: &Regime<'_>) -> impl Iterator<Item = Limit> {
         self.keys()
             .flatten()
             .filter_map(|keys| keys.limit(self, regime))
     }
 
-    /// The fastest speed (m/s) that one of them gives a sphere up to that distance (m) from the
-    /// axis.
+    /// The fastest speed (m/s) that an effect gives a sphere within that distance (m) of the axis.
     pub(crate) fn fastest(&self, reach: f64) -> f64 {
         let speeds = self.keys().flatten().map(|keys| keys.fastest(reach));
         speeds.fold(0.0, f64::max)
     }
 
-    /// Simpler stand-ins for each of them, in a scene of that mean sphere; `rotates` says whether
-    /// spheres have spins.
-    pub(crate) fn simplifications(&self, rotates: bool, mean: &MeanSphere) -> Vec<Simplification> {
+    /// Simpler stand-ins for each effect, in that scene, whose mean sphere is `mean`.
+    pub(crate) fn simplifications(
+        &self,
+        scene: &SceneFacts,
+        mean: &MeanSphere,
+    ) -> Vec<Simplification> {
         let tables = Self::TABLES.iter().zip(self.keys());
         let of_table = |(&table, keys): (&&'static str, Option<&dyn EffectKeys>)| {
             let off = Simplification {
                 name: format!("{} off", table.replace('_', " ")),
                 set: Vec::new(),
-                remove: self.removed_with(Some(table), rotates),
+                remove: self.removed_with(Some(table), scene),
             };
             keys.map(|keys| keys.simplifications(off, self, mean))
         };
         tables.filter_map(of_table).flatten().collect()
     }
 
-    /// A table and those that do not go without it, by name: what must be removed together. With
-    /// none, those that do not go with the others, or without spins.
+    /// Names of tables that must be removed together: `table`, and those that need it. Without a
+    /// `table`, those that do not go with the other tables or with that scene.
     pub(crate) fn removed_with(
         &self,
         table: Option<&'static str>,
-        rotates: bool,
+        scene: &SceneFacts,
     ) -> Vec<&'static str> {
         let (mut left, mut removed) = (self.clone(), Vec::new());
         let mut next = table;
@@ -230,7 +261,7 @@ impl Effects {
             }
             let mut tables = Self::TABLES.iter().zip(left.keys());
             let dangles = |keys: Option<&dyn EffectKeys>| {
-                keys.is_some_and(|keys| !keys.problems(&left, rotates).is_empty())
+                keys.is_some_and(|keys| !keys.problems(&left, scene).is_empty())
             };
             let found = tables.find(|(_, keys)| dangles(*keys));
             next = found.map(|(table, _)| *table);
@@ -242,40 +273,45 @@ impl Effects {
         removed
     }
 
-    /// Keys that do not go together; `rotates` says whether spheres have spins.
-    pub(crate) fn problems(&self, rotates: bool) -> Vec<Problem> {
-        let problems = self
-            .keys()
-            .flatten()
-            .map(|keys| keys.problems(self, rotates));
-        problems.flatten().collect()
+    /// Tables that do not go together, or not with that scene.
+    pub(crate) fn problems(&self, scene: &SceneFacts) -> Vec<Problem> {
+        let tables = self.keys().flatten();
+        tables.flat_map(|keys| keys.problems(self, scene)).collect()
+    }
+
+    /// Names of the tables whose effects [keep numbers per
+    /// sphere](EffectKeys::keeps_numbers_per_sphere).
+    pub(crate) fn with_numbers_per_sphere(&self) -> impl Iterator<Item = &'static str> {
+        let keeps = |keys: &dyn EffectKeys| keys.keeps_numbers_per_sphere();
+        let tables = Self::TABLES.iter().zip(self.keys());
+        tables.filter_map(move |(table, keys)| keys.is_some_and(keeps).then_some(*table))
     }
 }
 
 /// An effect adds to the forces and torques of the spheres.
 pub(crate) trait Effect: Send + Sync {
-    /// Makes ready for a step. `shielding` holds, where the scene has an updraught, the number of
-    /// spheres that shield each one, of all of them, from below.
+    /// Prepares a step. `shielding` is, for each sphere, the number of lower spheres that shield it
+    /// from the updraught; empty in a scene without updraught.
     fn prepare(&mut self, shielding: &[u32]);
 
     /// Adds its forces and torques to those of a block of spheres.
     fn apply(&self, level: Level, bodies: &mut Bodies);
 
-    /// What it asks for.
+    /// Which columns it reads.
     fn asks(&self) -> Asked;
 
-    /// The acceleration (m/s2) that it gives to all spheres, if it does nothing else: they then
-    /// need no blocks.
+    /// The acceleration (m/s2), if it only accelerates all spheres equally; the block loop is then
+    /// skipped.
     fn acceleration(&self) -> Option<Vector>;
 
-    /// Follows spheres into a new order.
+    /// Reorders per-sphere arrays after the spheres were sorted.
     fn reorder(&mut self, order: &[u32]);
 
-    /// The potential energy (J) of a force that has one; none of the others.
+    /// The potential energy (J) of all spheres, if the force has one.
     fn energy(&self, particles: &Particles) -> Option<f64>;
 }
 
-/// The loop of an effect, to be compiled once per instruction set.
+/// The loop of an effect, compiled once per instruction set.
 trait OneBody: Send + Sync {
     /// As [`Effect::asks`].
     const ASKS: Asked;
@@ -291,7 +327,8 @@ trait OneBody: Send + Sync {
         None
     }
 
-    /// As [`Effect::reorder`], of an effect that keeps something per sphere.
+    /// As [`Effect::reorder`]; needed if the effect [keeps numbers per
+    /// sphere](EffectKeys::keeps_numbers_per_sphere).
     fn reorder(&mut self, _order: &[u32]) {}
 
     /// As [`Effect::energy`].
@@ -326,5 +363,32 @@ impl<E: OneBody> Effect for E {
 
     fn energy(&self, particles: &Particles) -> Option<f64> {
         OneBody::energy(self, particles)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The ledger books the work of the effects after those with a potential energy.
+    #[test]
+    fn effects_with_a_potential_energy_come_first() {
+        let text = std::fs::read_to_string("tests/good/everything.toml").unwrap();
+        let all: Effects = toml::from_str(&text).unwrap();
+        assert!(all.keys().all(|keys| keys.is_some()), "a table is missing");
+        let built = all.build(&Targets {
+            radii: &[],
+            scene: SceneFacts {
+                density: 1.0,
+                rotates: true,
+                cylinder: Some(1.0),
+            },
+        });
+        let particles = Particles::default();
+        let energies = built.iter().map(|(_, effect)| effect.energy(&particles));
+        let without: Vec<bool> = energies.map(|energy| energy.is_none()).collect();
+        assert_eq!(without.len(), Effects::COUNT);
+        assert!(without.contains(&false) && without.contains(&true));
+        assert!(without.is_sorted(), "{without:?}");
     }
 }

@@ -25,7 +25,7 @@ const FAST: f64 = 0.44;
 #[derive(Clone, Copy)]
 pub(super) struct SchillerNaumann;
 
-/// What C_d is over that of Stokes, at a Reynolds number.
+/// C_d over C_d of Stokes' law, at a Reynolds number.
 #[inline(always)]
 fn over_stokes(reynolds: f64) -> f64 {
     let slow = 1.0 + 0.15 * libm::pow(reynolds, 0.687);
@@ -48,7 +48,7 @@ impl SchillerNaumann {
         c1 * over_stokes(c2 * speed)
     }
 
-    /// dF/du (kg/s) at that speed (m/s), where it is largest of all speeds up to that.
+    /// dF/du (kg/s) at that speed u (m/s), where it is larger than at any lower speed.
     pub(super) fn slope(c1: f64, c2: f64, speed: f64) -> f64 {
         let reynolds = c2 * speed;
         let power = 0.15 * libm::pow(reynolds, 0.687);
@@ -72,7 +72,7 @@ impl DragKernel for SchillerNaumann {
     }
 }
 
-/// Its two limits: linear (Stokes) and quadratic (Newton).
+/// Its limits of slow and of fast flow as simpler laws: linear (Stokes) and quadratic (Newton).
 pub(super) fn simplifications(drag: &Drag) -> Vec<Simplification> {
     let Some((viscosity, density)) = drag.viscosity.zip(drag.density) else {
         return Vec::new();
@@ -100,7 +100,7 @@ pub(super) fn simplifications(drag: &Drag) -> Vec<Simplification> {
     ]
 }
 
-/// Keys of this law that are missing, and keys of the others that stand beside it.
+/// Keys of this law that are missing, and keys of other laws beside it.
 pub(super) fn problems(drag: &Drag) -> Vec<Problem> {
     let missing = [
         (

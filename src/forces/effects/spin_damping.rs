@@ -1,6 +1,6 @@
 //! Viscous damping of spins: torque = -c w.
 
-use super::{Effect, EffectKeys, Effects, OneBody, Targets};
+use super::{Effect, EffectKeys, Effects, OneBody, SceneFacts, Targets};
 use crate::document::{Problem, quantity};
 use crate::forces::limit::{Limit, Regime};
 use crate::particles::block::BLOCK;
@@ -36,8 +36,8 @@ impl EffectKeys for SpinDamping {
         })
     }
 
-    fn problems(&self, _: &Effects, rotates: bool) -> Vec<Problem> {
-        if rotates {
+    fn problems(&self, _: &Effects, scene: &SceneFacts) -> Vec<Problem> {
+        if scene.rotates {
             return Vec::new();
         }
         let message = "[spin_damping] acts on spins, but without [friction] there are none";

@@ -4,7 +4,7 @@ use super::drag::{
     Coefficients, DragKernel, Form, Linear, QuadraticComponents, QuadraticVector, missing_drag,
 };
 use super::schiller_naumann::SchillerNaumann;
-use super::{Effect, EffectKeys, Effects, OneBody, Targets};
+use super::{Effect, EffectKeys, Effects, OneBody, SceneFacts, Targets};
 use crate::document::{Problem, quantity};
 use crate::forces::simplification::{MeanSphere, Simplification};
 use crate::particles::block::BLOCK;
@@ -43,7 +43,7 @@ impl EffectKeys for Swirl {
         })
     }
 
-    /// Without it an updraught that refers to its rotation is as strong as with it.
+    /// Without the swirl, an updraught with a `reference_omega` keeps its strength.
     fn simplifications(
         &self,
         off: Simplification,
@@ -59,8 +59,12 @@ impl EffectKeys for Swirl {
         vec![still.removing(["swirl", "updraught.reference_omega"])]
     }
 
-    fn problems(&self, all: &Effects, _: bool) -> Vec<Problem> {
+    fn problems(&self, all: &Effects, _: &SceneFacts) -> Vec<Problem> {
         missing_drag(all, "swirl")
+    }
+
+    fn keeps_numbers_per_sphere(&self) -> bool {
+        true
     }
 
     fn fastest(&self, reach: f64) -> f64 {

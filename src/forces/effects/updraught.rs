@@ -2,7 +2,7 @@
 
 use super::drag::{Coefficients, DragKernel, Form, Linear, QuadraticComponents, missing_drag};
 use super::schiller_naumann::SchillerNaumann;
-use super::{Effect, EffectKeys, Effects, OneBody, Swirl, Targets};
+use super::{Effect, EffectKeys, Effects, OneBody, SceneFacts, Swirl, Targets};
 use crate::document::quantities::{fraction, place};
 use crate::document::{Problem, quantity};
 use crate::forces::one;
@@ -100,7 +100,7 @@ impl EffectKeys for Updraught {
         shield.into_iter().chain([off]).collect()
     }
 
-    fn problems(&self, all: &Effects, _: bool) -> Vec<Problem> {
+    fn problems(&self, all: &Effects, _: &SceneFacts) -> Vec<Problem> {
         let mut problems = missing_drag(all, "updraught");
         if self.reference_omega.is_some() && all.swirl.is_none() {
             let message = "`updraught.reference_omega` refers to [swirl], but there is none";
@@ -110,6 +110,10 @@ impl EffectKeys for Updraught {
         problems
     }
 
+    fn keeps_numbers_per_sphere(&self) -> bool {
+        true
+    }
+
     fn fastest(&self, _: f64) -> f64 {
         self.speed.abs()
     }
@@ -117,13 +121,13 @@ impl EffectKeys for Updraught {
 
 /// Rice (2012), eq. 24: F_z = s exp(-beta (z - z0)) alpha^n drag(v_air - v_z), with n the number
 /// of lower spheres whose centre lies within 2r in |dx| and in |dy|. With a reference rotation
-/// Omega_0, s (Omega / Omega_0)^2 takes the place of s (eq. 44).
+/// Omega_0, s (Omega / Omega_0)^2 replaces s (eq. 44).
 struct UpdraughtForce<K> {
     parameters: Updraught,
     coefficients: Coefficients,
-    /// alpha^n for every n met so far.
+    /// alpha^n for n = 0, 1, 2, ... up to the largest n so far.
     powers: Vec<f64>,
-    /// alpha^n of every sphere, in whole blocks.
+    /// alpha^n of every sphere, padded to whole blocks.
     shield: Vec<f64>,
     kernel: PhantomData<K>,
 }

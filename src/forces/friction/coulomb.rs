@@ -24,7 +24,7 @@ impl Coulomb {
     /// Name of the law, as in a scene file.
     pub(crate) const NAME: &'static str = "coulomb";
 
-    /// The law in place of one with springs: regularised at a millimetre per second.
+    /// A simpler law in place of one with springs: regularised at a millimetre per second.
     pub(super) fn instead(coefficient: f64) -> Self {
         Self {
             coefficient,
@@ -56,8 +56,9 @@ impl<C> FrictionKeys<C> for Coulomb {
     }
 }
 
-/// f = -mu F_n u / max(|u|, u_0), with the sliding velocity u of the contact point (translation
-/// and spin). Below the regularisation speed u_0 it is viscous, so a pile at rest creeps.
+/// f = -mu F_n u / max(|u|, u_0), with the sliding velocity u of the contact point (by velocities and
+/// spins of both partners). Below the regularisation speed u_0 the force is viscous, so a pile at
+/// rest creeps.
 #[derive(Clone, Copy, Debug)]
 pub struct CoulombLaw {
     coefficient: f64,

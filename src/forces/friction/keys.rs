@@ -11,7 +11,7 @@ use serde_json::json;
 /// Tangential contact law.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "law", rename_all = "kebab-case")]
-#[expect(missing_docs, reason = "what a law is stands at its keys")]
+#[expect(missing_docs, reason = "documented at the structs")]
 pub enum Friction {
     Spin(Spin),
     Coulomb(Coulomb),
@@ -29,13 +29,18 @@ pub(crate) trait FrictionKeys<C> {
     /// The law for time steps of `dt` (s).
     fn law(&self, contact: &C, dt: f64) -> Self::Law;
 
-    /// Its limit of the time step, if it has one, by the [collisions](ContactKeys::collisions) of
-    /// the contact law.
-    fn limit(&self, _contact: &C, _meetings: &[Collision], _regime: &Regime<'_>) -> Option<Limit> {
+    /// Its limit of the time step, if it has one. `collisions` are those of the [contact
+    /// law](ContactKeys::collisions).
+    fn limit(
+        &self,
+        _contact: &C,
+        _collisions: &[Collision],
+        _regime: &Regime<'_>,
+    ) -> Option<Limit> {
         None
     }
 
-    /// A simpler law than this one, if there is one, besides none at all.
+    /// A simpler friction law, if there is one.
     fn simpler(&self, _contact: &C) -> Option<Coulomb> {
         None
     }
@@ -97,8 +102,8 @@ impl Friction {
         pairs.filter_map(move |(contact, friction)| (*contact == law).then_some(*friction))
     }
 
-    /// Simpler stand-ins for this law, each as a change of the scene's keys; `removed` is what goes
-    /// with it.
+    /// Simpler stand-ins for this law, each as a change of the scene's keys. `removed`: the table of
+    /// friction, and the tables that need it.
     pub(crate) fn simplifications(
         &self,
         contact: &Contact,

@@ -86,7 +86,7 @@ impl MindlinLaw {
 }
 
 impl TangentialLaw for MindlinLaw {
-    const WIDENS: bool = true;
+    const USES_CONTACT_RADIUS: bool = true;
     type History = Spring;
 
     #[inline(always)]

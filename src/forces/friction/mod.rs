@@ -41,13 +41,12 @@ pub struct Touch {
     pub lesser_mass: f64,
     /// m1 m2 / (m1 + m2) (kg), the mass of the one that moves where the other does not.
     pub effective_mass: f64,
-    /// The [contact radius](super::contact::contact_radius) (m), if a law asks for it.
+    /// The [contact radius](super::contact::contact_radius) (m), if a law uses it.
     pub contact_radius: f64,
-    /// Normal force (N), zero where partners attract each other or part faster than their
-    /// elasticity recovers: no tangential force acts then.
+    /// Normal force (N). Zero where partners attract each other or part faster than their elasticity
+    /// recovers; then no tangential force acts.
     pub normal_force: f64,
-    /// The mean sliding velocity since the contact's latest evaluation (m/s), by which springs are
-    /// loaded.
+    /// The mean sliding velocity since the last evaluation of this contact (m/s). It loads springs.
     pub loading_velocity: Vector,
     /// The mean [contact radius](super::contact::contact_radius) since then (m).
     pub loading_radius: f64,
@@ -74,7 +73,7 @@ impl Touch {
     }
 }
 
-/// The torque of a tangential force (N) on either partner, over its lever.
+/// The torque of a tangential force (N) on either partner, divided by its lever.
 #[inline(always)]
 pub(crate) fn arm(force: Vector, normal: Vector) -> Vector {
     force.cross(normal)
@@ -93,7 +92,7 @@ pub(crate) fn sliding_velocity(
     velocity.perpendicular_to(normal) - surface.cross(normal)
 }
 
-/// A contact as its sub-steps are chosen for it: where it is pressed most.
+/// A contact where it is pressed most: the numbers from which its sub-steps are chosen.
 #[derive(Clone, Copy, Debug)]
 pub struct Grip {
     /// Overlap (m).
@@ -108,7 +107,7 @@ pub struct Grip {
     pub speed: f64,
 }
 
-/// What a tangential law answers.
+/// Force and torques of a tangential law.
 #[derive(Clone, Copy, Debug)]
 pub struct Traction {
     /// Tangential force on this partner (N); the other gets the opposite.
@@ -165,22 +164,21 @@ impl History for Spring {
 pub trait TangentialLaw: Copy + Send + Sync + 'static {
     /// Whether spheres rotate, which costs spins and torques.
     const ROTATES: bool = true;
-    /// Whether the law asks for masses and moments of inertia; a [`Touch`] need not have them
-    /// otherwise.
+    /// Whether the law uses masses and moments of inertia. If not, a [`Touch`] need not have them.
     const WEIGHS: bool = false;
-    /// Whether the law asks for the [contact radius](super::contact::contact_radius).
-    const WIDENS: bool = false;
-    /// Whether the law asks for the effective mass; a [`Touch`] need not have it otherwise.
+    /// Whether the law uses the [contact radius](super::contact::contact_radius).
+    const USES_CONTACT_RADIUS: bool = false;
+    /// Whether the law uses the effective mass. If not, a [`Touch`] need not have it.
     const NEEDS_EFFECTIVE_MASS: bool = false;
     /// Whether a dashpot acts beside the spring of a law with history.
     const DRAGS: bool = false;
     /// What a contact remembers from step to step; `()` costs nothing. A checkpoint stores it.
     type History: History;
 
-    /// Traction at a contact over the coming step; none where the normal force is zero. Free of
-    /// branches, for a block of contacts at once. The spring lies [across the
-    /// normal](Spring::turned) when it comes; a law without history leaves it as it is, one with a
-    /// history need only say how it is [loaded](Self::load).
+    /// Traction at a contact over the coming step; zero where the normal force is zero. Free of
+    /// branches, for a block of contacts at once. The `spring` is already [across the
+    /// normal](Spring::turned). A law without history does not change it. A law with a history
+    /// implements [`load`](Self::load) instead.
     #[inline(always)]
     fn traction(&self, touch: &Touch, spring: &mut Spring) -> Traction {
         let loaded = self.load(touch, *spring);
@@ -196,7 +194,7 @@ pub trait TangentialLaw: Copy + Send + Sync + 'static {
         LoadedSpring::default()
     }
 
-    /// Energy (J) of what a contact remembers, at an overlap and effective radius (m).
+    /// Energy (J) stored in the history of a contact, at an overlap and effective radius (m).
     fn energy(&self, _history: &Self::History, _overlap: f64, _effective_radius: f64) -> f64 {
         0.0
     }

@@ -65,10 +65,10 @@ impl FrictionKeys<Silbert> for SilbertFriction {
 /// spheres).
 ///
 /// The spring is loaded by increments, df = -sqrt(R_eff xi) k_t du, and keeps its force, as
-/// Mindlin's does: a contact that holds still and is only pressed harder is not pulled aside
-/// harder. `gran/hertz/history` of LAMMPS keeps the displacement instead, so that there the force
-/// grows and shrinks with sqrt(xi); and it caps at mu |F_n| also where partners attract each other,
-/// where here no tangential force acts.
+/// Mindlin's does: if a contact at rest is only pressed harder, the tangential force does not grow.
+/// `gran/hertz/history` of LAMMPS keeps the displacement instead, so that there the force grows and
+/// shrinks with sqrt(xi); and it caps at mu |F_n| also where partners attract each other, where
+/// here no tangential force acts.
 #[derive(Clone, Copy, Debug)]
 pub struct SilbertFrictionLaw {
     coefficient: f64,
@@ -91,7 +91,7 @@ impl SilbertFrictionLaw {
 
 impl TangentialLaw for SilbertFrictionLaw {
     const NEEDS_EFFECTIVE_MASS: bool = true;
-    const WIDENS: bool = true;
+    const USES_CONTACT_RADIUS: bool = true;
     const DRAGS: bool = true;
     type History = Spring;
 

@@ -31,7 +31,7 @@ impl<C> FrictionKeys<C> for Spin {
 
 /// Rice (2012), eqs. 10 to 14: f_i = -mu m dv_s / dt and tau_i = -mu I_i dw / dt, with dv_s the
 /// difference of the surface velocities due to spin, dw the sum of the spins perpendicular to the
-/// normal, and m the smaller mass (all masses are equal in the thesis), without that of a fluid.
+/// normal, and m the smaller mass (all masses are equal in the thesis), without an added mass.
 ///
 /// An impulse per step: the law depends on the time step, knows no sliding and does not conserve
 /// angular momentum. It is kept because it is what the thesis ran.
@@ -57,7 +57,7 @@ impl TangentialLaw for SpinLaw {
     #[inline(always)]
     fn traction(&self, touch: &Touch, _: &mut Spring) -> Traction {
         let surface = touch.spin[0] * touch.lever[0] + touch.spin[1] * touch.lever[1];
-        // A select, not a branch: whether a force is clipped to zero is hard to foresee.
+        // A select, not a branch: whether a force is clipped to zero is hard to predict.
         let rate = if touch.normal_force > 0.0 {
             self.rate
         } else {

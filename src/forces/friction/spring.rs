@@ -16,8 +16,8 @@ pub struct Spring {
 const LEAST_PRODUCT: f64 = 1e-280;
 
 impl Spring {
-    /// The spring, of a stiffness (N/m), loaded by the sliding since the latest evaluation, df = -k
-    /// du, with what a dashpot beside it takes (N), before both are capped at `limit` (N).
+    /// The spring, of a stiffness k (N/m), loaded by the sliding since the last evaluation, df = -k
+    /// du, with the force `drag` (N) of a dashpot beside it, before both are capped at `limit` (N).
     #[inline(always)]
     pub(super) fn loaded(
         &self,
@@ -39,13 +39,13 @@ impl Spring {
         0.5 * self.force.norm_squared() / stiffness
     }
 
-    /// The same in the plane across `normal`: the plane turns with the pair, and the force with it,
-    /// its length kept.
+    /// The spring turned into the plane across `normal`: it turns with the pair, and keeps its
+    /// length.
     #[inline(always)]
     pub fn turned(&self, normal: Vector) -> Self {
         let turned = self.force.perpendicular_to(normal);
         let (before, after) = (self.force.norm_squared(), turned.norm_squared());
-        // One root for |before| / |after|; what is too small for it is no force.
+        // One root for |before| / |after|. Forces too small for it are set to zero.
         let product = before * after;
         let scale = before * inverse_square_root(product);
         let force = select(product > LEAST_PRODUCT, turned * scale, Vector::ZERO);
@@ -53,8 +53,8 @@ impl Spring {
     }
 }
 
-/// A spring before it is known how much of it friction carries. That takes a root, which many
-/// contacts find in a loop of its own.
+/// A loaded spring before it is capped by the limit of friction. The cap needs a root, which is
+/// computed in a separate loop over many contacts.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct LoadedSpring {
     /// Its force (N).
@@ -78,8 +78,8 @@ impl LoadedSpring {
         self.force().norm_squared()
     }
 
-    /// The tangential force (N), and the spring that is left: one that slides keeps the length with
-    /// which it would go on sticking from there (Luding, Granular Matter 10, 235 (2008), section
+    /// The tangential force (N), and the spring that remains: at a sliding contact it keeps the
+    /// length from which sticking would go on (Luding, Granular Matter 10, 235 (2008), section
     /// 2.3). Takes the square of the force (N2) and 1 / its root.
     #[inline(always)]
     pub(crate) fn capped(&self, squared: f64, inverse_root: f64) -> (Vector, Spring) {
@@ -93,7 +93,7 @@ impl LoadedSpring {
     }
 }
 
-/// The first where that is so, else the second.
+/// The first if `so`, else the second.
 #[inline(always)]
 fn select(so: bool, first: Vector, second: Vector) -> Vector {
     Vector::new(

@@ -6,10 +6,6 @@ mod neighbours;
 mod silo;
 
 pub use crate::forces::contact::{Contact, ContactDrag, Hertz, Linear, Silbert};
-pub use crate::forces::effects::{
-    AddedMass, Buoyancy, Drag, DragForm, DragLaw, Effects, Gravity, Magnus, SpinDamping, Swirl,
-    Updraught,
-};
 pub use crate::forces::friction::{
     Coulomb, CundallStrack, Friction, Mindlin, SilbertFriction, Spin,
 };
@@ -19,6 +15,7 @@ pub(crate) use silo::MOST_HOPPER_SPHERES;
 pub use silo::{Door, FixedSphere, FixedSpheres, Geometry, Hopper, LengthUnit, Outlet, Rest};
 
 use super::is_default;
+use crate::forces::effects::Effects;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

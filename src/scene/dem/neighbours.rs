@@ -23,8 +23,8 @@ pub enum Neighbours {
         #[schemars(transform = length("L", "side of a cell"))]
         length: f64,
     },
-    /// The same with the cells in a chained hash table, which takes memory for spheres alone
-    /// however far apart they are: for domains without bounds.
+    /// As `cells`, with the cells in a chained hash table. Its memory depends on the number of
+    /// spheres alone, not on their distances: for domains without bounds.
     HashedCells {
         /// Side L of a cell (m), at least the largest sum of the radii of two spheres that may
         /// touch.

@@ -85,7 +85,7 @@ pub enum LengthUnit {
 }
 
 impl LengthUnit {
-    /// How many of it make a metre, a whole number: dividing by it rounds once.
+    /// Number of these units in a metre. A whole number, so that a division by it rounds once.
     pub fn per_metre(self) -> f64 {
         match self {
             Self::Metre => 1.0,
@@ -132,7 +132,7 @@ impl Hopper {
         self.foot - (self.half_width - self.edge()) * libm::tan(self.slope)
     }
 
-    /// Number of fixed spheres that its lines ask for.
+    /// Number of fixed spheres on the lines of the hopper.
     pub(crate) fn count(&self) -> f64 {
         let [top, foot, edge, other_edge] = self.corners();
         let steps = |from, to| self.steps(from, to) + 1.0;
@@ -148,7 +148,7 @@ impl Hopper {
         [top, foot, [edge, outlet], [-edge, outlet]]
     }
 
-    /// The fixed spheres; none if they are too many, which no scene that was checked asks for.
+    /// The fixed spheres. Empty if there would be too many, which the check of a scene refuses.
     fn spheres(&self) -> FixedSpheres {
         if !(self.count() <= MOST_HOPPER_SPHERES) {
             return FixedSpheres::default();
@@ -186,7 +186,7 @@ impl Hopper {
 }
 
 impl Hopper {
-    /// Spacings between two points (x, z).
+    /// Number of spacings between two points (x, z).
     fn steps(&self, from: [f64; 2], to: [f64; 2]) -> f64 {
         let length = libm::hypot(to[0] - from[0], to[1] - from[1]);
         // A spacing that divides the length stays whole whatever the last digits say.

@@ -36,8 +36,8 @@ impl Scene {
     /// Finds keys that do not go together. Numbers must be in their ranges. Radii and starts that
     /// are still the names of files are not looked into.
     ///
-    /// What the engine has to tell is not among it: whether the time step is stable, and whether a
-    /// random start finds room.
+    /// The engine checks two things later: whether the time step is stable, and whether a random
+    /// start finds room.
     pub(crate) fn check_relations(&self, problems: &mut Vec<Problem>) {
         self.check_laws(problems);
         self.check_spheres(problems);
@@ -50,7 +50,7 @@ impl Scene {
     }
 
     fn check_laws(&self, problems: &mut Vec<Problem>) {
-        problems.extend(self.dem.effects.problems(self.dem.friction.is_some()));
+        problems.extend(self.dem.effects.problems(&self.facts()));
         if self.dem.friction.is_some() && self.dem.contact.is_none() {
             let message = "[friction] acts at contacts, but there is no [contact]";
             let help = "add [contact] with `law = \"hertz\"`, or remove [friction]";

@@ -1,4 +1,4 @@
-//! Whether what a scene wants to be stored can be held in memory.
+//! Checks whether the output of a scene fits into memory.
 
 use super::rounded;
 use crate::document::{Problem, number};

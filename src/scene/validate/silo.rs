@@ -1,10 +1,10 @@
-//! Whether geometry, feed, door, rest and outlet of a scene go together.
+//! Checks whether geometry, feed, door, rest and outlet of a scene go together.
 
 use super::rounded;
 use crate::document::{Problem, number};
 use crate::scene::{Friction, Geometry, Hopper, MOST_HOPPER_SPHERES, Scene, Shape, Start};
 
-/// Least time for which spheres must be slow to be at rest (s): two looks at them.
+/// Shortest `rest.hold` (s): the spheres are looked at twice in this time.
 const LEAST_HOLD: f64 = 0.02;
 
 impl Scene {
@@ -18,8 +18,8 @@ impl Scene {
         self.check_comings_and_goings(problems);
     }
 
-    /// Whether spheres come or go while the scene runs. If so, a sphere that is not in has no
-    /// numbers (NaN) in snapshots.
+    /// Whether spheres come or go during the run. If so, snapshots hold NaN for a sphere that is not
+    /// in.
     pub fn has_flow(&self) -> bool {
         matches!(self.start, Start::Feed { .. })
             || self.dem.door.is_some()
@@ -27,7 +27,7 @@ impl Scene {
             || self.dem.outlet.is_some()
     }
 
-    /// Discs stay in their plane only if nothing pushes them out of it.
+    /// Refuses what would push discs out of their plane.
     fn check_discs(&self, problems: &mut Vec<Problem>) {
         if self.spheres.shape != Shape::Disc {
             return;
@@ -235,27 +235,21 @@ impl Scene {
         }
     }
 
-    /// Effects that keep numbers per sphere cannot have spheres come and go.
+    /// Effects that keep numbers per sphere do not go with spheres that come or go.
     fn check_comings_and_goings(&self, problems: &mut Vec<Problem>) {
         if !self.has_flow() {
             return;
         }
-        for (name, present) in [
-            ("swirl", self.dem.effects.swirl.is_some()),
-            ("updraught", self.dem.effects.updraught.is_some()),
-        ] {
-            if present {
-                let message = format!("[{name}] does not go with spheres that come or go");
-                let help = format!(
-                    "remove [{name}], or the feed, [door], [rest] and [outlet] of the scene"
-                );
-                problems.push(Problem::new(name, message).help(help));
-            }
+        for name in self.dem.effects.with_numbers_per_sphere() {
+            let message = format!("[{name}] does not go with spheres that come or go");
+            let help =
+                format!("remove [{name}], or the feed, [door], [rest] and [outlet] of the scene");
+            problems.push(Problem::new(name, message).help(help));
         }
     }
 }
 
-/// A problem: something would happen when the run is over.
+/// The problem of an event after the end of the run.
 fn too_late(key: &str, time: f64, what: &str, scene: &Scene) -> Problem {
     let message = format!(
         "{what} at {} s, but the run ends at `time.duration` = {} s",

@@ -13,7 +13,7 @@ use crate::store::atomic::write_one_of_many;
 use std::fmt::Write;
 use std::path::Path;
 
-/// White around what is seen, over its size.
+/// Width of the white margin over the size of the scene.
 const MARGIN: f64 = 0.02;
 /// Larger side of a picture (pixels), before the reader makes it larger.
 const SIDE: f64 = 960.0;

@@ -41,8 +41,7 @@ const FORMAT: &str = "phase run record";
 /// observable, say) or older programs cannot read its own.
 const FORMAT_VERSION: u64 = 3;
 
-/// Most spheres that stand in the text of a scene, of which a reader makes several hundred bytes
-/// for each.
+/// Most spheres that the text of a scene lists. A reader needs several hundred bytes for each.
 const MOST_IN_TEXT: usize = 1000;
 
 /// What a record says of its run besides what was measured.

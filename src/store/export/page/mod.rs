@@ -142,7 +142,7 @@ fn quantum(length: f64) -> f64 {
     format!("1e{power}").parse().unwrap_or(length)
 }
 
-/// A text with `{{name}}` replaced; what takes its place is not looked through again.
+/// A text with `{{name}}` replaced. Replacements are not searched for names.
 fn filled(template: &str, values: &[(&str, &str)]) -> String {
     let mut text = String::new();
     let mut rest = template;
