@@ -96,8 +96,8 @@ impl Change {
             .iter()
             .rev()
             .find(|(path, _)| is_within(key, path))?;
-        let rest = key[path.len()..].split('.').filter(|part| !part.is_empty());
-        rest.fold(Some(value), |value, part| value?.get(part))
+        let mut rest = key[path.len()..].split('.').filter(|part| !part.is_empty());
+        rest.try_fold(value, |value, part| value.get(part))
     }
 
     /// Changes the tree of a scene.
@@ -152,8 +152,8 @@ fn place<'a>(tree: &'a mut Value, path: &str) -> Option<&'a mut Value> {
 
 fn remove(tree: &mut Value, path: &str) {
     let (table, name) = path.rsplit_once('.').unwrap_or(("", path));
-    let parts = table.split('.').filter(|part| !part.is_empty());
-    let table = parts.fold(Some(tree), |place, part| place?.get_mut(part));
+    let mut parts = table.split('.').filter(|part| !part.is_empty());
+    let table = parts.try_fold(tree, |place, part| place.get_mut(part));
     if let Some(Value::Object(table)) = table {
         table.remove(name);
     }
@@ -167,7 +167,7 @@ fn merge(old: &mut Value, new: &Value) {
         return;
     };
     let is_other = |tag: &&str| keys.get(*tag).is_some_and(|it| table.get(*tag) != Some(it));
-    if TAGS.iter().any(|tag| is_other(&tag)) {
+    if TAGS.iter().any(is_other) {
         *old = new.clone();
         return;
     }

@@ -97,7 +97,6 @@ impl Scene {
         SceneFacts {
             density: self.spheres.density,
             rotates: self.dem.friction.is_some(),
-            cylinder: self.tank.as_ref().and_then(|tank| tank.radius),
         }
     }
 

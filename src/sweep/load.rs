@@ -6,7 +6,7 @@ use super::{Axis, PlotSettings, Sweep};
 use crate::classify::{ClassifyError, Family, Sieves};
 use crate::document::{Document, LoadError, Problem, Schema, one_of, suggest};
 use crate::run::{self, Reading};
-use crate::scene::{FileKind, LARGEST_SEED, Scene};
+use crate::scene::{Accuracy, FileKind, LARGEST_SEED, Scene};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -83,10 +83,11 @@ pub fn from_str(text: &str, path: &Path) -> Result<Sweep, LoadError> {
 
 pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     FileKind::Sweep.expect(document)?;
-    let mut problems = Vec::new();
-    SWEEP.kind.check(document.tree(), "", &mut problems);
+    let mut tree = document.tree().clone();
+    let mut problems = Accuracy::choose_settings_of_file(&mut tree);
+    SWEEP.kind.check(&tree, "", &mut problems);
     document.accept(&problems)?;
-    let file = SweepFile::deserialize(document.tree())
+    let file = SweepFile::deserialize(&tree)
         .map_err(|error| document.refuse(&[Problem::new("", format!("not a sweep: {error}"))]))?;
     let mut scene = base_scene(&file.scene, document, Reading::RUN)?;
     let axes = expand_axes(&file.axis, &scene, &mut problems);

@@ -30,6 +30,8 @@ fn digest(path: &str) -> String {
     let frames = (steps / scene.time.steps_per_frame() as f64)
         .clamp(1.0, 200.0)
         .floor();
+    // Grains come in one by one.
+    let frames = if scene.has_flow() { 400.0 } else { frames };
     if frames < scene.time.frames() as f64 {
         scene.time.duration = frames * scene.time.frame_interval;
     }

@@ -120,7 +120,9 @@ fn runs_that_are_there_are_not_made_again() {
         "work-precision.svg",
     ] {
         assert!(
-            place.path(&format!("results/accuracy/study/{file}")).is_file(),
+            place
+                .path(&format!("results/accuracy/study/{file}"))
+                .is_file(),
             "{file}"
         );
     }

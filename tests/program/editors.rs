@@ -344,7 +344,7 @@ fn a_study_of_stability_answers_in_json() {
         &format!("study = \"stability\"\nscene = \"scene.toml\"\n{axes}"),
     );
     let study = answer(&place, &["stability", "study.toml"], 0);
-    assert_eq!(study["folder"], "results/study");
+    assert_eq!(study["folder"], "results/stability/study");
     assert_eq!(
         (&study["runs"], &study["run_now"]),
         (&16.into(), &16.into())

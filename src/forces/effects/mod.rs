@@ -104,12 +104,6 @@ pub(crate) struct SceneFacts {
     pub(crate) density: f64,
     /// Whether spheres have spins.
     pub(crate) rotates: bool,
-    /// Radius of the tank's cylindrical wall (m), if it has one.
-    #[allow(
-        dead_code,
-        reason = "for effects of the wall, of which there is none yet"
-    )]
-    pub(crate) cylinder: Option<f64>,
 }
 
 /// What an effect is built for.
@@ -381,7 +375,6 @@ mod tests {
             scene: SceneFacts {
                 density: 1.0,
                 rotates: true,
-                cylinder: Some(1.0),
             },
         });
         let particles = Particles::default();

@@ -66,6 +66,9 @@ pub enum AblationError {
     /// A point cannot be run.
     #[error(transparent)]
     Point(#[from] PointError),
+    /// The scene as it is cannot be labelled.
+    #[error("the scene as it is cannot be compared: {0}")]
+    AsItIs(String),
     /// The scene has nothing to take away.
     #[error("{0}: the scene has no effect that can be switched off")]
     NothingToAblate(String),
@@ -100,9 +103,13 @@ impl Ablation {
     }
 
     fn new(base: Base, changes: Vec<(String, Change)>) -> Result<Self, AblationError> {
-        let as_it_is = ("as it is".to_owned(), Change::default());
-        let (mut settings, mut skipped) = (Vec::new(), Vec::new());
-        for (name, change) in std::iter::once(as_it_is).chain(changes) {
+        let as_it_is = Setting::new(&base, "as it is".to_owned(), Change::default());
+        let as_it_is = as_it_is.map_err(|problems| {
+            let problems: Vec<String> = problems.iter().map(Problem::to_string).collect();
+            AblationError::AsItIs(problems.join("; "))
+        })?;
+        let (mut settings, mut skipped) = (vec![as_it_is], Vec::new());
+        for (name, change) in changes {
             match Setting::new(&base, name.clone(), change) {
                 Ok(setting) => settings.push(setting),
                 Err(problems) => {

@@ -281,7 +281,9 @@ fn orders(outcomes: &[Outcome], reference: Option<usize>, time: Option<usize>) -
         // Errors fall with a time step, and with the inverse of a number of steps.
         let falls = points.first()?.1 > points.last()?.1;
         let step = |value: f64| if falls { 1.0 / value } else { value };
-        points.iter_mut().for_each(|point| point.0 = step(point.0));
+        for point in &mut points {
+            point.0 = step(point.0);
+        }
         let (order, misfit) = fitted_order(&points, reference.map(step))?;
         Some(MethodOrder {
             method: method.to_owned(),

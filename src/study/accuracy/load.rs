@@ -5,7 +5,7 @@ use super::file::{ACCURACY, AccuracyFile, Changes};
 use super::{AccuracyStudy, Subject, cases};
 use crate::document::{Document, LoadError, Problem, number};
 use crate::run;
-use crate::scene::{Change, FileKind, Scene, Start, StartSphere};
+use crate::scene::{Accuracy, Change, FileKind, Scene, Start, StartSphere};
 use crate::simulation::{BuildError, Snapshot};
 use crate::study::StudyName;
 use crate::study::comparison::{Base, Comparison, Measurement, Setting};
@@ -40,10 +40,11 @@ pub fn from_str(text: &str, path: &Path) -> Result<AccuracyStudy, LoadError> {
 pub(crate) fn of_document(document: &Document) -> Result<AccuracyStudy, LoadError> {
     FileKind::Study.expect(document)?;
     StudyName::Accuracy.expect(document)?;
-    let mut problems = Vec::new();
-    ACCURACY.kind.check(document.tree(), "", &mut problems);
+    let mut tree = document.tree().clone();
+    let mut problems = Accuracy::choose_settings_of_file(&mut tree);
+    ACCURACY.kind.check(&tree, "", &mut problems);
     document.accept(&problems)?;
-    let file = AccuracyFile::deserialize(document.tree())
+    let file = AccuracyFile::deserialize(&tree)
         .map_err(|error| document.refuse(&[Problem::new("", format!("not a study: {error}"))]))?;
     let choices = choices(&file.ladder, &file.variant, file.combine)
         .map_err(|problems| document.refuse(&problems))?;

@@ -30,6 +30,9 @@ pub struct PointDisagreement {
     pub floor: f64,
 }
 
+/// What labels of a point, of the setting and of the reference, give with these weights of seeds.
+type OfPoint<'a> = &'a dyn Fn(&[Vec<Label>; 2], &[f64]) -> f64;
+
 impl Disagreement {
     /// Compares the labels of a setting with those of a reference. `purpose` names the stream of
     /// random numbers for the intervals. None with fewer than two seeds everywhere.
@@ -40,7 +43,7 @@ impl Disagreement {
             return None;
         }
         let seeds: Vec<usize> = compared.iter().map(|[own, _]| own.len()).collect();
-        let mean = |weights: &Weights, of_point: &dyn Fn(&[Vec<Label>; 2], &[f64]) -> f64| {
+        let mean = |weights: &Weights, of_point: OfPoint<'_>| {
             let points = compared.iter().zip(&weights.points);
             let sum: f64 = points
                 .map(|(labels, weights)| of_point(labels, weights))
@@ -50,7 +53,7 @@ impl Disagreement {
         let chance = |[own, other]: &[Vec<Label>; 2], weights: &[f64]| chance(own, other, weights);
         let floor =
             |[_, other]: &[Vec<Label>; 2], weights: &[f64]| self::chance(other, other, weights);
-        let estimate = |purpose: &str, of_point: &dyn Fn(&[Vec<Label>; 2], &[f64]) -> f64| {
+        let estimate = |purpose: &str, of_point: OfPoint<'_>| {
             interval(&seeds, purpose, |weights| mean(weights, of_point))
         };
         let bound = bound_of_never(seeds.iter().sum());

@@ -57,10 +57,10 @@ impl<'a> Sample<'a> {
 
     /// The same for the values of a quantity: seeds count of which both runs have one.
     pub(super) fn values_with(&self, other: &Self, quantity: usize) -> Vec<[Vec<f64>; 2]> {
-        let value = |run: &Option<&RunRow>| *run.as_ref()?.values.get(quantity)?;
+        let value = |run: Option<&RunRow>| *run?.values.get(quantity)?;
         let of_point = |(own, other): (&Vec<Option<&RunRow>>, &Vec<Option<&RunRow>>)| {
             let pairs = own.iter().zip(other);
-            let pairs = pairs.filter_map(|(own, other)| Some((value(own)?, value(other)?)));
+            let pairs = pairs.filter_map(|(own, other)| Some((value(*own)?, value(*other)?)));
             let (own, other) = pairs.unzip();
             [own, other]
         };

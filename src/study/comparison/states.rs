@@ -57,11 +57,8 @@ impl States {
 
     /// The order parameter that is shifted most, for which the lower end of the interval counts.
     pub fn largest_shift(&self) -> Option<(&str, &Shift)> {
-        let known = self
-            .shifts
-            .iter()
-            .filter_map(|it| Some((it.quantity.as_str(), &it.shift)));
-        let known = known.filter_map(|(name, shift)| Some((name, shift.as_ref()?)));
+        let shifts = self.shifts.iter();
+        let known = shifts.filter_map(|it| Some((it.quantity.as_str(), it.shift.as_ref()?)));
         known.max_by(|(_, one), (_, other)| {
             let low = |it: &Shift| it.root_mean_square.low;
             low(one).total_cmp(&low(other))

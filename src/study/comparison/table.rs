@@ -111,25 +111,22 @@ pub fn read_runs(comparison: &Comparison, path: &Path) -> Result<Vec<RunRow>, St
     for row in table.records() {
         let row = row.map_err(fail)?;
         let line = row.position().map_or(1, csv::Position::line);
-        let parsed = parse(&row, axes.len(), quantities.len(), &measured).ok_or_else(|| {
+        let (row, how) = parse(&row, axes.len(), quantities.len()).ok_or_else(|| {
             StoreError::text(
                 path,
                 line,
                 "this is no row of a comparison; delete the file",
             )
         })?;
-        rows.extend(parsed.filter(|row| known.insert(row.id.clone())));
+        if how == measured && known.insert(row.id.clone()) {
+            rows.push(row);
+        }
     }
     Ok(rows)
 }
 
-/// The row of a line, if it was measured in the same way; none if it is no row.
-fn parse(
-    line: &csv::StringRecord,
-    axes: usize,
-    quantities: usize,
-    measured: &str,
-) -> Option<Option<RunRow>> {
+/// The row of a line, and how it was measured; none if it is no row.
+fn parse(line: &csv::StringRecord, axes: usize, quantities: usize) -> Option<(RunRow, String)> {
     let cells: Vec<&str> = line.iter().skip(1 + axes).collect();
     let (_seed, label) = (cells.first()?.parse::<u64>().ok()?, cells.get(1)?);
     let mut labels = FAMILIES.into_iter();
@@ -153,5 +150,5 @@ fn parse(
         force_evaluations: evaluations.parse().ok()?,
         cpu_seconds: cpu_seconds.parse().ok()?,
     };
-    Some((*how == measured).then_some(row))
+    Some((row, (*how).to_owned()))
 }

@@ -3,7 +3,7 @@
 use super::{Study, fit_frames, output};
 use crate::document::{Document, LoadError, Problem, Schema, unit};
 use crate::run::Reading;
-use crate::scene::{FileKind, Integrator, Scene};
+use crate::scene::{Accuracy, FileKind, Integrator, Scene};
 use crate::study::StudyName;
 use crate::sweep::{
     Axis, AxisEntry, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes,
@@ -117,10 +117,11 @@ pub fn from_str(text: &str, path: &Path) -> Result<Study, LoadError> {
 pub(crate) fn of_document(document: &Document) -> Result<Study, LoadError> {
     FileKind::Study.expect(document)?;
     StudyName::Stability.expect(document)?;
-    let mut problems = Vec::new();
-    STUDY.kind.check(document.tree(), "", &mut problems);
+    let mut tree = document.tree().clone();
+    let mut problems = Accuracy::choose_settings_of_file(&mut tree);
+    STUDY.kind.check(&tree, "", &mut problems);
     document.accept(&problems)?;
-    let file = StudyFile::deserialize(document.tree())
+    let file = StudyFile::deserialize(&tree)
         .map_err(|error| document.refuse(&[Problem::new("", format!("not a study: {error}"))]))?;
     let mut scene = base_scene(&file.scene, document, READING)?;
     let axes = expand_axes(&file.axis, &scene, &mut problems);
