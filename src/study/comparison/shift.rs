@@ -8,8 +8,8 @@ use serde::Serialize;
 /// How far an order parameter is shifted.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Shift {
-    /// Its spread over seeds: root mean square over points of the standard deviation over seeds of
-    /// the reference, in the unit of the quantity.
+    /// Its spread over seeds: root mean square over points of the standard deviations over seeds of
+    /// setting and reference, in the unit of the quantity.
     pub spread: f64,
     /// Mean over points of the difference of the means over seeds, in units of the spread.
     pub mean: Interval,
@@ -20,8 +20,8 @@ pub struct Shift {
 
 impl Shift {
     /// Compares a quantity, by its place, with that of a reference. `purpose` names the stream of
-    /// random numbers for the intervals. None with fewer than two seeds everywhere, or where the
-    /// reference has no spread.
+    /// random numbers for the intervals. None with fewer than two seeds everywhere, or where neither
+    /// has a spread.
     pub fn of(
         sample: &Sample<'_>,
         reference: &Sample<'_>,
@@ -32,7 +32,11 @@ impl Shift {
         let compared: Vec<&[Vec<f64>; 2]> =
             values.iter().filter(|[own, _]| own.len() > 1).collect();
         let count = compared.len() as f64;
-        let variances = compared.iter().map(|[_, reference]| variance(reference));
+        // Of both: one run of the setting that goes astray would else count as many spreads of a
+        // reference whose seeds hardly differ.
+        let variances = compared
+            .iter()
+            .map(|[own, reference]| 0.5 * (variance(own) + variance(reference)));
         let spread = (variances.sum::<f64>() / count).sqrt();
         if !(spread > 0.0 && spread.is_finite()) {
             return None;

@@ -17,7 +17,7 @@ pub struct States {
 pub struct ShiftOf {
     /// The order parameter.
     pub quantity: String,
-    /// Its shift; none where the reference has no spread.
+    /// Its shift; none where there is no spread.
     pub shift: Option<Shift>,
 }
 
