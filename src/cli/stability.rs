@@ -64,7 +64,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         cpu_seconds: report.cpu_seconds,
     };
     tally.print(&study.axes, console);
-    tried.iter().for_each(|tried| console.result(tried.line()));
+    for tried in &tried {
+        console.result(tried.line());
+    }
     let interrupted = place.is_interrupted(report.left);
     console.file(&table);
     if !interrupted && !options.no_plot {

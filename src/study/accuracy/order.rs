@@ -62,14 +62,14 @@ mod tests {
     fn orders_of_known_errors_are_found() {
         for order in [1.0, 2.0, 4.0] {
             let steps = [1e-3, 5e-4, 2.5e-4];
-            let plain = steps.map(|step: f64| (step, 7.0 * step.powf(order)));
+            let plain = steps.map(|step: f64| (step, 7.0 * libm::pow(step, order)));
             let found = fitted_order(&plain, None).unwrap();
             assert!(
                 (found.0 - order).abs() < 1e-6 && found.1 < 1e-6,
                 "{found:?}"
             );
             let finest = 1.25e-4_f64;
-            let error = |step: f64| 7.0 * (step.powf(order) - finest.powf(order));
+            let error = |step: f64| 7.0 * (libm::pow(step, order) - libm::pow(finest, order));
             let relative = steps.map(|step| (step, error(step)));
             let found = fitted_order(&relative, Some(finest)).unwrap();
             assert!(

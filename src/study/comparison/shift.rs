@@ -20,8 +20,8 @@ pub struct Shift {
 
 impl Shift {
     /// Compares a quantity, by its place, with that of a reference. `purpose` names the stream of
-    /// random numbers for the intervals. None with fewer than two seeds everywhere, or where neither
-    /// has a spread.
+    /// random numbers for the intervals. None with fewer than two seeds everywhere, where neither has
+    /// a spread, or where fewer than half of the runs have the quantity.
     pub fn of(
         sample: &Sample<'_>,
         reference: &Sample<'_>,
@@ -29,6 +29,11 @@ impl Shift {
         purpose: &str,
     ) -> Option<Self> {
         let values = sample.values_with(reference, quantity);
+        let pairs: usize = values.iter().map(|[own, _]| own.len()).sum();
+        let all: usize = sample.points.iter().map(Vec::len).sum();
+        if 2 * pairs < all {
+            return None;
+        }
         let compared: Vec<&[Vec<f64>; 2]> =
             values.iter().filter(|[own, _]| own.len() > 1).collect();
         let count = compared.len() as f64;

@@ -17,7 +17,7 @@ pub struct States {
 pub struct ShiftOf {
     /// The order parameter.
     pub quantity: String,
-    /// Its shift; none where there is no spread.
+    /// Its shift; none where there is no spread, or few runs have the quantity.
     pub shift: Option<Shift>,
 }
 
