@@ -57,7 +57,7 @@ impl Accuracy {
             },
             Self::Reference => Settings {
                 integrator: "synchronised-verlet",
-                safety_factor: 0.1,
+                safety_factor: 0.2,
                 frames_per_fall: 20.0,
             },
         }

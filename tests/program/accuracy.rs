@@ -113,6 +113,14 @@ fn runs_that_are_there_are_not_made_again() {
     );
     let errors = |it: &Value| it["evaluation"]["outcomes"][2]["errors"].clone();
     assert_eq!(errors(&first), errors(&again));
+    // A study that was killed left the rows so far: the others are made, to the same errors.
+    let table = place.read("results/accuracy/study/runs.csv");
+    let kept: Vec<&str> = table.lines().take(3).collect();
+    place.write("results/accuracy/study/runs.csv", &(kept.join("\n") + "\n"));
+    let rest = place.phase(&["accuracy", "study.toml", "--json"]).code(0).stdout;
+    let rest: Value = serde_json::from_str(&rest).unwrap();
+    assert_eq!((&rest["done_before"], &rest["run_now"]), (&2.into(), &3.into()));
+    assert_eq!(errors(&first), errors(&rest));
     for file in [
         "runs.csv",
         "accuracy.csv",
