@@ -17,7 +17,14 @@ pub fn simplifications(scene: &Scene) -> Vec<Simplification> {
     let rotates = scene.dem.friction.is_some();
     let mut all = effects.simplifications(rotates, &mean);
     if let (Some(contact), Some(friction)) = (&scene.dem.contact, &scene.dem.friction) {
+        let rolling = scene.dem.rolling.iter().map(|_| "rolling");
+        all.extend(rolling.clone().map(|table| Simplification {
+            name: "rolling resistance off".to_owned(),
+            set: Vec::new(),
+            remove: vec![table],
+        }));
         let mut removed = vec!["friction"];
+        removed.extend(rolling);
         // What acts on spins has none without friction.
         removed.extend(effects.removed_with(None, false));
         all.extend(friction.simplifications(contact, removed));
@@ -90,6 +97,7 @@ mod tests {
             "updraught off",
             "magnus off",
             "spin damping off",
+            "rolling resistance off",
             "coulomb friction to none",
             "restitution to elastic",
         ];
@@ -108,7 +116,7 @@ mod tests {
         assert_eq!(removed("gravity off"), ["buoyancy", "gravity"]);
         assert_eq!(removed("drag off"), ["drag", "swirl", "updraught"]);
         let friction = removed("coulomb friction to none");
-        assert_eq!(friction, ["friction", "magnus", "spin_damping"]);
+        assert_eq!(friction, ["friction", "rolling", "magnus", "spin_damping"]);
         assert_eq!(removed("swirl off"), ["swirl", "updraught.reference_omega"]);
         let swirl_off = all.iter().find(|it| it.name == "swirl off").unwrap();
         let still = scene.simplified(swirl_off).unwrap();

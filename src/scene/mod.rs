@@ -31,7 +31,7 @@ pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
     AddedMass, Buoyancy, Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Drag,
     DragForm, DragLaw, Effects, FixedSphere, FixedSpheres, Friction, Geometry, Gravity, Guards,
-    Hertz, Hopper, LengthUnit, Linear, Magnus, Mindlin, Neighbours, Outlet, Rest, Silbert,
+    Hertz, Hopper, LengthUnit, Linear, Magnus, Mindlin, Neighbours, Outlet, Rest, Rolling, Silbert,
     SilbertFriction, Spin, SpinDamping, Swirl, Updraught,
 };
 pub use file_kind::FileKind;

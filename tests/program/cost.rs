@@ -62,7 +62,7 @@ fn what_a_scene_does_not_have_costs_nothing() {
     let whole = RunCost::measure(&realistic(0.4), LONG).unwrap();
     for part in Part::all() {
         let absent = matches!(part, Part::Ledger | Part::Process | Part::Sides)
-            || ["buoyancy", "Magnus lift"].contains(&part.name());
+            || ["buoyancy", "Magnus lift", "rolling resistance"].contains(&part.name());
         assert_eq!(part.is_in(&whole.record.scene), !absent, "{part:?}");
         assert_eq!(whole.seconds(part.name()) == 0.0, absent, "{part:?}");
     }
@@ -75,6 +75,7 @@ fn what_a_scene_does_not_have_costs_nothing() {
     let absent = [
         "buoyancy",
         "Magnus lift",
+        "rolling resistance",
         "updraught",
         "counting shield",
         "spin damping",
