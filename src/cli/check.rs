@@ -152,6 +152,7 @@ fn effects(scene: &Scene) -> Vec<String> {
         .map(|contact| format!("contact ({})", contact.law()))
         .chain(friction.map(|friction| format!("friction ({})", friction.law())));
     let others = [
+        (scene.dem.rolling.is_some(), "rolling resistance"),
         (scene.dem.effects.added_mass.is_some(), "added mass"),
         (tank.is_some_and(|tank| tank.radius.is_some()), "cylinder"),
         (tank.is_some_and(Tank::has_sides), "sides"),

@@ -24,6 +24,11 @@ pub(super) fn engine(
     ) -> Box<dyn Engine> {
         Box::new(System::new(normal, tangential, setup, particles))
     }
+    let friction = scene.dem.friction.as_ref();
+    let slides = friction.is_some_and(|it| !matches!(it, Friction::Spin(_)));
+    if scene.dem.rolling.is_some() && !slides {
+        return Err(BuildError::RollingWithoutFriction);
+    }
     let dt = scene.time.dt;
     let spheres = (setup, particles);
     let radius = scene.spheres.radius.mean();

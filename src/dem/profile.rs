@@ -20,6 +20,8 @@ pub enum Part {
     Cylinder,
     /// Forces of the sides: contact and friction.
     Sides,
+    /// Rolling resistance of all contacts.
+    Rolling,
     /// Counting the spheres that shield one another from the updraught.
     Shield,
     /// An effect on single spheres, by its place among [`Effects::all_names`].
@@ -47,6 +49,7 @@ impl Part {
             Self::Floor,
             Self::Cylinder,
             Self::Sides,
+            Self::Rolling,
             Self::Shield,
         ];
         let last = [
@@ -69,13 +72,14 @@ impl Part {
             Self::Floor => 3,
             Self::Cylinder => 4,
             Self::Sides => 5,
-            Self::Shield => 6,
-            Self::Effect(place) => 7 + place,
-            Self::Ledger => 7 + Effects::COUNT,
-            Self::Kick => 8 + Effects::COUNT,
-            Self::Drift => 9 + Effects::COUNT,
-            Self::Rest => 10 + Effects::COUNT,
-            Self::Process => 11 + Effects::COUNT,
+            Self::Rolling => 6,
+            Self::Shield => 7,
+            Self::Effect(place) => 8 + place,
+            Self::Ledger => 8 + Effects::COUNT,
+            Self::Kick => 9 + Effects::COUNT,
+            Self::Drift => 10 + Effects::COUNT,
+            Self::Rest => 11 + Effects::COUNT,
+            Self::Process => 12 + Effects::COUNT,
         }
     }
 
@@ -88,6 +92,7 @@ impl Part {
             Self::Floor => "floor",
             Self::Cylinder => "cylinder",
             Self::Sides => "sides",
+            Self::Rolling => "rolling resistance",
             Self::Shield => "counting shield",
             Self::Effect(place) => Effects::all_names().nth(place).unwrap_or(""),
             Self::Ledger => "energy ledger",
@@ -109,6 +114,7 @@ impl Part {
             Self::Floor => wall(tank.is_some_and(|tank| tank.floor.is_some())),
             Self::Cylinder => wall(tank.is_some_and(|tank| tank.radius.is_some())),
             Self::Sides => wall(tank.is_some_and(Tank::has_sides)),
+            Self::Rolling => scene.dem.rolling.is_some(),
             Self::Shield => scene.dem.effects.updraught.is_some(),
             Self::Effect(_) => scene.dem.effects.names().any(|name| name == self.name()),
             Self::Ledger => scene.output.ledger,

@@ -18,7 +18,14 @@ pub fn simplifications(scene: &Scene) -> Vec<Simplification> {
     let facts = scene.facts();
     let mut all = effects.simplifications(&facts, &mean);
     if let (Some(contact), Some(friction)) = (&scene.dem.contact, &scene.dem.friction) {
+        let rolling = scene.dem.rolling.iter().map(|_| "rolling");
+        all.extend(rolling.clone().map(|table| Simplification {
+            name: "rolling resistance off".to_owned(),
+            set: Vec::new(),
+            remove: vec![table],
+        }));
         let mut removed = vec!["friction"];
+        removed.extend(rolling);
         // Without friction there are no spins, nor effects that need them.
         let without_spins = SceneFacts {
             rotates: false,
@@ -95,6 +102,7 @@ mod tests {
             "updraught off",
             "magnus off",
             "spin damping off",
+            "rolling resistance off",
             "coulomb friction to none",
             "restitution to elastic",
         ];
@@ -113,7 +121,7 @@ mod tests {
         assert_eq!(removed("gravity off"), ["buoyancy", "gravity"]);
         assert_eq!(removed("drag off"), ["drag", "swirl", "updraught"]);
         let friction = removed("coulomb friction to none");
-        assert_eq!(friction, ["friction", "magnus", "spin_damping"]);
+        assert_eq!(friction, ["friction", "rolling", "magnus", "spin_damping"]);
         assert_eq!(removed("swirl off"), ["swirl", "updraught.reference_omega"]);
         let swirl_off = all.iter().find(|it| it.name == "swirl off").unwrap();
         let still = scene.simplified(swirl_off).unwrap();

@@ -13,7 +13,7 @@ use crate::cpu_time;
 use crate::forces::effects::Targets;
 use crate::particles::vector::Vector;
 use crate::particles::{Particles, Sphere};
-use crate::scene::{Neighbours, Scene, Start};
+use crate::scene::{Neighbours, Rolling, Scene, Start};
 use crate::simulation::{Counts, Instability, Milestone};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
@@ -29,6 +29,9 @@ pub enum BuildError {
     /// The friction law is made for another contact law.
     #[error("this friction law does not go with this contact law")]
     LawsDoNotGoTogether,
+    /// There is rolling resistance beside no friction, or beside one that knows no sliding.
+    #[error("rolling resistance needs a friction law that knows sliding")]
+    RollingWithoutFriction,
 }
 
 /// First skin of a neighbour list for contacts, in radii of the largest sphere. The list then holds
@@ -255,6 +258,7 @@ fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
             scene: scene.facts(),
         }),
         shielded: scene.dem.effects.updraught.is_some(),
+        rolling: scene.dem.rolling.as_ref().map(Rolling::law),
         limits: Limits::new(scene, particles),
         dt: scene.time.dt,
         integrator: scene.time.integrator,

@@ -1,6 +1,6 @@
 //! The identity of a run: a hash of everything that determines its motion.
 
-use super::{Contact, Door, Friction, Geometry, Outlet, Rest};
+use super::{Contact, Door, Friction, Geometry, Outlet, Rest, Rolling};
 use super::{DemScene, Effects, Guards, Neighbours, Output, Scene, Spheres, Start, Tank, Time};
 use serde::Serialize;
 
@@ -14,6 +14,8 @@ struct Motion<'a> {
     contact: &'a Option<Contact>,
     #[serde(skip_serializing_if = "Option::is_none")]
     friction: &'a Option<Friction>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rolling: &'a Option<Rolling>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tank: &'a Option<Tank>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -61,6 +63,7 @@ impl Scene {
         let DemScene {
             contact,
             friction,
+            rolling,
             geometry,
             door,
             rest,
@@ -74,6 +77,7 @@ impl Scene {
             spheres,
             contact,
             friction,
+            rolling,
             tank,
             geometry,
             door,

@@ -31,7 +31,7 @@ pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
     Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, FixedSphere, FixedSpheres,
     Friction, Geometry, Guards, Hertz, Hopper, LengthUnit, Linear, Mindlin, Neighbours, Outlet,
-    Rest, Silbert, SilbertFriction, Spin,
+    Rest, Rolling, Silbert, SilbertFriction, Spin,
 };
 pub use file_kind::FileKind;
 pub use keys::Notation;

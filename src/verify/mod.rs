@@ -25,6 +25,7 @@ mod impact;
 mod incline;
 mod oscillation;
 mod rolling;
+mod rolling_resistance;
 mod silbert;
 mod stack;
 mod step_limit;
@@ -45,13 +46,14 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 /// The tables of all families.
-const TABLES: [&str; 16] = [
+const TABLES: [&str; 17] = [
     include_str!("impact.toml"),
     include_str!("dashpot.toml"),
     include_str!("silbert.toml"),
     include_str!("cradle.toml"),
     include_str!("rolling.toml"),
     include_str!("incline.toml"),
+    include_str!("rolling_resistance.toml"),
     include_str!("stack.toml"),
     include_str!("tripod.toml"),
     include_str!("oscillation.toml"),
@@ -131,6 +133,8 @@ pub enum Setup {
     Rolling(rolling::Rolling),
     /// A sphere rolls or slides down an incline.
     Incline(incline::Incline),
+    /// A sphere rolls against rolling resistance, on the level or on an incline.
+    RollingResistance(rolling_resistance::RollingResistance),
     /// Spheres at rest upon each other.
     Stack(stack::Stack),
     /// A sphere at rest on three others in a cylinder.
@@ -162,6 +166,7 @@ impl Setup {
             Self::Cradle(it) => it,
             Self::Rolling(it) => it,
             Self::Incline(it) => it,
+            Self::RollingResistance(it) => it,
             Self::Stack(it) => it,
             Self::Tripod(it) => it,
             Self::Oscillation(it) => it,

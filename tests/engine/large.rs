@@ -16,7 +16,7 @@ const COUNT: usize = MANY + 404;
 const STEPS: u64 = 520;
 
 /// The small tank made larger, without its updraught, with spheres that mix.
-fn large(friction: Option<Friction>, integrator: Integrator) -> Scene {
+pub(crate) fn large(friction: Option<Friction>, integrator: Integrator) -> Scene {
     let mut scene = tank(friction, integrator);
     scene.dem.effects.updraught = None;
     scene.dem.effects.swirl.as_mut().unwrap().omega = 30.0;

@@ -14,17 +14,17 @@ fn observe(scene: &Scene) -> RunRecord {
     record
 }
 
-fn with_ledger(scene: &Scene) -> Observations {
+pub(crate) fn with_ledger(scene: &Scene) -> Observations {
     let mut scene = scene.clone();
     scene.output.ledger = true;
     observe(&scene).observations
 }
 
-fn last(values: &[f32]) -> f64 {
+pub(crate) fn last(values: &[f32]) -> f64 {
     f64::from(*values.last().unwrap())
 }
 
-fn largest(values: &[f32]) -> f64 {
+pub(crate) fn largest(values: &[f32]) -> f64 {
     values
         .iter()
         .fold(0.0, |most, value| f64::from(value.abs()).max(most))

@@ -12,6 +12,7 @@ mod ledger;
 mod motion;
 mod plane_sides;
 mod reproduction;
+mod rolling;
 #[path = "../scenes/mod.rs"]
 mod scenes;
 mod silo;

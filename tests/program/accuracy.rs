@@ -117,9 +117,15 @@ fn runs_that_are_there_are_not_made_again() {
     let table = place.read("results/accuracy/study/runs.csv");
     let kept: Vec<&str> = table.lines().take(3).collect();
     place.write("results/accuracy/study/runs.csv", &(kept.join("\n") + "\n"));
-    let rest = place.phase(&["accuracy", "study.toml", "--json"]).code(0).stdout;
+    let rest = place
+        .phase(&["accuracy", "study.toml", "--json"])
+        .code(0)
+        .stdout;
     let rest: Value = serde_json::from_str(&rest).unwrap();
-    assert_eq!((&rest["done_before"], &rest["run_now"]), (&2.into(), &3.into()));
+    assert_eq!(
+        (&rest["done_before"], &rest["run_now"]),
+        (&2.into(), &3.into())
+    );
     assert_eq!(errors(&first), errors(&rest));
     for file in [
         "runs.csv",

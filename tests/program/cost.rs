@@ -63,7 +63,7 @@ fn what_a_scene_does_not_have_costs_nothing() {
     let effects = ["gravity", "swirl", "updraught", "spin damping"];
     for part in Part::all() {
         let absent = match part {
-            Part::Ledger | Part::Process | Part::Sides => true,
+            Part::Ledger | Part::Process | Part::Rolling | Part::Sides => true,
             Part::Effect(_) => !effects.contains(&part.name()),
             _ => false,
         };
@@ -78,7 +78,7 @@ fn what_a_scene_does_not_have_costs_nothing() {
     let cost = RunCost::measure(&scene, LONG).unwrap();
     for part in Part::all() {
         let absent = match part {
-            Part::Shield | Part::Floor | Part::Sides | Part::Process => true,
+            Part::Shield | Part::Floor | Part::Rolling | Part::Sides | Part::Process => true,
             Part::Effect(_) => !["gravity", "swirl"].contains(&part.name()),
             _ => false,
         };

@@ -98,15 +98,21 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
     /// Two spheres.
     #[inline(always)]
     pub(super) fn pair_force(&self, state: &ContactState, spring: Spring) -> ContactForce {
+        let geometry = self.pair_geometry(state);
+        let spring = Self::turned(spring, geometry.normal);
+        self.force(state, &geometry, spring)
+    }
+
+    /// The geometry of two spheres.
+    #[inline(always)]
+    pub(super) fn pair_geometry(&self, state: &ContactState) -> ContactGeometry {
         let inverse_distance = inverse_square_root(state.offset.norm_squared());
         let roots = Roots {
             inverse_distance,
             contact_radius: self.contact_radius(state, inverse_distance),
             effective_mass: Self::effective_mass(state.properties),
         };
-        let normal = state.offset * inverse_distance;
-        let spring = Self::turned(spring, normal);
-        self.force(state, &self.geometry(state, roots), spring)
+        self.geometry(state, roots)
     }
 
     /// A spring turned into the plane across a normal, if a law has springs.

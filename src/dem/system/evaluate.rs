@@ -79,6 +79,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
         };
         self.step.too_deep = self.step.too_deep.or(too_deep);
+        self.add_rolling();
     }
 
     /// Evaluates all forces and moves all spheres. Returns the first sphere beyond its speed limit.

@@ -237,7 +237,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.loading = Loading::earlier(duration, half);
         self.drift(half);
         self.before.keep(&self.particles);
-        if Self::HAS_HISTORY {
+        if self.loads_springs() {
             self.before.to_rows(&mut self.earlier);
         }
         self.kick(half);

@@ -116,7 +116,7 @@ impl Books {
     }
 
     /// Adds the force of a contact on sphere `i`, without its elastic part, and its torque.
-    fn add(&mut self, i: u32, damping: Vector, tangential: Vector, torque: Vector) {
+    pub(super) fn add(&mut self, i: u32, damping: Vector, tangential: Vector, torque: Vector) {
         let i = i as usize;
         self.damping[i] += damping;
         self.tangential[i] += tangential;

@@ -2,9 +2,10 @@
 
 use super::contact_state::SphereProperties;
 use super::division::threads;
+use super::moves::Drift;
 use super::wall_contacts::WallContacts;
-use super::{Setup, System};
-use crate::dem::neighbours::NearPair;
+use super::{Age, NeighbourState, Setup, System};
+use crate::dem::neighbours::{NearPair, Reach, VerletList};
 use crate::dem::profile::Part;
 use crate::dem::threads::both;
 use crate::forces::contact::NormalLaw;
@@ -99,6 +100,43 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     pub(super) fn check_positions(&self) -> Result<(), Instability> {
         let Setup { limits, dt, .. } = &self.setup;
         limits.check_positions(&self.particles, self.step.number, *dt)
+    }
+}
+
+impl NeighbourState {
+    /// For a system with this normal law.
+    pub(super) fn new<N: NormalLaw>(setup: &Setup) -> Self {
+        let reach = match setup.shielded {
+            true => Reach::Column,
+            false => Reach::Contact,
+        };
+        let interact = N::ACTS || setup.shielded;
+        Self {
+            list: interact.then(|| {
+                let list = VerletList::new(reach, setup.skin, setup.neighbours);
+                if setup.sorted { list.of_sorted() } else { list }
+            }),
+            near: setup.near::<N>(),
+            stale: true,
+            age: Age::default(),
+            near_age: Age::default(),
+            spare_pairs: Vec::new(),
+        }
+    }
+
+    /// Adds the time (s) of a drift to the ages of the lists.
+    pub(super) fn let_pass(&mut self, time: f64) {
+        self.age.time += time;
+        self.near_age.time += time;
+    }
+
+    /// A drift (s) that ends now. It checks whether the near pairs hold, if there are lists.
+    pub(super) fn drift(&self, dt: f64) -> Drift {
+        let is_listed = self.list.is_some();
+        Drift {
+            dt,
+            allowance: is_listed.then(|| self.near.allowance(self.near_age.time)),
+        }
     }
 }
 

@@ -43,18 +43,27 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 let distance_squared = (centre - position[j]).norm_squared();
                 if distance_squared < sum * sum {
                     let overlap = sum - distance_squared.sqrt();
-                    self.add_contact(&mut contacts, overlap, ri * radius[j] / sum, history);
+                    let effective_radius = ri * radius[j] / sum;
+                    self.add_contact(&mut contacts, overlap, effective_radius, history);
+                    if self.ledger.is_some() {
+                        contacts.spring_energy +=
+                            self.rolling_energy([i, j], overlap, effective_radius);
+                    }
                     contacts.of_moving_spheres +=
                         usize::from(i >= *fixed) + usize::from(j >= *fixed);
                 }
             }
-            for (wall, near) in &mut walls {
+            for (place, (wall, near)) in walls.iter_mut().enumerate() {
                 let Some((_, history)) = near.next_if(|(sphere, _)| sphere.i as usize == i) else {
                     continue;
                 };
                 let contact = wall.contact(centre, ri);
                 if contact.touches {
                     self.add_contact(&mut contacts, contact.overlap, ri, history);
+                    if self.ledger.is_some() {
+                        contacts.spring_energy +=
+                            self.rolling_energy_at_wall((i, place), contact.overlap, ri);
+                    }
                     contacts.of_moving_spheres += 1;
                 }
             }

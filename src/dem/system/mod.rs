@@ -17,6 +17,7 @@ mod measure;
 mod moves;
 mod order;
 mod partners;
+mod rolling;
 mod state;
 mod stream;
 mod sums;
@@ -32,17 +33,18 @@ use self::division::Division;
 use self::integrate::Before;
 use self::ledger::Ledger;
 pub(in crate::dem) use self::ledger::Work;
-use self::moves::Drift;
+use self::rolling::RollingState;
 pub(in crate::dem) use self::state::EngineState;
 use self::wall_contacts::WallContacts;
 use super::guard::Limits;
-use super::neighbours::{Near, NearPair, Purpose, Reach, VerletList};
+use super::neighbours::{Near, NearPair, Purpose, VerletList};
 use super::profile::{self, Part, Profile};
 use super::state::StateError;
 use super::walls::TankWall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::effects::PlacedEffect;
 use crate::forces::friction::TangentialLaw;
+use crate::forces::rolling::RollingLaw;
 use crate::particles::bodies::Bodies;
 use crate::particles::{Particles, Sphere, retain};
 use crate::scene::{Integrator, Neighbours};
@@ -88,7 +90,7 @@ pub(in crate::dem) trait Engine: Send {
 pub(in crate::dem) struct Contacts {
     /// Elastic energy (J).
     pub(in crate::dem) elastic_energy: f64,
-    /// Energy of tangential springs (J), if a ledger is kept.
+    /// Energy of tangential and rolling springs (J), if a ledger is kept.
     pub(in crate::dem) spring_energy: f64,
     /// Contacts of all moving spheres. A contact between two of them counts twice.
     pub(in crate::dem) of_moving_spheres: usize,
@@ -102,6 +104,8 @@ pub(in crate::dem) struct Setup {
     pub(in crate::dem) effects: Vec<PlacedEffect>,
     /// Whether an effect needs the number of spheres below each sphere.
     pub(in crate::dem) shielded: bool,
+    /// Absent where nothing resists rolling.
+    pub(in crate::dem) rolling: Option<RollingLaw>,
     pub(in crate::dem) limits: Limits,
     /// Time step (s).
     pub(in crate::dem) dt: f64,
@@ -145,6 +149,8 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     before: Before,
     /// Buffers of adaptive Verlet.
     workspace: Workspace<T::History>,
+    /// Absent where nothing resists rolling.
+    rolling: Option<Box<RollingState>>,
     ledger: Option<Ledger>,
     profile: Option<Box<Profile>>,
     /// The properties of all spheres, if they are alike.
@@ -215,6 +221,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             earlier: Vec::new(),
             before: Before::default(),
             workspace: Workspace::default(),
+            rolling: setup.rolling.map(|law| Box::new(RollingState::new(law))),
             ledger: None,
             profile: None,
             alike: SphereProperties::of_all::<N, T>(&particles),
@@ -240,43 +247,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     fn mark_ledger(&mut self) {
         if self.ledger.is_some() {
             self.mark(Part::Ledger);
-        }
-    }
-}
-
-impl NeighbourState {
-    /// For a system with this normal law.
-    fn new<N: NormalLaw>(setup: &Setup) -> Self {
-        let reach = match setup.shielded {
-            true => Reach::Column,
-            false => Reach::Contact,
-        };
-        let interact = N::ACTS || setup.shielded;
-        Self {
-            list: interact.then(|| {
-                let list = VerletList::new(reach, setup.skin, setup.neighbours);
-                if setup.sorted { list.of_sorted() } else { list }
-            }),
-            near: setup.near::<N>(),
-            stale: true,
-            age: Age::default(),
-            near_age: Age::default(),
-            spare_pairs: Vec::new(),
-        }
-    }
-
-    /// Adds the time (s) of a drift to the ages of the lists.
-    fn let_pass(&mut self, time: f64) {
-        self.age.time += time;
-        self.near_age.time += time;
-    }
-
-    /// A drift (s) that ends now. It checks whether the near pairs hold, if there are lists.
-    fn drift(&self, dt: f64) -> Drift {
-        let is_listed = self.list.is_some();
-        Drift {
-            dt,
-            allowance: is_listed.then(|| self.near.allowance(self.near_age.time)),
         }
     }
 }
@@ -351,6 +321,9 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
 
     fn retain(&mut self, keep: &[bool]) {
         let before = self.energy_in_books();
+        if let Some(rolling) = &mut self.rolling {
+            rolling.retain(keep, &self.particles);
+        }
         self.particles.retain(keep);
         if let Some(ledger) = &mut self.ledger {
             ledger.books.retain(keep);
@@ -373,6 +346,7 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
         self.neighbours.spare_pairs = Vec::new();
         self.walls.clear();
         self.division = None;
+        self.rolling = None;
         self.earlier = Vec::new();
         self.before = Before::default();
         self.workspace = Workspace::default();

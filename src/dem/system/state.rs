@@ -5,6 +5,7 @@
 
 use super::contact_state::SphereProperties;
 use super::ledger::Books;
+use super::rolling::RollingSprings;
 use super::wall_contacts::WallContacts;
 use super::{Age, NearPair, Setup, System, VerletList};
 use crate::dem::order;
@@ -27,6 +28,8 @@ pub(in crate::dem) struct EngineState<'a> {
     particles: Cow<'a, Particles>,
     /// [`Histories`] as bytes, because their type depends on the tangential law.
     histories: Vec<u8>,
+    /// Springs of rolling resistance, if the scene has it.
+    rolling: Option<Cow<'a, RollingSprings>>,
     /// The energy balance, if one is kept.
     books: Option<Cow<'a, Books>>,
 }
@@ -36,6 +39,7 @@ impl EngineState<'_> {
     pub(in crate::dem) fn into_owned(self) -> EngineState<'static> {
         EngineState {
             particles: Cow::Owned(self.particles.into_owned()),
+            rolling: self.rolling.map(|it| Cow::Owned(it.into_owned())),
             books: self.books.map(|books| Cow::Owned(books.into_owned())),
             ..self
         }
@@ -103,6 +107,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 pairs,
                 walls: self.walls.iter().map(of_wall).collect(),
             }),
+            rolling: (self.rolling.as_ref()).map(|rolling| Cow::Borrowed(&rolling.springs)),
             books: (self.ledger.as_ref()).map(|ledger| Cow::Borrowed(&ledger.books)),
         }
     }
@@ -113,6 +118,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             moves,
             particles,
             histories,
+            rolling,
             books,
         } = state;
         let histories: SavedHistories<T::History> =
@@ -121,6 +127,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return Err(StateError("its contacts follow another law"));
         }
         self.accept(&particles, &histories)?;
+        match (&mut self.rolling, rolling) {
+            (Some(present), Some(springs)) => present.springs = springs.into_owned(),
+            (None, None) => {}
+            _ => return Err(StateError("its rolling resistance is another")),
+        }
         match (&mut self.ledger, books) {
             (Some(ledger), Some(books)) if books.fit(&particles) => {
                 ledger.books = books.into_owned();

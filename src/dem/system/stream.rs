@@ -56,6 +56,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.setup.sorted
             && self.neighbours.list.is_some()
             && self.ledger.is_none()
+            && self.rolling.is_none()
             && division.is_none_or(|it| it.has_narrow_boundaries())
     }
 

@@ -181,6 +181,8 @@ pub fn limits(scene: &Scene) -> Vec<Limit> {
         limits.extend(contact.limits(&collisions, &regime));
         let friction = scene.dem.friction.as_ref();
         limits.extend(friction.and_then(|it| it.limit(contact, &collisions, &regime)));
+        let rolling = scene.dem.rolling.as_ref();
+        limits.extend(rolling.map(|it| it.limit(contact, &regime)));
     }
     if scene.time.integrator == Integrator::AdaptiveVerlet {
         limits.retain(|limit| limit.name == DISPLACEMENT);

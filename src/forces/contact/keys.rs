@@ -132,6 +132,22 @@ impl Contact {
         with_keys!(self, keys => keys.collisions(regime))
     }
 
+    /// The stiffness (N/m) of a contact where it is deepest, at the start or in the fastest impact
+    /// of an effective radius (m) and an effective mass (kg).
+    pub(crate) fn stiffest(
+        &self,
+        regime: &Regime<'_>,
+        effective_radius: f64,
+        effective_mass: f64,
+    ) -> f64 {
+        with_keys!(self, keys => {
+            let law = keys.law(regime.mean_radius, regime.mean_mass);
+            let speed = regime.fastest_impact;
+            let overlap = law.deepest_overlap(0.0, speed, effective_radius, effective_mass);
+            law.stiffness(overlap.max(*regime.deepest_at_start), effective_radius)
+        })
+    }
+
     /// As [`ContactKeys::simplifications`].
     pub(crate) fn simplifications(&self) -> Vec<Simplification> {
         with_keys!(self, keys => keys.simplifications())

@@ -9,6 +9,7 @@ pub use crate::forces::contact::{Contact, ContactDrag, Hertz, Linear, Silbert};
 pub use crate::forces::friction::{
     Coulomb, CundallStrack, Friction, Mindlin, SilbertFriction, Spin,
 };
+pub use crate::forces::rolling::Rolling;
 pub use guards::Guards;
 pub use neighbours::Neighbours;
 pub(crate) use silo::MOST_HOPPER_SPHERES;
@@ -30,6 +31,9 @@ pub struct DemScene {
     /// Tangential contact law. Absent: frictionless, and spheres have no spin.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<Friction>,
+    /// Resistance to rolling at contacts. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rolling: Option<Rolling>,
     /// Fixed spheres as the walls and the door of a silo. Absent: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub geometry: Option<Geometry>,

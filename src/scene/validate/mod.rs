@@ -69,6 +69,26 @@ impl Scene {
         }
         let contact = self.dem.contact.iter();
         problems.extend(contact.flat_map(Contact::problems));
+        self.check_rolling(problems);
+    }
+
+    fn check_rolling(&self, problems: &mut Vec<Problem>) {
+        if self.dem.rolling.is_none() {
+            return;
+        }
+        let (message, help) = match &self.dem.friction {
+            None => (
+                "[rolling] acts on spins, but without [friction] there are none",
+                "add [friction], or remove [rolling]",
+            ),
+            Some(Friction::Spin(_)) => (
+                "[rolling] needs spheres that roll, but the spin friction knows no sliding, so \
+                 that spheres do not come to roll",
+                "use another friction law, such as `law = \"coulomb\"`, or remove [rolling]",
+            ),
+            Some(_) => return,
+        };
+        problems.push(Problem::new("rolling", message).help(help));
     }
 
     fn check_spheres(&self, problems: &mut Vec<Problem>) {

@@ -7,7 +7,9 @@ use phase::dem::Simulation;
 use phase::record::{MilestoneKind, Outcome, RunRecord};
 use phase::resume::{Checkpoints, Ending};
 use phase::run::Run;
-use phase::scene::{Coulomb, CundallStrack, Friction, Integrator, Mindlin, Neighbours, Scene};
+use phase::scene::{
+    Coulomb, CundallStrack, Friction, Integrator, Mindlin, Neighbours, Rolling, Scene,
+};
 use phase::store::{content_digest, read_checkpoint, write_checkpoint};
 use std::ops::ControlFlow;
 use std::time::Duration;
@@ -122,6 +124,35 @@ fn a_silo_goes_on_with_the_same_bits_while_it_is_filled_and_drained() {
             assert!(happened(MilestoneKind::DoorOpened), "{friction:?}");
             assert_eq!(record.outcome, Outcome::Completed);
         }
+    }
+}
+
+/// The springs of rolling resistance are a part of the state, in a tank and where spheres come and
+/// go.
+#[test]
+fn rolling_resistance_goes_on_with_the_same_bits() {
+    let resistance = Rolling {
+        coefficient: 0.2,
+        damping: 0.3,
+    };
+    for integrator in Integrator::ALL {
+        for friction in &frictions()[2..] {
+            let mut scene = tank(friction.clone(), integrator);
+            scene.dem.rolling = Some(resistance.clone());
+            scene.output.ledger = integrator == Integrator::VelocityVerlet;
+            assert_same_bits(scene, 37);
+        }
+        let friction = Friction::CundallStrack(CundallStrack {
+            coefficient: 0.5,
+            stiffness: 50.0,
+            damping: 0.01,
+        });
+        let mut scene = silo(Some(friction), integrator);
+        scene.dem.rolling = Some(resistance.clone());
+        scene.output.ledger = true;
+        let record = assert_same_bits(scene, 1);
+        let opened = MilestoneKind::DoorOpened;
+        assert!(record.milestones.iter().any(|it| it.kind == opened));
     }
 }
 

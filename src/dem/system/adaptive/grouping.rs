@@ -8,6 +8,21 @@ use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{Grip, TangentialLaw};
 use crate::particles::Particles;
 
+/// Two partners that may touch within a step.
+struct Approach<'a> {
+    /// The spheres among them.
+    spheres: &'a [usize],
+    /// Present overlap (m).
+    overlap: f64,
+    /// Relative speed (m/s), and how much it may gain.
+    speed: f64,
+    gain: f64,
+    effective_radius: f64,
+    /// 1 / m_eff, and what rotation adds to it (1/kg).
+    yielding: f64,
+    turning: f64,
+}
+
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Finds the islands, and how stiff the contacts of their spheres may become.
     pub(super) fn group(&self, work: &mut Workspace<T::History>) {
@@ -48,14 +63,15 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return;
         }
         work.islands.join(i as u32, j as u32, *fixed);
-        let rates = self.rates(
-            (sum - squared.sqrt()).max(0.0),
-            (velocity[i] - velocity[j]).norm(),
-            work.gain[i] + work.gain[j],
-            radius[i] * radius[j] / sum,
-            inverse_mass[i] + inverse_mass[j],
-            self.turning(i) + self.turning(j),
-        );
+        let rates = self.rates(&Approach {
+            spheres: &[i, j],
+            overlap: (sum - squared.sqrt()).max(0.0),
+            speed: (velocity[i] - velocity[j]).norm(),
+            gain: work.gain[i] + work.gain[j],
+            effective_radius: radius[i] * radius[j] / sum,
+            yielding: inverse_mass[i] + inverse_mass[j],
+            turning: self.turning(i) + self.turning(j),
+        });
         work.add(i, rates);
         work.add(j, rates);
     }
@@ -70,18 +86,18 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
             work.islands.touch(sphere);
             let contact = wall.contact(centre, radius);
-            let rates = self.rates(
-                if contact.touches {
-                    contact.overlap
-                } else {
-                    0.0
+            let rates = self.rates(&Approach {
+                spheres: &[i],
+                overlap: match contact.touches {
+                    true => contact.overlap,
+                    false => 0.0,
                 },
-                particles.velocity[i].norm(),
-                work.gain[i],
-                radius,
-                particles.inverse_mass[i],
-                self.turning(i),
-            );
+                speed: particles.velocity[i].norm(),
+                gain: work.gain[i],
+                effective_radius: radius,
+                yielding: particles.inverse_mass[i],
+                turning: self.turning(i),
+            });
             work.add(i, rates);
         }
     }
@@ -94,18 +110,17 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         radius * radius * inverse
     }
 
-    /// Squared frequency (1/s2) and damping rate (1/s) of an impact at its deepest. It has this
-    /// overlap (m) and speed (m/s), and may gain the speed `gain` (m/s). `yielding` is 1 / m_eff,
-    /// and `turning` is what rotation adds to it (1/kg).
-    fn rates(
-        &self,
-        overlap: f64,
-        speed: f64,
-        gain: f64,
-        effective_radius: f64,
-        yielding: f64,
-        turning: f64,
-    ) -> [f64; 2] {
+    /// Squared frequency (1/s2) and damping rate (1/s) of an impact at its deepest.
+    fn rates(&self, approach: &Approach<'_>) -> [f64; 2] {
+        let Approach {
+            spheres,
+            overlap,
+            speed,
+            gain,
+            effective_radius,
+            yielding,
+            turning,
+        } = *approach;
         let (normal, tangential) = (&self.normal, &self.tangential);
         let effective_mass = 1.0 / yielding;
         let overlap =
@@ -124,6 +139,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         // oscillates within the limit of friction.
         let friction = (tangential.damping(&grip) * along).min(squared.sqrt());
         let damping = normal.damping(overlap, effective_radius, effective_mass) * yielding;
-        [squared, damping.max(friction)]
+        let [rolling, drag] = self.rolling_rates(spheres, overlap, effective_radius);
+        [squared.max(rolling), damping.max(friction).max(drag)]
     }
 }

@@ -42,7 +42,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         work.start.keep(&self.particles);
         work.held.velocity.clone_from(&work.start.velocity);
         work.held.spin.clone_from(&work.start.spin);
-        if Self::HAS_HISTORY {
+        if self.loads_springs() {
             // The motion of fixed spheres stays zero.
             self.earlier.clear();
             self.earlier
@@ -144,6 +144,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 kept.clone_from(&wall.histories);
             }
         }
+        if let Some(rolling) = &self.rolling {
+            start.rolling.clone_from(&rolling.springs);
+        }
     }
 
     fn put_back_histories(&mut self, start: &Start<T::History>) {
@@ -152,6 +155,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             for (wall, kept) in self.walls.iter_mut().zip(&start.wall_history) {
                 wall.histories.copy_from_slice(kept);
             }
+        }
+        if let Some(rolling) = &mut self.rolling {
+            rolling.springs.clone_from(&start.rolling);
         }
     }
 

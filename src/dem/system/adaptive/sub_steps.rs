@@ -55,7 +55,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 self.finish(i as usize, time, work);
             }
         }
-        if Self::HAS_HISTORY {
+        if self.loads_springs() {
             self.load_springs(island, half, work);
         }
         Ok(())
@@ -91,13 +91,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// Moves a sphere to the middle of a sub-step, and gives it the velocity and spin that the
     /// latest forces predict there. Its own velocity and spin are held.
     fn predict(&mut self, i: usize, half: f64, work: &mut Workspace<T::History>) {
+        let loads_springs = self.loads_springs();
         let particles = &mut self.particles;
         particles.position[i] += particles.velocity[i] * half;
         work.held.velocity[i] = particles.velocity[i];
         if particles.rotate() {
             work.held.spin[i] = particles.spin[i];
         }
-        if Self::HAS_HISTORY {
+        if loads_springs {
             self.earlier[i] = [particles.velocity[i].row(), particles.spin[i].row()];
         }
         kick(particles, i, half);
@@ -142,6 +143,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         task.add_contacts(self.level, &settings, &mut self.profile);
         self.step.too_deep = self.step.too_deep.or(task.first_too_deep());
         histories.put_back(contacts, &mut self.pair_history, &mut self.walls);
+        self.add_rolling_of_island(contacts);
     }
 }
 

@@ -1,6 +1,7 @@
 //! Buffers of a step of adaptive Verlet.
 
 use super::islands::{Island, Islands};
+use crate::dem::system::rolling::RollingSprings;
 use crate::dem::walls::TankWall;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
@@ -56,6 +57,7 @@ pub(super) struct Start<H> {
     pub(super) torque: Vec<Vector>,
     pub(super) pair_history: Vec<H>,
     pub(super) wall_history: [Vec<H>; TankWall::MOST],
+    pub(super) rolling: RollingSprings,
 }
 
 impl<H: Copy> Start<H> {

@@ -1,0 +1,378 @@
+//! Rolling resistance: a pass of its own over the contacts that touch, after their forces, in the
+//! order of the lists and on one thread. Only scenes that name it have it.
+//!
+//! Springs are kept by the numbers of their partners, which stay when spheres come, go or are
+//! sorted in memory.
+
+use super::System;
+use super::adaptive::IslandContacts;
+use super::contact_block::EarlierRows;
+use super::contact_geometry::ContactGeometry;
+use super::contact_laws::Laws;
+use super::contact_state::ContactState;
+use super::ledger::{Books, Ledger};
+use super::partners::Partners;
+use crate::dem::neighbours::NearPair;
+use crate::dem::profile::Part;
+use crate::dem::walls::{TankWall, Wall};
+use crate::forces::contact::NormalLaw;
+use crate::forces::friction::TangentialLaw;
+use crate::forces::rolling::{RollingLaw, RollingTouch};
+use crate::particles::Particles;
+use crate::particles::vector::Vector;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A partner of a contact, whatever its place in memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub(super) enum Partner {
+    /// A sphere that moves, by its number in the scene.
+    Sphere(u32),
+    /// A fixed sphere. Those of the door come last, so that the others stay when it opens.
+    Fixed(u32),
+    /// A wall, by its place among the walls.
+    Wall(u32),
+}
+
+impl Partner {
+    fn of(particles: &Particles, i: u32) -> Self {
+        let fixed = particles.fixed as u32;
+        if i < fixed {
+            return Self::Fixed(i);
+        }
+        let number = particles.number.get(i as usize).copied();
+        Self::Sphere(number.unwrap_or(i - fixed))
+    }
+}
+
+/// The moments (N m) of the springs of all contacts, on the first of both partners. The partners
+/// are in rising order.
+pub(super) type RollingSprings = BTreeMap<[Partner; 2], Vector>;
+
+/// Rolling resistance and what its contacts remember.
+pub(super) struct RollingState {
+    law: RollingLaw,
+    pub(super) springs: RollingSprings,
+    /// Springs of an evaluation, kept for its memory.
+    renewed: Vec<([Partner; 2], Vector)>,
+}
+
+impl RollingState {
+    pub(super) fn new(law: RollingLaw) -> Self {
+        Self {
+            law,
+            springs: RollingSprings::new(),
+            renewed: Vec::new(),
+        }
+    }
+
+    /// Forgets the springs of spheres that are not kept.
+    pub(super) fn retain(&mut self, keep: &[bool], particles: &Particles) {
+        let gone = (0..).zip(keep).filter(|(_, keep)| !**keep);
+        let gone: BTreeSet<Partner> = gone.map(|(i, _)| Partner::of(particles, i)).collect();
+        self.springs
+            .retain(|key, _| key.iter().all(|it| !gone.contains(it)));
+    }
+}
+
+impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
+    /// Whether something at contacts is loaded by velocities of another moment, where the
+    /// integrator has such.
+    pub(super) fn loads_springs(&self) -> bool {
+        Self::HAS_HISTORY || self.rolling.is_some()
+    }
+
+    /// Adds the torques of rolling resistance, if the scene has it.
+    pub(super) fn add_rolling(&mut self) {
+        let laws = self.laws();
+        let Some(rolling) = &mut self.rolling else {
+            return;
+        };
+        let mut pass = Pass::new(
+            laws,
+            rolling,
+            &mut self.particles,
+            &self.earlier,
+            &mut self.ledger,
+        );
+        for &pair in self.neighbours.near.pairs() {
+            pass.add_pair(pair);
+        }
+        for (wall, place) in self.walls.iter().zip(0..) {
+            for sphere in &wall.near {
+                pass.add_at_wall(wall.wall, place, sphere.i);
+            }
+        }
+        // What no longer touches has no spring, near or not.
+        pass.springs.clear();
+        pass.finish();
+        self.mark(Part::Rolling);
+    }
+
+    /// The same for the contacts of an island. Springs of other contacts stay: contacts outside all
+    /// islands do not touch, and those of earlier steps ended there.
+    pub(super) fn add_rolling_of_island(&mut self, contacts: &IslandContacts) {
+        let laws = self.laws();
+        let Some(rolling) = &mut self.rolling else {
+            return;
+        };
+        let mut pass = Pass::new(
+            laws,
+            rolling,
+            &mut self.particles,
+            &self.earlier,
+            &mut self.ledger,
+        );
+        for &pair in &contacts.pairs {
+            pass.add_pair(pair);
+        }
+        for ((wall, place), near) in self.walls.iter().zip(0..).zip(&contacts.walls) {
+            for sphere in near {
+                pass.add_at_wall(wall.wall, place, sphere.i);
+            }
+        }
+        pass.finish();
+        self.mark(Part::Rolling);
+    }
+
+    /// Energy (J) of the rolling spring of two spheres, at an overlap and effective radius (m).
+    pub(super) fn rolling_energy(
+        &self,
+        [i, j]: [usize; 2],
+        overlap: f64,
+        effective_radius: f64,
+    ) -> f64 {
+        let partner = |i: usize| Partner::of(&self.particles, i as u32);
+        self.energy_of_spring([partner(i), partner(j)], overlap, effective_radius)
+    }
+
+    /// The same of a sphere and a wall, by its place among the walls.
+    pub(super) fn rolling_energy_at_wall(
+        &self,
+        (i, wall): (usize, usize),
+        overlap: f64,
+        radius: f64,
+    ) -> f64 {
+        let sphere = Partner::of(&self.particles, i as u32);
+        self.energy_of_spring([sphere, Partner::Wall(wall as u32)], overlap, radius)
+    }
+
+    fn energy_of_spring(&self, mut key: [Partner; 2], overlap: f64, effective_radius: f64) -> f64 {
+        let Some(rolling) = &self.rolling else {
+            return 0.0;
+        };
+        key.sort_unstable();
+        let moment = rolling.springs.get(&key);
+        moment.map_or(0.0, |&moment| {
+            let stiffness = self.normal.stiffness(overlap, effective_radius);
+            let stiffness = rolling.law.stiffness(stiffness, effective_radius);
+            RollingLaw::energy(moment, stiffness)
+        })
+    }
+
+    /// Squared frequency (1/s2) and damping rate (1/s) of rolling at an impact of some spheres at
+    /// its deepest overlap (m).
+    pub(super) fn rolling_rates(
+        &self,
+        spheres: &[usize],
+        overlap: f64,
+        effective_radius: f64,
+    ) -> [f64; 2] {
+        let Some(rolling) = &self.rolling else {
+            return [0.0; 2];
+        };
+        let particles = &self.particles;
+        let inverse = spheres.iter().map(|&i| {
+            let (inertia, radius) = (particles.inertia[i], particles.radius[i]);
+            inverse_rolling_inertia(inertia, particles.inverse_mass[i], radius)
+        });
+        let turning = spheres.iter().map(|&i| particles.inverse_inertia[i]);
+        rolling.law.rates(
+            self.normal.stiffness(overlap, effective_radius),
+            effective_radius,
+            1.0 / inverse.sum::<f64>(),
+            turning.sum(),
+        )
+    }
+}
+
+/// 1 / (I + m r^2) (1/(kg m2)), zero of what does not move.
+fn inverse_rolling_inertia(inertia: f64, inverse_mass: f64, radius: f64) -> f64 {
+    match inverse_mass > 0.0 {
+        true => 1.0 / (inertia + radius * radius / inverse_mass),
+        false => 0.0,
+    }
+}
+
+/// An evaluation of the torques of some contacts.
+struct Pass<'a, N, T> {
+    laws: Laws<N, T>,
+    law: RollingLaw,
+    /// Springs of the evaluation before. Those of contacts that are computed again are taken out.
+    springs: &'a mut RollingSprings,
+    renewed: &'a mut Vec<([Partner; 2], Vector)>,
+    particles: &'a mut Particles,
+    earlier: &'a [EarlierRows],
+    books: Option<&'a mut Books>,
+}
+
+/// A contact whose geometry is known.
+struct Meeting {
+    /// Both partners, in the order of the springs' keys.
+    key: [Partner; 2],
+    /// The spheres among them.
+    spheres: (u32, Option<u32>),
+    effective_radius: f64,
+    now: ContactGeometry,
+    /// When it had the velocities that load springs, if that was earlier.
+    earlier: Option<ContactGeometry>,
+}
+
+impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
+    fn new(
+        laws: Laws<N, T>,
+        rolling: &'a mut RollingState,
+        particles: &'a mut Particles,
+        earlier: &'a [EarlierRows],
+        ledger: &'a mut Option<Ledger>,
+    ) -> Self {
+        Self {
+            earlier: match laws.loading.age > 0.0 {
+                true => earlier,
+                false => &[],
+            },
+            laws,
+            law: rolling.law,
+            springs: &mut rolling.springs,
+            renewed: &mut rolling.renewed,
+            particles,
+            books: ledger.as_mut().map(|ledger| &mut ledger.books),
+        }
+    }
+
+    /// Keeps the springs of the contacts that touch.
+    fn finish(self) {
+        self.springs.extend(self.renewed.drain(..));
+    }
+
+    fn add_pair(&mut self, pair: NearPair) {
+        let (mut i, mut j) = (pair.i(), pair.j());
+        let mut key = [i, j].map(|it| Partner::of(self.particles, it));
+        // The moments of both partners are opposite to the last bit, so either may be kept.
+        if key[1] < key[0] {
+            key.swap(0, 1);
+            (i, j) = (j, i);
+        }
+        let spheres = Partners::all(self.particles, self.earlier);
+        let state = ContactState::of_pair(&spheres, i, j);
+        let earlier = state.earlier.map(|motion| {
+            let offset = self.laws.earlier_position(state.offset, motion.velocity);
+            let state = ContactState {
+                offset,
+                earlier: None,
+                ..state
+            };
+            self.laws.pair_geometry(&state)
+        });
+        let meeting = Meeting {
+            key,
+            spheres: (i, Some(j)),
+            effective_radius: state.effective_radius(),
+            now: self.laws.pair_geometry(&state),
+            earlier,
+        };
+        self.add(&state, &meeting);
+    }
+
+    fn add_at_wall(&mut self, wall: TankWall, place: u32, i: u32) {
+        let spheres = Partners::all(self.particles, self.earlier);
+        let state = ContactState::at_wall(&spheres, i);
+        let radius = state.properties[0].radius;
+        let geometry = |position: Vector| {
+            let contact = wall.contact(position, radius);
+            self.laws.geometry_at_wall(&state, contact, None)
+        };
+        let meeting = Meeting {
+            key: [Partner::of(self.particles, i), Partner::Wall(place)],
+            spheres: (i, None),
+            effective_radius: radius,
+            now: geometry(state.offset),
+            earlier: (state.earlier)
+                .map(|motion| geometry(self.laws.earlier_position(state.offset, motion.velocity))),
+        };
+        self.add(&state, &meeting);
+    }
+
+    fn add(&mut self, state: &ContactState, meeting: &Meeting) {
+        let known = self.springs.remove(&meeting.key);
+        if !meeting.now.touches {
+            return;
+        }
+        let touch = self.touch(state, meeting);
+        let [torque, moment] = self.law.torque(&touch, known.unwrap_or_default());
+        self.renewed.push((meeting.key, moment));
+        let (one, other) = meeting.spheres;
+        self.turn(one, torque);
+        if let Some(other) = other {
+            self.turn(other, -torque);
+        }
+    }
+
+    /// The contact as rolling resistance sees it.
+    ///
+    /// Its rate is the difference of the spins, without the part along the normal. A common
+    /// rotation of both partners drops out of it, whatever their radii; R_eff times it is the speed
+    /// at which the contact moves along both surfaces if they do not slide; and with opposite
+    /// torques, which keep the angular momentum, the power is that of the torque times this rate.
+    fn touch(&self, state: &ContactState, meeting: &Meeting) -> RollingTouch {
+        let Meeting {
+            effective_radius,
+            now,
+            earlier,
+            ..
+        } = meeting;
+        let rate = |spin: [Vector; 2], geometry: &ContactGeometry| {
+            (spin[0] - spin[1]).perpendicular_to(geometry.normal)
+        };
+        let stiffness = |overlap: f64| {
+            let normal = &self.laws.normal;
+            normal.stiffness(overlap, *effective_radius)
+        };
+        let present = (rate(state.spin, now), stiffness(now.overlap));
+        let (loading_rate, loading_stiffness) = match (earlier, &state.earlier) {
+            (Some(geometry), Some(motion)) => {
+                (rate(motion.spin, geometry), stiffness(geometry.overlap))
+            }
+            _ => present,
+        };
+        let approach = -state.velocity.dot(now.normal);
+        let force = self.laws.normal.force(
+            now.overlap,
+            approach,
+            now.contact_radius,
+            now.effective_mass,
+        );
+        let inverse = state
+            .properties
+            .map(|it| inverse_rolling_inertia(it.inertia, it.inverse_mass, it.radius));
+        RollingTouch {
+            normal: now.normal,
+            normal_force: force.max(0.0),
+            effective_radius: *effective_radius,
+            stiffness: present.1,
+            inertia: 1.0 / (inverse[0] + inverse[1]),
+            rate: present.0,
+            loading_rate,
+            loading_stiffness,
+            loading_time: self.laws.loading.duration,
+        }
+    }
+
+    /// Adds a torque (N m) to that of a sphere, and to the books.
+    fn turn(&mut self, i: u32, torque: Vector) {
+        self.particles.torque[i as usize] += torque;
+        if let Some(books) = &mut self.books {
+            books.add(i, Vector::ZERO, Vector::ZERO, torque);
+        }
+    }
+}
