@@ -201,7 +201,7 @@ fn text(evaluation: &Evaluation) -> String {
             lines.push(format!("{:<width$}  {note}", ""));
         }
     }
-    for order in &evaluation.orders {
+    for order in evaluation.orders.iter().filter(|it| it.is_clear()) {
         lines.push(format!(
             "order of {} in {}: {:.2}",
             order.method, order.key, order.order

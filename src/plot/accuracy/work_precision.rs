@@ -195,10 +195,8 @@ fn error_label(evaluation: &Evaluation) -> String {
 fn legend(evaluation: &Evaluation, methods: &[&str], floor: Option<Interval>) -> Vec<Entry> {
     let mut entries = Vec::new();
     for (index, method) in methods.iter().enumerate() {
-        let order = evaluation
-            .orders
-            .iter()
-            .find(|order| order.method == *method);
+        let mut orders = evaluation.orders.iter();
+        let order = orders.find(|order| order.method == *method && order.is_clear());
         let text = match order {
             Some(order) => format!("{method} (order {:.1})", order.order.abs()),
             None => (*method).to_owned(),

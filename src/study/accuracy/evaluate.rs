@@ -57,8 +57,16 @@ pub struct MethodOrder {
     pub key: String,
     /// The power of the key's value with which the error falls.
     pub order: f64,
-    /// Largest misfit of the logarithm of an error: the order means little above one half.
+    /// Largest misfit of the logarithm of an error.
     pub misfit: f64,
+}
+
+impl MethodOrder {
+    /// Whether the errors follow a power of the key's value: none is off by more than a factor of
+    /// about 1.6.
+    pub fn is_clear(&self) -> bool {
+        self.misfit <= 0.5
+    }
 }
 
 /// What a study says.
