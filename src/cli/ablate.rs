@@ -8,7 +8,7 @@ use phase::plot::ablation as figure;
 use phase::record::Program;
 use phase::store;
 use phase::study::ablation::{Ablated, Ablation, AblationError, Finding, Skipped, write_ablation};
-use phase::study::comparison::{Comparing, Cost, Report, RunRow, read_runs};
+use phase::study::comparison::{Comparing, Cost, KnownRuns, Report, read_runs};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     /// The scene or sweep file (TOML).
     file: PathBuf,
     /// Number of seeds at each point [default: those of the sweep, or 5 if it has fewer].
-    #[arg(short, long, value_name = "N", value_parser = two_or_more)]
+    #[arg(short, long, value_name = "N", value_parser = three_or_more)]
     seeds: Option<usize>,
     /// Share of the labels that may change without an effect that is called not needed.
     #[arg(long, value_name = "SHARE", default_value = "0.05", value_parser = share)]
@@ -42,12 +42,12 @@ pub(crate) struct Arguments {
     pub(super) options: Options,
 }
 
-fn two_or_more(text: &str) -> Result<usize, String> {
+fn three_or_more(text: &str) -> Result<usize, String> {
     match text.parse() {
-        Ok(number) if (2..=10_000).contains(&number) => Ok(number),
-        _ => {
-            Err("must be a whole number from 2 to 10000: one seed tells nothing from noise".into())
-        }
+        Ok(number) if (3..=10_000).contains(&number) => Ok(number),
+        _ => Err(
+            "must be a whole number from 3 to 10000: fewer seeds tell nothing from noise".into(),
+        ),
     }
 }
 
@@ -69,7 +69,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.note(format_args!("not tried: {name}: {reason}"));
     }
     let known = match options.force {
-        true => Vec::new(),
+        true => KnownRuns::default(),
         false => read_runs(&ablation.comparison, &table).map_err(Failure::refused)?,
     };
     let mut done = Done::run(ablation, known, arguments, &place, console)?;
@@ -78,7 +78,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if is_whole(&done) && !arguments.no_pairs {
         let pairs = done.ablation.with_pairs(&done.report.rows, &needed);
         let pairs = pairs.map_err(|error: AblationError| Failure::failed(error))?;
-        let known = done.report.rows.into_iter().flatten().collect();
+        // Also those of pairs that were made before.
+        let known = read_runs(&pairs.comparison, &table).map_err(Failure::failed)?;
         done = Done::run(pairs, known, arguments, &place, console)?;
         // The sentence is about single effects.
         done.finding = needed;
@@ -120,7 +121,7 @@ struct Done {
 impl Done {
     fn run(
         ablation: Ablation,
-        known: Vec<RunRow>,
+        known: KnownRuns,
         arguments: &Arguments,
         place: &Place,
         console: &Console,

@@ -8,7 +8,7 @@ use phase::plot::accuracy as figures;
 use phase::record::{Program, RunRecord};
 use phase::store;
 use phase::study::accuracy::{self, AccuracyStudy, Evaluation, Subject, write_accuracy};
-use phase::study::comparison::{Comparing, Comparison, Report, RunRow, read_runs};
+use phase::study::comparison::{Comparing, Comparison, KnownRuns, Report, read_runs};
 use phase::sweep::{Axis, Job, describe};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -77,7 +77,7 @@ fn of_scene(
     let table = Comparing::table(&place.folder);
     super::folders::refuse_to_replace(&table, "a table of runs", b"setting,")?;
     let known = match options.force {
-        true => Vec::new(),
+        true => KnownRuns::default(),
         false => read_runs(comparison, &table).map_err(Failure::refused)?,
     };
     let (report, seconds) = run(comparison, options, place, known, console)?;
@@ -120,10 +120,11 @@ pub(super) fn run(
     comparison: &Comparison,
     options: &Options,
     place: &Place,
-    known: Vec<RunRow>,
+    known: KnownRuns,
     console: &Console,
 ) -> Result<(Report, f64), Failure> {
-    let ids: std::collections::HashSet<String> = known.iter().map(|row| row.id.clone()).collect();
+    let KnownRuns { rows, others } = known;
+    let ids: std::collections::HashSet<String> = rows.iter().map(|row| row.id.clone()).collect();
     let axes: &[Axis] = comparison.axes();
     let name = |job: &Job| describe(axes, &job.values, job.seed);
     let ended = |job: &Job, record: &RunRecord| {
@@ -141,11 +142,12 @@ pub(super) fn run(
             let comparing = Comparing {
                 comparison,
                 folder: &place.folder,
+                others: &others,
                 workers: options.workers(),
                 stop: place.stop,
                 watch,
             };
-            comparing.run(known)
+            comparing.run(rows)
         });
     Ok((report.map_err(Failure::failed)?, seconds))
 }

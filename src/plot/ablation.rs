@@ -38,7 +38,10 @@ pub fn draw(
         .clone()
         .or_else(|| sweep.scene.title.clone())
         .unwrap_or_default();
-    let title = format!("{title}: which effects decide");
+    let title = match title.as_str() {
+        "" => "Which effects decide".to_owned(),
+        title => format!("{title}: which effects decide"),
+    };
     let occurs = |verdict: &Verdict| ablated.iter().any(|it| it.verdict == *verdict);
     let verdicts = [Verdict::Needed, Verdict::NotNeeded, Verdict::Undecided];
     let legend = verdicts.into_iter().filter(occurs);

@@ -55,7 +55,10 @@ impl FileKind {
                 format!("`phase sweep {file}` runs it; a study says `study = \"stability\"`")
             }
             (Self::Sweep, _) => format!("`phase sweep {file}` runs it"),
-            (Self::Study, _) => format!("`phase stability {file}` runs it"),
+            (Self::Study, _) => {
+                let study = document.tree()[STUDY_KEY].as_str().unwrap_or("stability");
+                format!("`phase {study} {file}` runs it")
+            }
         };
         let message = format!("this is a {}, not a {}", kind.name(), self.name());
         Err(document.refuse(&[Problem::new(key, message).help(help).at_key()]))

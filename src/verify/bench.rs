@@ -11,6 +11,7 @@ use crate::scene::{
 };
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What spheres and walls are made of.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -191,20 +192,30 @@ pub(super) fn moving(position: [f64; 3], velocity: [f64; 3]) -> StartSphere {
     }
 }
 
+/// Steps between two looks at whether to stop.
+const STEPS_AT_ONCE: u64 = 10_000;
+
 /// Where the simulations of one case run.
 pub(super) struct Bench<'a> {
     integrator: Integrator,
     /// The quantities that the case expects.
     expected: &'a BTreeMap<String, f64>,
+    /// When set, the simulations are given up.
+    stop: &'a AtomicBool,
     steps: u64,
     moves: u64,
 }
 
 impl<'a> Bench<'a> {
-    pub(super) fn new(integrator: Integrator, expected: &'a BTreeMap<String, f64>) -> Self {
+    pub(super) fn new(
+        integrator: Integrator,
+        expected: &'a BTreeMap<String, f64>,
+        stop: &'a AtomicBool,
+    ) -> Self {
         Self {
             integrator,
             expected,
+            stop,
             steps: 0,
             moves: 0,
         }
@@ -245,9 +256,17 @@ impl<'a> Bench<'a> {
         simulation: &mut Simulation,
         steps: u64,
     ) -> Result<(), VerifyError> {
-        self.steps += steps;
         let before = simulation.moves();
-        simulation.advance(steps)?;
+        let mut left = steps;
+        while left > 0 {
+            if self.stop.load(Ordering::Relaxed) {
+                return Err(VerifyError::Stopped);
+            }
+            let next = left.min(STEPS_AT_ONCE);
+            simulation.advance(next)?;
+            left -= next;
+        }
+        self.steps += steps;
         self.moves += simulation.moves() - before;
         Ok(())
     }

@@ -44,6 +44,7 @@ use serde::de::Error as _;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
+use std::sync::atomic::AtomicBool;
 
 /// The tables of all families.
 const TABLES: [&str; 17] = [
@@ -264,6 +265,9 @@ pub enum VerifyError {
     /// A guard ended the simulation.
     #[error(transparent)]
     Unstable(#[from] Instability),
+    /// It was told to stop.
+    #[error("stopped before its end")]
+    Stopped,
     /// What the family waits for does not happen.
     #[error("no end after {steps} steps: {awaited}")]
     Unfinished {
@@ -330,8 +334,20 @@ pub fn parse(text: &str) -> Result<Vec<Case>, toml::de::Error> {
 /// # Errors
 /// If the set-up cannot be simulated, or the case expects what its family does not measure.
 pub fn run(case: &Case, integrator: Integrator) -> Result<Outcome, VerifyError> {
+    run_until(case, integrator, &AtomicBool::new(false))
+}
+
+/// The same, given up when `stop` is set.
+///
+/// # Errors
+/// Those of [`run`], and [`VerifyError::Stopped`].
+pub fn run_until(
+    case: &Case,
+    integrator: Integrator,
+    stop: &AtomicBool,
+) -> Result<Outcome, VerifyError> {
     let started = cpu_time::of_this_thread();
-    let mut bench = Bench::new(integrator, &case.expect);
+    let mut bench = Bench::new(integrator, &case.expect, stop);
     let measured = case.setup.family().measure(&mut bench)?;
     let check = |(quantity, &expected): (&String, &f64)| match measured.get(quantity) {
         Some(&measured) => Ok(Check {

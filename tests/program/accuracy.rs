@@ -226,6 +226,11 @@ fn the_impulse_of_spin_friction_is_held_and_said() {
     place.write("spin.toml", &study);
     let check = place.phase(&["check", "spin.toml", "--no-trial"]).code(0);
     check.says("mu/dt of \"spin\" friction is held: friction.coefficient = 0.04");
+    // Symptom: friction that [base] gave was not held. Cause: the scene was looked at without it.
+    let base = "[base]\nset = { friction = { law = \"spin\", coefficient = 0.02 } }\n";
+    place.write("base.toml", &format!("{MOTION}{base}{SCENE}"));
+    let check = place.phase(&["check", "base.toml", "--no-trial"]).code(0);
+    check.says("mu/dt of \"spin\" friction is held: friction.coefficient = 0.04");
     place.write(
         "auto.toml",
         &study.replace("\ndt = 2e-4\n", "\ndt = \"auto\"\n"),

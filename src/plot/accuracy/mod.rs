@@ -12,7 +12,8 @@ use crate::study::comparison::Comparison;
 /// A figure with its name, or why it cannot be drawn.
 pub type Named = (&'static str, Result<Svg, PlotError>);
 
-/// All figures that a study has: error against time, and where labels change.
+/// All figures that a study has: error against time, and where labels change. A figure of which
+/// nothing can be drawn, as no error is above zero, is left out.
 pub fn draw_all(
     study: &AccuracyStudy,
     comparison: Option<&Comparison>,
@@ -27,6 +28,7 @@ pub fn draw_all(
         let drawn = changes::draw(study, comparison, evaluation, program);
         figures.push(("label-changes", drawn));
     }
+    figures.retain(|(_, figure)| !matches!(figure, Err(PlotError::NoMeasures)));
     figures
 }
 

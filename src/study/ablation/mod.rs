@@ -9,7 +9,7 @@ pub use table::write_ablation;
 
 use crate::document::{LoadError, Problem};
 use crate::run;
-use crate::scene::Change;
+use crate::scene::{Change, Start};
 use crate::study::comparison::{Base, Comparison, Cost, Measurement, RunRow, Setting, States};
 use crate::sweep::PointError;
 use serde::Serialize;
@@ -82,6 +82,11 @@ impl Ablation {
     /// All that is wrong with the file, or if the scene has no effect.
     pub fn load(path: &Path, seeds: Option<usize>) -> Result<Self, AblationError> {
         let mut base = Base::load(path)?;
+        if matches!(base.sweep.scene.start, Start::List { .. }) {
+            let message = "every sphere has its place, so that seeds change nothing and tell no \
+                           noise; give it a random start";
+            return Err(AblationError::AsItIs(message.to_owned()));
+        }
         let first = base.sweep.seeds.first().copied().unwrap_or(1);
         let count = seeds.unwrap_or(base.sweep.seeds.len().max(FEWEST_SEEDS));
         if count != base.sweep.seeds.len() {

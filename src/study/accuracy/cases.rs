@@ -133,12 +133,13 @@ pub(super) fn run(
     stop: &AtomicBool,
 ) -> Result<Vec<Option<CaseRow>>, rayon::ThreadPoolBuildError> {
     work::map(workers, settings, |setting| {
-        (!stop.load(Ordering::Relaxed)).then(|| row_of(setting))
+        let row = (!stop.load(Ordering::Relaxed)).then(|| row_of(setting, stop));
+        row.filter(|_| !stop.load(Ordering::Relaxed))
     })
 }
 
-fn row_of(setting: &CaseSetting) -> CaseRow {
-    match verify::run(&setting.case, setting.integrator) {
+fn row_of(setting: &CaseSetting, stop: &AtomicBool) -> CaseRow {
+    match verify::run_until(&setting.case, setting.integrator, stop) {
         Ok(outcome) => CaseRow {
             checks: Ok(outcome.checks),
             steps: outcome.steps,

@@ -5,6 +5,11 @@ use crate::document::{Problem, number};
 use crate::scene::{Change, leaf};
 use serde_json::Value;
 
+/// Names of settings that every study has.
+pub(super) const AS_IT_IS: &str = "as it is";
+pub(super) const REFERENCE: &str = "reference";
+const TAKEN: [&str; 2] = [AS_IT_IS, REFERENCE];
+
 /// Most settings of a study.
 const MOST_CHOICES: usize = 500;
 
@@ -169,6 +174,12 @@ fn check(ladders: &[Ladder], variants: &[Variant], problems: &mut Vec<Problem>) 
             let message = format!("the name \"{}\" is there twice", variant.name);
             let problem = Problem::new(format!("variant[{index}].name"), message);
             problems.push(problem.help("choose another one"));
+        }
+        let is_plain = !variant.name.trim().is_empty() && !variant.name.contains(char::is_control);
+        if !is_plain || TAKEN.contains(&variant.name.as_str()) {
+            let message = format!("{:?} cannot be the name of a variant", variant.name);
+            let problem = Problem::new(format!("variant[{index}].name"), message);
+            problems.push(problem.help("choose one in plain letters that no other setting has"));
         }
         if variant.change().is_empty() {
             let problem = Problem::new(format!("variant[{index}]"), "the variant changes nothing");

@@ -212,7 +212,7 @@ impl AccuracyStudy {
                 .iter()
                 .enumerate()
                 .filter(|(at, _)| Some(*at) != reference);
-            let errors = others.filter_map(|(_, it)| it.error(Some(time)).filter(|it| *it > 0.0));
+            let errors = others.filter_map(|(_, it)| it.error(Some(time)));
             errors.fold(f64::INFINITY, f64::min)
         };
         let chaotic = (0..times.len()).find(|time| {

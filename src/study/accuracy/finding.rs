@@ -35,6 +35,12 @@ impl Finding {
                 ..Self::default()
             };
         }
+        if let Some(sentence) = unusable(evaluation) {
+            return Self {
+                sentence,
+                ..Self::default()
+            };
+        }
         let Some(cheapest) = cheapest(evaluation) else {
             return Self {
                 sentence: nothing_is_within(evaluation),
@@ -54,6 +60,23 @@ impl Finding {
             sentence: sentence(evaluation, cheapest, time_ratio, work_ratio),
         }
     }
+}
+
+/// Why nothing can be compared with the reference, if it is so.
+fn unusable(evaluation: &Evaluation) -> Option<String> {
+    let reference = evaluation.outcomes.get(evaluation.reference?)?;
+    let is_motion = matches!(reference.errors, Errors::Motion(_));
+    let all = reference.unstable == reference.runs;
+    if reference.missing > 0 || (all || is_motion) && reference.unstable > 0 {
+        return Some(format!(
+            "Nothing can be compared with {}: {} of its {} runs are unstable, and {} are missing.",
+            reference.name,
+            reference.unstable,
+            reference.runs + reference.missing,
+            reference.missing
+        ));
+    }
+    None
 }
 
 /// The cheapest setting within the tolerance. The reference is right by definition, and counts if

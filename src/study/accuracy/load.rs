@@ -1,6 +1,6 @@
 //! From the file of a study of accuracy to the study.
 
-use super::choices::{Choice, choices};
+use super::choices::{AS_IT_IS, Choice, REFERENCE, choices};
 use super::file::{ACCURACY, AccuracyFile, Changes};
 use super::{AccuracyStudy, Subject, cases};
 use crate::document::{Document, LoadError, Problem, number};
@@ -14,12 +14,6 @@ use crate::sweep::{
 };
 use serde::Deserialize;
 use std::path::Path;
-
-/// Name of the scene as it is among the settings.
-const AS_IT_IS: &str = "as it is";
-
-/// Name of the setting that others are compared with, where it is none of them.
-const REFERENCE: &str = "reference";
 
 /// Reads a study and the files that it names, relative to itself. All scenes have been checked.
 ///
@@ -96,7 +90,8 @@ fn comparison(
     choices: &[Choice],
     document: &Document,
 ) -> Result<Comparison, LoadError> {
-    let entry = file.scene.as_ref().unwrap_or(&serde_json::Value::Null);
+    // As the file has it: a word for its accuracy is a key that settings may change.
+    let entry = &document.tree()["scene"];
     let mut base = Base::of_entry(entry, document)?;
     let mut problems = Vec::new();
     if let Some(entries) = &file.axis {
@@ -109,6 +104,14 @@ fn comparison(
         base.sweep.seeds = expand_seeds(file.seeds.as_ref(), &mut problems);
     }
     document.accept(&problems)?;
+    let common = common(file);
+    if !common.is_empty() {
+        note_absent(&base, "base", &common, &mut problems);
+        base = base.changed(&common).map_err(|found| {
+            let found = found.into_iter().map(|it| at("base", None, it));
+            document.refuse(&found.collect::<Vec<_>>())
+        })?;
+    }
     check_kind(file, &base, &mut problems);
     document.accept(&problems)?;
     let mut settings = settings(&base, file, choices, &mut problems);
@@ -136,11 +139,17 @@ fn comparison(
 /// What the scene must have for the errors that are asked for.
 fn check_kind(file: &AccuracyFile, base: &Base, problems: &mut Vec<Problem>) {
     let Some(times) = &file.times else {
-        if base.sweep.seeds.len() < 2 {
-            let message = "labels and order parameters are told from noise by seeds, and there is \
-                           one";
+        if base.sweep.seeds.len() < 3 {
+            let message = "labels and order parameters are told from noise by seeds, of which it \
+                           takes three at least";
             let help = "add [seeds] with `count = 10`, or `times` for a motion that is not chaotic";
             problems.push(Problem::new("seeds", message).help(help));
+        }
+        if matches!(base.sweep.scene.start, Start::List { .. }) {
+            let message = "every sphere of the scene has its place, so that seeds change nothing and \
+                           tell no noise";
+            let help = "give the scene a random start, or compare its motion at `times`";
+            problems.push(Problem::new("scene", message).help(help));
         }
         return;
     };
@@ -173,20 +182,21 @@ fn settings(
     problems: &mut Vec<Problem>,
 ) -> Vec<Setting> {
     let mut settings = Vec::new();
-    let common = common(file);
     let reference = file.reference.as_ref().map(|changes| {
-        let change = common.then(&changes.change());
+        let change = changes.change();
         ("reference".to_owned(), REFERENCE.to_owned(), change)
     });
-    let as_it_is = ("base".to_owned(), AS_IT_IS.to_owned(), common.clone());
+    let as_it_is = (String::new(), AS_IT_IS.to_owned(), Change::default());
     for (path, name, change) in [as_it_is].into_iter().chain(reference) {
+        note_absent(base, &path, &change, problems);
         match Setting::new(base, name, change) {
             Ok(setting) => settings.push(setting),
             Err(found) => problems.extend(found.into_iter().map(|it| at(&path, None, it))),
         }
     }
     for choice in choices {
-        match Setting::new(base, choice.name.clone(), common.then(&choice.change)) {
+        note_absent(base, &choice.path, &choice.change, problems);
+        match Setting::new(base, choice.name.clone(), choice.change.clone()) {
             Ok(setting) => settings.push(Setting {
                 method: choice.method.clone(),
                 rung: choice.rung.clone(),
@@ -199,6 +209,14 @@ fn settings(
         }
     }
     settings
+}
+
+/// Notes what a change leaves out although it is not there: a slip of the pen.
+fn note_absent(base: &Base, path: &str, change: &Change, problems: &mut Vec<Problem>) {
+    for absent in base.not_there(change) {
+        let message = format!("the scene has no `{absent}` to leave out");
+        problems.push(Problem::new(path, message).help("check its spelling, or remove it here"));
+    }
 }
 
 /// A problem of a setting at the place of the study that says it.

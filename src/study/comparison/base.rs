@@ -78,18 +78,42 @@ impl Base {
         })
     }
 
+    /// The base with a change, from which settings then start.
+    ///
+    /// # Errors
+    /// What is wrong with it, by paths of the scene.
+    pub(crate) fn changed(&self, change: &Change) -> Result<Self, Vec<Problem>> {
+        self.check_axes(change)?;
+        let mut tree = self.tree.clone();
+        change.apply(&mut tree).map_err(not_in_a_table)?;
+        let mut sweep = self.sweep.clone();
+        sweep.scene = run::base_of_tree(&tree, &self.folder, Reading::RUN)?;
+        Ok(Self {
+            sweep,
+            tree,
+            folder: self.folder.clone(),
+        })
+    }
+
+    /// Tables and keys that a change leaves out although they are not there.
+    pub(crate) fn not_there<'a>(&self, change: &'a Change) -> Vec<&'a str> {
+        let pointer = |path: &str| format!("/{}", path.replace('.', "/"));
+        let absent = |path: &&String| self.tree.pointer(&pointer(path)).is_none();
+        change
+            .remove
+            .iter()
+            .filter(absent)
+            .map(String::as_str)
+            .collect()
+    }
+
     /// The sweep with a change. Problems have paths of the scene.
     pub(super) fn with(&self, change: &Change) -> Result<Changed, Vec<Problem>> {
         self.check_axes(change)?;
         let mut tree = self.tree.clone();
         let held = self.hold_impulse(change);
         for change in [Some(change), held.as_ref()].into_iter().flatten() {
-            change.apply(&mut tree).map_err(|path| {
-                vec![Problem::new(
-                    path.clone(),
-                    format!("`{path}` is not in a table"),
-                )]
-            })?;
+            change.apply(&mut tree).map_err(not_in_a_table)?;
         }
         let mut sweep = self.sweep.clone();
         sweep.scene = run::base_of_tree(&tree, &self.folder, Reading::RUN)?;
@@ -166,6 +190,13 @@ impl Base {
         let (before, after) = (&self.sweep.scene, &sweep.scene);
         let both_spin = spin_coefficient(before).zip(spin_coefficient(after));
         let is_same_step = before.time.dt == after.time.dt;
+        let becomes_spin = both_spin.is_none() && spin_coefficient(after).is_some();
+        if becomes_spin && !is_same_step {
+            let message = "\"spin\" friction is an impulse mu per step, and both the law and the \
+                           step are new, so it is not known which friction is meant";
+            let help = "give the scene \"spin\" friction by [base], or change one at a time";
+            return refuse(Problem::new("friction.law", message).help(help));
+        }
         if let Some((old, new)) = both_spin {
             let is_axis = |key: &str| self.sweep.axes.iter().any(|axis| axis.key == key);
             if !is_same_step && is_axis("friction.coefficient") {
@@ -207,6 +238,11 @@ impl Base {
         }
         Ok(())
     }
+}
+
+fn not_in_a_table(path: String) -> Vec<Problem> {
+    let message = format!("`{path}` is not in a table");
+    vec![Problem::new(path, message)]
 }
 
 /// The coefficient of "spin" friction, if that is the law.

@@ -1,12 +1,15 @@
 //! Intervals by bootstrap over seeds (B. Efron, Ann. Stat. 7, 1 (1979)).
 
-use crate::statistics::CONFIDENCE;
+use crate::statistics::{CONFIDENCE, student_t};
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 use serde::Serialize;
 
 /// Number of resamples.
 const RESAMPLES: usize = 1000;
+
+/// Degrees of freedom of which the t of Student is that of a normal distribution.
+const MANY: usize = 10_000;
 
 /// An estimate and the ends of its interval of [`CONFIDENCE`].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -90,11 +93,14 @@ pub(super) fn stream(purpose: &str) -> Pcg64 {
 /// The interval of an estimate that `estimate` makes of weights, where there are so many seeds at
 /// each point. `purpose` names the stream of random numbers.
 ///
-/// The quantiles of the resamples are drawn apart about the estimate by sqrt(n / (n - 1)), since
-/// resamples of n seeds scatter less than n seeds do by that factor.
+/// The quantiles of the resamples are drawn apart about the estimate: by sqrt(n / (n - 1)), since
+/// resamples of n seeds scatter less than n seeds do by that factor, and by Student's t over that of
+/// many runs, since few tell their own scatter badly. `together` intervals hold [`CONFIDENCE`] at
+/// once (Bonferroni).
 pub(super) fn interval(
     seeds: &[usize],
     purpose: &str,
+    together: usize,
     estimate: impl Fn(&Weights) -> f64,
 ) -> Interval {
     let value = estimate(&Weights::once(seeds));
@@ -104,14 +110,17 @@ pub(super) fn interval(
     drawn.sort_by(f64::total_cmp);
     let total: usize = seeds.iter().sum();
     let mean = total as f64 / seeds.len().max(1) as f64;
-    let wider = (mean / (mean - 1.0).max(0.5)).sqrt();
+    let outside = (1.0 - CONFIDENCE) / together.max(1) as f64;
+    let freedom = total.saturating_sub(seeds.len()).max(1);
+    let of_few = student_t(1.0 - outside, freedom) / student_t(1.0 - outside, MANY);
+    let wider = of_few * (mean / (mean - 1.0).max(0.5)).sqrt();
     let quantile = |share: f64| {
         let place = share * (drawn.len() - 1) as f64;
         value + wider * (drawn[place.round() as usize] - value)
     };
     Interval {
         value,
-        low: quantile(0.5 * (1.0 - CONFIDENCE)),
-        high: quantile(0.5 * (1.0 + CONFIDENCE)),
+        low: quantile(0.5 * outside),
+        high: quantile(1.0 - 0.5 * outside),
     }
 }

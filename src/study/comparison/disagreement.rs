@@ -35,10 +35,10 @@ type OfPoint<'a> = &'a dyn Fn(&[Vec<Label>; 2], &[f64]) -> f64;
 
 impl Disagreement {
     /// Compares the labels of a setting with those of a reference. `purpose` names the stream of
-    /// random numbers for the intervals. None with fewer than two seeds everywhere.
+    /// random numbers for the intervals. None with fewer than three seeds everywhere.
     pub fn of(sample: &Sample<'_>, reference: &Sample<'_>, purpose: &str) -> Option<Self> {
         let labels = sample.labels_with(reference);
-        let compared: Vec<_> = labels.iter().filter(|[own, _]| own.len() > 1).collect();
+        let compared: Vec<_> = labels.iter().filter(|[own, _]| own.len() > 2).collect();
         if compared.is_empty() {
             return None;
         }
@@ -54,7 +54,7 @@ impl Disagreement {
         let floor =
             |[_, other]: &[Vec<Label>; 2], weights: &[f64]| self::chance(other, other, weights);
         let estimate = |purpose: &str, of_point: OfPoint<'_>| {
-            interval(&seeds, purpose, |weights| mean(weights, of_point))
+            interval(&seeds, purpose, 1, |weights| mean(weights, of_point))
         };
         let bound = bound_of_never(seeds.iter().sum());
         let mut excess = estimate(&format!("{purpose}, excess"), &|labels, weights| {

@@ -23,7 +23,7 @@ pub use runs::{Comparing, ComparingError, Report};
 pub use sample::{Cost, Sample};
 pub use shift::Shift;
 pub use states::{ShiftOf, States};
-pub use table::{RunRow, read_runs, write_runs};
+pub use table::{KnownRuns, RunRow, read_runs, write_runs};
 
 use crate::document::Problem;
 use crate::scene::Change;
@@ -94,6 +94,7 @@ impl Comparison {
         as_it_is: usize,
         measurement: Measurement,
     ) -> Result<Self, PointError> {
+        let mut settings = settings;
         let mut places: HashMap<String, usize> = HashMap::new();
         let (mut jobs, mut runs) = (Vec::new(), Vec::new());
         for setting in &settings {
@@ -106,6 +107,12 @@ impl Comparison {
                 own.push(place);
             }
             runs.push(own);
+        }
+        for (place, setting) in settings.iter_mut().enumerate() {
+            let is_new = place != as_it_is && !setting.change.is_empty();
+            if is_new && runs[place] == runs[as_it_is] && setting.note.is_none() {
+                setting.note = Some("its runs are those of the scene as it is".to_owned());
+            }
         }
         Ok(Self {
             settings,

@@ -16,6 +16,8 @@ pub struct Comparing<'a> {
     pub comparison: &'a Comparison,
     /// The folder of results, for the table and for checkpoints.
     pub folder: &'a Folder,
+    /// Lines of the table that belong to other settings or seeds, and are kept.
+    pub others: &'a [csv::StringRecord],
     /// Number of runs at the same time.
     pub workers: usize,
     /// When set, runs under way are given up, and no more are started.
@@ -109,6 +111,11 @@ impl Table for Comparing<'_> {
         rows: &[Option<RunRow>],
         _: &BTreeMap<String, Program>,
     ) -> Result<(), StoreError> {
-        table::write_runs(self.comparison, rows, &Self::table(self.folder))
+        table::write_runs(
+            self.comparison,
+            rows,
+            self.others,
+            &Self::table(self.folder),
+        )
     }
 }

@@ -20,13 +20,14 @@ pub struct Shift {
 
 impl Shift {
     /// Compares a quantity, by its place, with that of a reference. `purpose` names the stream of
-    /// random numbers for the intervals. None with fewer than two seeds everywhere, where neither has
+    /// random numbers for the intervals, `together` of which hold at once. None with fewer than three seeds everywhere, where neither has
     /// a spread, or where fewer than half of the runs have the quantity.
     pub fn of(
         sample: &Sample<'_>,
         reference: &Sample<'_>,
         quantity: usize,
         purpose: &str,
+        together: usize,
     ) -> Option<Self> {
         let values = sample.values_with(reference, quantity);
         let pairs: usize = values.iter().map(|[own, _]| own.len()).sum();
@@ -35,7 +36,7 @@ impl Shift {
             return None;
         }
         let compared: Vec<&[Vec<f64>; 2]> =
-            values.iter().filter(|[own, _]| own.len() > 1).collect();
+            values.iter().filter(|[own, _]| own.len() > 2).collect();
         let count = compared.len() as f64;
         // Of both: one run of the setting that goes astray would else count as many spreads of a
         // reference whose seeds hardly differ.
@@ -59,10 +60,10 @@ impl Shift {
                 .sum::<f64>()
                 / count
         };
-        let mean = interval(&seeds, &format!("{purpose}, mean"), |weights| {
+        let mean = interval(&seeds, &format!("{purpose}, mean"), together, |weights| {
             over_points(weights, mean)
         });
-        let square = interval(&seeds, &format!("{purpose}, square"), |weights| {
+        let square = interval(&seeds, &format!("{purpose}, square"), together, |weights| {
             over_points(weights, square_of_mean)
         });
         Some(Self {

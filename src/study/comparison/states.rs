@@ -27,13 +27,16 @@ impl States {
         let reference = comparison.sample(comparison.reference, rows);
         let sample = comparison.sample(place, rows);
         let purpose = &comparison.settings[place].name;
-        let quantities = comparison.quantities().into_iter().enumerate();
+        let quantities = comparison.quantities();
+        let together = quantities.len();
+        let quantities = quantities.into_iter().enumerate();
         let shift = |(place, quantity): (usize, super::Quantity)| ShiftOf {
             shift: Shift::of(
                 &sample,
                 &reference,
                 place,
                 &format!("{purpose}, {}", quantity.name),
+                together,
             ),
             quantity: quantity.name,
         };

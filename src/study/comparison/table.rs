@@ -50,13 +50,15 @@ fn columns(axes: &[Axis], quantities: &[Quantity]) -> Vec<String> {
     columns
 }
 
-/// Writes the rows that there are of the jobs of a comparison.
+/// Writes the rows that there are of the jobs of a comparison, and after them the lines of `others`:
+/// those of other settings or seeds, which a later study may want again.
 ///
 /// # Errors
 /// If the file cannot be written.
 pub fn write_runs(
     comparison: &Comparison,
     rows: &[Option<RunRow>],
+    others: &[csv::StringRecord],
     path: &Path,
 ) -> Result<(), StoreError> {
     let content = |error: &dyn std::fmt::Display| StoreError::content(path, error);
@@ -81,8 +83,20 @@ pub fn write_runs(
             table.serialize(cells).map_err(|error| content(&error))?;
         }
     }
+    for line in others {
+        table.write_record(line).map_err(|error| content(&error))?;
+    }
     let bytes = table.into_inner().map_err(|error| content(&error))?;
     write_atomic(path, &bytes)
+}
+
+/// The rows of a table that can be used again, and its other lines.
+#[derive(Clone, Debug, Default)]
+pub struct KnownRuns {
+    /// Rows of jobs of the comparison.
+    pub rows: Vec<RunRow>,
+    /// Lines of other settings or seeds.
+    pub others: Vec<csv::StringRecord>,
 }
 
 /// Reads the rows of a table that can be used again: of the same axes, quantities and measurement.
@@ -90,9 +104,9 @@ pub fn write_runs(
 ///
 /// # Errors
 /// If the file cannot be read or is no such table.
-pub fn read_runs(comparison: &Comparison, path: &Path) -> Result<Vec<RunRow>, StoreError> {
+pub fn read_runs(comparison: &Comparison, path: &Path) -> Result<KnownRuns, StoreError> {
     if !path.exists() {
-        return Ok(Vec::new());
+        return Ok(KnownRuns::default());
     }
     let fail = |error: csv::Error| StoreError::reading(path, error.into());
     let mut table = csv::Reader::from_path(path).map_err(fail)?;
@@ -104,25 +118,31 @@ pub fn read_runs(comparison: &Comparison, path: &Path) -> Result<Vec<RunRow>, St
         .iter()
         .ne(columns(axes, &quantities))
     {
-        return Ok(Vec::new());
+        return Ok(KnownRuns::default());
     }
     let measured = comparison.measurement.digest();
-    let (mut rows, mut known) = (Vec::new(), HashSet::new());
+    let own: HashSet<&str> = comparison.jobs.iter().map(|job| job.id.as_str()).collect();
+    let (mut runs, mut known) = (KnownRuns::default(), HashSet::new());
     for row in table.records() {
-        let row = row.map_err(fail)?;
-        let line = row.position().map_or(1, csv::Position::line);
-        let (row, how) = parse(&row, axes.len(), quantities.len()).ok_or_else(|| {
+        let record = row.map_err(fail)?;
+        let line = record.position().map_or(1, csv::Position::line);
+        let (row, how) = parse(&record, axes.len(), quantities.len()).ok_or_else(|| {
             StoreError::text(
                 path,
                 line,
                 "this is no row of a comparison; delete the file",
             )
         })?;
-        if how == measured && known.insert(row.id.clone()) {
-            rows.push(row);
+        if how != measured {
+            continue;
+        }
+        if !own.contains(row.id.as_str()) {
+            runs.others.push(record);
+        } else if known.insert(row.id.clone()) {
+            runs.rows.push(row);
         }
     }
-    Ok(rows)
+    Ok(runs)
 }
 
 /// The row of a line, and how it was measured; none if it is no row.

@@ -82,7 +82,7 @@ fn differences(seeds: usize, changed: usize, shift: f64, trials: usize) -> [usiz
         let purpose = format!("trial {trial}");
         let labels = Disagreement::of(&own, &other, &purpose).unwrap();
         seen[0] += usize::from(labels.excess.is_clear());
-        let parameter = Shift::of(&own, &other, 0, &purpose).unwrap();
+        let parameter = Shift::of(&own, &other, 0, &purpose, 1).unwrap();
         seen[1] += usize::from(parameter.mean.is_clear());
     }
     seen
@@ -124,16 +124,16 @@ fn the_same_runs_do_not_differ_but_something_may_have_hidden() {
         "{}",
         labels.excess.high
     );
-    let parameter = Shift::of(&own, &own, 0, "itself").unwrap();
+    let parameter = Shift::of(&own, &own, 0, "itself", 1).unwrap();
     assert_eq!(parameter.mean.value, 0.0);
     assert_eq!(parameter.root_mean_square.value, 0.0);
 }
 
 #[test]
-fn one_seed_tells_nothing() {
-    let map = Map::new(5, &mut stream("one seed"));
-    let runs = map.runs(1, 0, 0.0, &mut stream("its labels"));
-    let own = sample(&runs, 1);
+fn two_seeds_tell_nothing() {
+    let map = Map::new(5, &mut stream("two seeds"));
+    let runs = map.runs(2, 0, 0.0, &mut stream("their labels"));
+    let own = sample(&runs, 2);
     assert_eq!(Disagreement::of(&own, &own, "itself"), None);
-    assert_eq!(Shift::of(&own, &own, 0, "itself"), None);
+    assert_eq!(Shift::of(&own, &own, 0, "itself", 1), None);
 }
