@@ -15,17 +15,17 @@ use std::path::PathBuf;
 /// Switch off each effect of a scene, or down to its simpler law, and see what that changes.
 ///
 /// Every law and effect is taken away by itself: quadratic drag down to linear, Mindlin friction
-/// down to Coulomb's and to none, the counting shield to none, and so on. Labels and order parameters
-/// are compared with those of the scene as it is, beyond what seeds change by themselves. Where two
-/// effects matter, both are taken away at once too. Runs whose row is in the table already are not
-/// made again.
+/// down to Coulomb's and to none, the counting shield to none, and so on. Labels and order
+/// parameters are compared with those of the scene as it is, beyond what seeds change by
+/// themselves. Where two effects matter, both are taken away at once too. Runs whose row is in the
+/// table already are not made again.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: which effects decide the published diagram?
   phase ablate sweeps/theoretical-9x9.toml --seeds 5
 
-The results folder holds runs.csv (one row per run), ablation.csv (one row per effect), ablation.json
-(all of it, with the sentence) and the figure as SVG and PNG.")]
+The results folder holds runs.csv (one row per run), ablation.csv (one row per effect),
+ablation.json (all of it, with the sentence) and the figure as SVG and PNG.")]
 pub(crate) struct Arguments {
     /// The scene or sweep file (TOML).
     file: PathBuf,

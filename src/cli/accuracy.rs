@@ -17,9 +17,9 @@ use std::path::PathBuf;
 ///
 /// A study climbs ladders of choices: time step, integrator, stiffness, laws, or any other key. It
 /// compares every setting with a reference: the numbers of a verification case, the motion at given
-/// times, or, where runs are chaotic, labels and order parameters beyond what seeds make of them. It
-/// names the cheapest setting that is good enough. Runs whose row is in the table already are not
-/// made again.
+/// times, or, where runs are chaotic, labels and order parameters beyond what seeds make of them.
+/// It names the cheapest setting that is good enough. Runs whose row is in the table already are
+/// not made again.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: how large may the time step of a collapse be?

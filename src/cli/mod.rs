@@ -148,8 +148,8 @@ pub(crate) fn main() -> ExitCode {
     let is_text = |argument: OsString| argument.into_string().is_ok();
     if wants_json && !std::env::args_os().all(is_text) {
         console.error(
-            "--json needs arguments in UTF-8, and one is not; rename the file or folder, or leave out \
-             --json",
+            "--json needs arguments in UTF-8, and one is not; rename the file or folder, or leave \
+             out --json",
         );
         return Exit::Refused.into();
     }

@@ -51,8 +51,8 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Makes the folder for the results of a file, by default in that of the study. `table` is kept in
-    /// it, and begins with `signature`.
+    /// Makes the folder for the results of a file, by default in that of the study. `table` is kept
+    /// in it, and begins with `signature`.
     pub(super) fn open(
         study: &str,
         file: &Path,

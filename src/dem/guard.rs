@@ -76,8 +76,8 @@ impl Limits {
         self.displacement * radius / dt
     }
 
-    /// Reports the first sphere whose spin has no finite square, or whose position is not a number or
-    /// out of bounds.
+    /// Reports the first sphere whose spin has no finite square, or whose position is not a number
+    /// or out of bounds.
     pub(super) fn check_positions(
         &self,
         particles: &Particles,
@@ -125,8 +125,8 @@ impl Limits {
         })
     }
 
-    /// The first sphere that exceeds its speed limit, of those with these velocities and radii. Their
-    /// indices begin at `first`.
+    /// The first sphere that exceeds its speed limit, of those with these velocities and radii.
+    /// Their indices begin at `first`.
     pub(super) fn first_too_fast(
         &self,
         first: usize,

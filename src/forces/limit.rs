@@ -77,8 +77,8 @@ impl Regime<'_> {
         self.inertia_factor * mass * self.smallest_radius * self.smallest_radius
     }
 
-    /// 1 + m r^2 / I, with the inertial mass m: a force at the surface accelerates the contact point
-    /// this many times more than the centre.
+    /// 1 + m r^2 / I, with the inertial mass m: a force at the surface accelerates the contact
+    /// point this many times more than the centre.
     pub(crate) fn surface_factor(&self) -> f64 {
         1.0 + self.inertial_factor / self.inertia_factor
     }
@@ -102,8 +102,8 @@ impl Regime<'_> {
     }
 }
 
-/// How stable an integrator keeps an oscillator: the criterion of symplectic Euler, with the damping
-/// rate multiplied by a factor.
+/// How stable an integrator keeps an oscillator: the criterion of symplectic Euler, with the
+/// damping rate multiplied by a factor.
 #[derive(Clone, Copy)]
 pub(crate) struct Scheme {
     /// Factor on damping rates.

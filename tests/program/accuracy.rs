@@ -178,16 +178,16 @@ fn bad_studies_are_refused_with_line_and_fix() {
             "neither `scene` nor `case`",
         ),
         (
-            "study = \"accuracy\"\ncase = \"cradle of thre\"\n[[ladder]]\nkey = \"integrator\"\n\
+            "study = \"accuracy\"\ncase = \"cradle of thee\"\n[[ladder]]\nkey = \"integrator\"\n\
              values = [\"velocity-verlet\"]\n",
             "did you mean \"cradle of three\"",
         ),
         (
             &format!(
-                "study = \"accuracy\"\ntimes = [0.04]\n[[ladder]]\nkey = \"time.tpyo\"\n\
+                "study = \"accuracy\"\ntimes = [0.04]\n[[ladder]]\nkey = \"time.dtt\"\n\
                  values = [1.0]\n[reference]\n{SCENE}"
             ),
-            "with tpyo = 1",
+            "with dtt = 1",
         ),
         (
             &format!(

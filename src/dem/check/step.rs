@@ -6,10 +6,10 @@ use crate::scene::{Scene, rounded};
 
 /// Default of `time.safety_factor`: the step divided by the smallest limit.
 ///
-/// Altair's EDEM advises a fifth of the Rayleigh time for dense packings ("Estimate Simulation Time"
-/// in its help). A fifth of the limit of twelve contacts, t_c / (2.015 sqrt(6)) with the duration t_c
-/// of a Hertz contact, resolves the shortest contact with about 25 steps; a linear contact, with t_c =
-/// pi / w, with 19.
+/// Altair's EDEM advises a fifth of the Rayleigh time for dense packings ("Estimate Simulation
+/// Time" in its help). A fifth of the limit of twelve contacts, t_c / (2.015 sqrt(6)) with the
+/// duration t_c of a Hertz contact, resolves the shortest contact with about 25 steps; a linear
+/// contact, with t_c = pi / w, with 19.
 pub(crate) const SAFETY_FACTOR: f64 = 0.2;
 
 /// Steps per frame that can be counted exactly.

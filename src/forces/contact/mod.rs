@@ -41,7 +41,8 @@ pub trait NormalLaw: Copy + Send + Sync + 'static {
     const NEEDS_EFFECTIVE_MASS: bool = false;
 
     /// Repulsive force (N) from the overlap (m), its rate (m/s), the [`contact_radius`] (m) and the
-    /// effective mass m1 m2 / (m1 + m2) (kg; at a wall or a fixed sphere, that of the moving sphere).
+    /// effective mass m1 m2 / (m1 + m2) (kg; at a wall or a fixed sphere, that of the moving
+    /// sphere).
     fn force(
         &self,
         overlap: f64,
@@ -71,8 +72,8 @@ pub trait NormalLaw: Copy + Send + Sync + 'static {
     /// dF / d overlap rate (N s/m) at that overlap, for an effective mass (kg).
     fn damping(&self, overlap: f64, effective_radius: f64, effective_mass: f64) -> f64;
 
-    /// Deepest overlap (m) of an impact without losses, which at the given overlap (m) still has the
-    /// given speed (m/s).
+    /// Deepest overlap (m) of an impact without losses, which at the given overlap (m) still has
+    /// the given speed (m/s).
     fn deepest_overlap(
         &self,
         overlap: f64,

@@ -84,8 +84,8 @@ pub enum DragForm {
 }
 
 impl Drag {
-    /// Coefficients of a sphere of that radius (m) for the kernel: c1 (kg/s) and c2 (kg/m), or those
-    /// of [`SchillerNaumann`].
+    /// Coefficients of a sphere of that radius (m) for the kernel: c1 (kg/s) and c2 (kg/m), or
+    /// those of [`SchillerNaumann`].
     fn coefficients(&self, radius: f64) -> (f64, f64) {
         let diameter = 2.0 * radius;
         match self.law {
@@ -103,8 +103,8 @@ impl Drag {
         }
     }
 
-    /// Force over speed (kg/s) on a sphere of that radius (m), in air that passes it at a speed (m/s)
-    /// along one axis.
+    /// Force over speed (kg/s) on a sphere of that radius (m), in air that passes it at a speed
+    /// (m/s) along one axis.
     pub fn coefficient(&self, radius: f64, speed: f64) -> f64 {
         let (c1, c2) = self.coefficients(radius);
         match self.law {

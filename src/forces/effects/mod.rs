@@ -87,8 +87,8 @@ effects! {
     /// alpha^n drag(v_air - v_z), with n the number of lower spheres whose centre lies within 2r in
     /// |dx| and in |dy|, and `speed` v_air. Absent: none.
     updraught: Updraught = "updraught",
-    /// Magnus lift of spinning spheres (Rubinow and Keller, 1961): F = C pi r^3 rho w x u, with spin
-    /// w and velocity u relative to the fluid, which is at rest but for `swirl`. Absent: none.
+    /// Magnus lift of spinning spheres (Rubinow and Keller, 1961): F = C pi r^3 rho w x u, with
+    /// spin w and velocity u relative to the fluid, which is at rest but for `swirl`. Absent: none.
     magnus: Magnus = "Magnus lift",
     /// Viscous damping of spins: torque -c w, with spin w. Absent: none.
     spin_damping: SpinDamping = "spin damping",
@@ -132,8 +132,8 @@ pub(crate) trait EffectKeys {
         0.0
     }
 
-    /// Simpler stand-ins for this effect, each as a change of the scene's keys: `off`, which removes
-    /// the table, or a simpler law.
+    /// Simpler stand-ins for this effect, each as a change of the scene's keys: `off`, which
+    /// removes the table, or a simpler law.
     fn simplifications(
         &self,
         off: Simplification,

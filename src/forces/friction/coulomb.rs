@@ -56,9 +56,9 @@ impl<C> FrictionKeys<C> for Coulomb {
     }
 }
 
-/// f = -mu F_n u / max(|u|, u_0), with the sliding velocity u of the contact point (by velocities and
-/// spins of both partners). Below the regularisation speed u_0 the force is viscous, so a pile at
-/// rest creeps.
+/// f = -mu F_n u / max(|u|, u_0), with the sliding velocity u of the contact point (by velocities
+/// and spins of both partners). Below the regularisation speed u_0 the force is viscous, so a pile
+/// at rest creeps.
 #[derive(Clone, Copy, Debug)]
 pub struct CoulombLaw {
     coefficient: f64,

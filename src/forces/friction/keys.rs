@@ -102,8 +102,8 @@ impl Friction {
         pairs.filter_map(move |(contact, friction)| (*contact == law).then_some(*friction))
     }
 
-    /// Simpler stand-ins for this law, each as a change of the scene's keys. `removed`: the table of
-    /// friction, and the tables that need it.
+    /// Simpler stand-ins for this law, each as a change of the scene's keys. `removed`: the table
+    /// of friction, and the tables that need it.
     pub(crate) fn simplifications(
         &self,
         contact: &Contact,

@@ -43,8 +43,8 @@ pub struct Touch {
     pub effective_mass: f64,
     /// The [contact radius](super::contact::contact_radius) (m), if a law uses it.
     pub contact_radius: f64,
-    /// Normal force (N). Zero where partners attract each other or part faster than their elasticity
-    /// recovers; then no tangential force acts.
+    /// Normal force (N). Zero where partners attract each other or part faster than their
+    /// elasticity recovers; then no tangential force acts.
     pub normal_force: f64,
     /// The mean sliding velocity since the last evaluation of this contact (m/s). It loads springs.
     pub loading_velocity: Vector,

@@ -18,8 +18,8 @@ impl Scene {
         self.check_comings_and_goings(problems);
     }
 
-    /// Whether spheres come or go during the run. If so, snapshots hold NaN for a sphere that is not
-    /// in.
+    /// Whether spheres come or go during the run. If so, snapshots hold NaN for a sphere that is
+    /// not in.
     pub fn has_flow(&self) -> bool {
         matches!(self.start, Start::Feed { .. })
             || self.dem.door.is_some()

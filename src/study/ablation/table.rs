@@ -1,9 +1,9 @@
 //! `ablation.csv`: what each simplification of a scene changes and saves, one row each.
 //!
 //! Columns: `without` (what was simplified), `verdict`, `runs`, `missing`, `cpu_seconds` and
-//! `force_evaluations` of a run on average, `time_ratio` and `work_ratio` (over those of the scene as
-//! it is), `chance`, `floor` and `excess` of labels that disagree, `excess_low`, `excess_high`, and of
-//! each order parameter `NAME_shift_rms` with the ends of its interval.
+//! `force_evaluations` of a run on average, `time_ratio` and `work_ratio` (over those of the scene
+//! as it is), `chance`, `floor` and `excess` of labels that disagree, `excess_low`, `excess_high`,
+//! and of each order parameter `NAME_shift_rms` with the ends of its interval.
 
 use super::Ablated;
 use crate::store::{StoreError, write_atomic};

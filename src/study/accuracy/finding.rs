@@ -26,8 +26,8 @@ impl Finding {
         let base = &evaluation.outcomes[evaluation.as_it_is];
         if evaluation.counted_time.is_none() && !evaluation.times.is_empty() {
             let sentence = format!(
-                "The motion is chaotic before {} s: no setting is near the reference there. Compare \
-                 earlier times, or labels and order parameters over [seeds].",
+                "The motion is chaotic before {} s: no setting is near the reference there. \
+                 Compare earlier times, or labels and order parameters over [seeds].",
                 evaluation.times[0]
             );
             return Self {
@@ -112,8 +112,8 @@ fn sentence(
     let times = |ratio: Option<f64>| ratio.unwrap_or(f64::NAN);
     let cost = match time_ratio {
         Some(ratio) if ratio <= 1.0 => format!(
-            "It saves {:.0} % of the processor time of the scene as it is, and {:.0} % of its force \
-             evaluations",
+            "It saves {:.0} % of the processor time of the scene as it is, and {:.0} % of its \
+             force evaluations",
             100.0 * (1.0 - ratio),
             100.0 * (1.0 - times(work_ratio))
         ),
@@ -178,8 +178,8 @@ fn how_wrong(evaluation: &Evaluation, outcome: &Outcome) -> String {
                 percent(it.excess.high)
             ),
             false => format!(
-                "no difference is seen beyond that of seeds ({}), and one of more than {} could not \
-                 have hidden",
+                "no difference is seen beyond that of seeds ({}), and one of more than {} could \
+                 not have hidden",
                 percent(it.floor.value),
                 percent(it.excess.high)
             ),

@@ -146,8 +146,8 @@ fn check_kind(file: &AccuracyFile, base: &Base, problems: &mut Vec<Problem>) {
             problems.push(Problem::new("seeds", message).help(help));
         }
         if matches!(base.sweep.scene.start, Start::List { .. }) {
-            let message = "every sphere of the scene has its place, so that seeds change nothing and \
-                           tell no noise";
+            let message = "every sphere of the scene has its place, so that seeds change nothing \
+                           and tell no noise";
             let help = "give the scene a random start, or compare its motion at `times`";
             problems.push(Problem::new("scene", message).help(help));
         }

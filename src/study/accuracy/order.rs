@@ -3,9 +3,9 @@
 /// Orders that are looked for.
 const ORDERS: [f64; 2] = [0.1, 8.0];
 
-/// The order p and the largest misfit of ln(error) of the errors c |h^p - h_ref^p| at steps h, where
-/// the reference that they were measured from has the step `reference` of the same method. None
-/// with fewer than two steps, or errors that are zero or no numbers.
+/// The order p and the largest misfit of ln(error) of the errors c |h^p - h_ref^p| at steps h,
+/// where the reference that they were measured from has the step `reference` of the same method.
+/// None with fewer than two steps, or errors that are zero or no numbers.
 ///
 /// With a finest rung as reference the errors fall faster than h^p near it; left out, that would
 /// pass for a higher order.

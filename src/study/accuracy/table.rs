@@ -2,9 +2,10 @@
 //!
 //! Columns: `setting`, `method`, `key`, `value` (its place on a ladder), `runs`, `unstable`,
 //! `missing`, `cpu_seconds`, `sphere_steps`, `force_evaluations` (of a run on average), `within`
-//! (the tolerance), then the errors. Of labels: `chance`, `floor` and `excess` with the ends of their
-//! intervals, and the same for `NAME_shift` (mean) and `NAME_shift_rms` of each order parameter. Of
-//! motions: `error_1` and on, one for each time. Of a case: `error_NAME` for each number.
+//! (the tolerance), then the errors. Of labels: `chance`, `floor` and `excess` with the ends of
+//! their intervals, and the same for `NAME_shift` (mean) and `NAME_shift_rms` of each order
+//! parameter. Of motions: `error_1` and on, one for each time. Of a case: `error_NAME` for each
+//! number.
 
 use super::evaluate::{Errors, Evaluation, Outcome};
 use crate::store::{StoreError, write_atomic};

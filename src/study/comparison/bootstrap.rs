@@ -94,9 +94,9 @@ pub(super) fn stream(purpose: &str) -> Pcg64 {
 /// each point. `purpose` names the stream of random numbers.
 ///
 /// The quantiles of the resamples are drawn apart about the estimate: by sqrt(n / (n - 1)), since
-/// resamples of n seeds scatter less than n seeds do by that factor, and by Student's t over that of
-/// many runs, since few tell their own scatter badly. `together` intervals hold [`CONFIDENCE`] at
-/// once (Bonferroni).
+/// resamples of n seeds scatter less than n seeds do by that factor, and by Student's t over that
+/// of many runs, since few tell their own scatter badly. `together` intervals hold [`CONFIDENCE`]
+/// at once (Bonferroni).
 pub(super) fn interval(
     seeds: &[usize],
     purpose: &str,

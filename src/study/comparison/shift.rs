@@ -20,8 +20,9 @@ pub struct Shift {
 
 impl Shift {
     /// Compares a quantity, by its place, with that of a reference. `purpose` names the stream of
-    /// random numbers for the intervals, `together` of which hold at once. None with fewer than three seeds everywhere, where neither has
-    /// a spread, or where fewer than half of the runs have the quantity.
+    /// random numbers for the intervals, `together` of which hold at once. None with fewer than
+    /// three seeds everywhere, where neither has a spread, or where fewer than half of the runs
+    /// have the quantity.
     pub fn of(
         sample: &Sample<'_>,
         reference: &Sample<'_>,

@@ -50,8 +50,8 @@ fn columns(axes: &[Axis], quantities: &[Quantity]) -> Vec<String> {
     columns
 }
 
-/// Writes the rows that there are of the jobs of a comparison, and after them the lines of `others`:
-/// those of other settings or seeds, which a later study may want again.
+/// Writes the rows that there are of the jobs of a comparison, and after them the lines of
+/// `others`: those of other settings or seeds, which a later study may want again.
 ///
 /// # Errors
 /// If the file cannot be written.
