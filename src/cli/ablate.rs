@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::study::{Options, Place, Tally};
-use super::{accuracy, folders, format, plot};
+use super::{accuracy, format, plot};
 use phase::plot::ablation as figure;
 use phase::record::Program;
 use phase::store;
@@ -63,57 +63,41 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let options = &arguments.options;
     let signature = ("ablation.csv", "a table of ablations", &b"without,"[..]);
     let place = Place::open("ablation", &arguments.file, options, signature, console)?;
-    let table = Comparing::table(&place.folder);
-    folders::refuse_to_replace(&table, "a table of runs", b"setting,")?;
+    let known = accuracy::known_runs(&ablation.comparison, options, &place)?;
     for Skipped { name, reason } in &ablation.skipped {
         console.note(format_args!("not tried: {name}: {reason}"));
     }
-    let known = match options.force {
-        true => KnownRuns::default(),
-        false => read_runs(&ablation.comparison, &table).map_err(Failure::refused)?,
-    };
     let mut done = Done::run(ablation, known, arguments, &place, console)?;
-    let is_whole = |done: &Done| done.report.left == 0;
+    let is_whole = |done: &Done| done.tally.left == 0;
     let needed = done.finding.clone();
     if is_whole(&done) && !arguments.no_pairs {
         let pairs = done.ablation.with_pairs(&done.report.rows, &needed);
         let pairs = pairs.map_err(|error: AblationError| Failure::failed(error))?;
         // Also those of pairs that were made before.
+        let table = Comparing::table(&place.folder);
         let known = read_runs(&pairs.comparison, &table).map_err(Failure::failed)?;
         done = Done::run(pairs, known, arguments, &place, console)?;
         // The sentence is about single effects.
         done.finding = needed;
     }
-    console.file(&table);
+    console.file(&Comparing::table(&place.folder));
     if is_whole(&done) {
         done.conclude(options, &place, console)?;
     }
-    let report = &done.report;
-    let made = report.rows.iter().flatten().count() - report.known;
+    let exit = done.tally.exit();
     console.answer(&Answer {
-        folder: place.folder.root().to_owned(),
-        runs: report.rows.len(),
-        done_before: report.known,
-        run_now: made,
-        left: report.left,
-        failed: report.failures.len(),
-        interrupted: place.is_interrupted(report.left),
-        workers: options.workers(),
-        seconds: done.seconds,
-        cpu_seconds: report.cpu_seconds,
-        ablated: &done.ablated,
-        skipped: &done.ablation.skipped,
-        finding: &done.finding,
+        tally: &done.tally,
+        kept: done.kept(),
         files: console.files(),
     });
-    Ok(place.exit(report.left, report.failures.len()))
+    Ok(exit)
 }
 
 /// An ablation whose runs were made.
 struct Done {
     ablation: Ablation,
     report: Report,
-    seconds: f64,
+    tally: Tally,
     ablated: Vec<Ablated>,
     finding: Finding,
 }
@@ -127,27 +111,26 @@ impl Done {
         console: &Console,
     ) -> Result<Self, Failure> {
         let comparison = &ablation.comparison;
-        let (report, seconds) =
-            accuracy::run(comparison, &arguments.options, place, known, console)?;
-        let tally = Tally {
-            all: report.rows.len(),
-            made: report.rows.iter().flatten().count() - report.known,
-            known: report.known,
-            left: report.left,
-            failures: &report.failures,
-            seconds,
-            cpu_seconds: report.cpu_seconds,
-        };
-        tally.print(comparison.axes(), console);
+        let (report, tally) = accuracy::run(comparison, &arguments.options, place, known, console)?;
         let ablated = ablation.evaluate(&report.rows, arguments.tolerance);
         let finding = Finding::of(&ablated, arguments.tolerance);
         Ok(Self {
             ablation,
             report,
-            seconds,
+            tally,
             ablated,
             finding,
         })
+    }
+
+    /// What is kept of it.
+    fn kept(&self) -> Kept<'_> {
+        Kept {
+            cost: self.ablation.cost(&self.report.rows),
+            ablated: &self.ablated,
+            skipped: &self.ablation.skipped,
+            finding: &self.finding,
+        }
     }
 
     /// Prints and writes what was found.
@@ -158,13 +141,7 @@ impl Done {
         write_ablation(&self.ablated, &cost, &table).map_err(Failure::failed)?;
         console.file(&table);
         let json = place.file("ablation.json");
-        let kept = Kept {
-            cost,
-            ablated: &self.ablated,
-            skipped: &self.ablation.skipped,
-            finding: &self.finding,
-        };
-        let bytes = serde_json::to_vec_pretty(&kept).map_err(Failure::failed)?;
+        let bytes = serde_json::to_vec_pretty(&self.kept()).map_err(Failure::failed)?;
         store::write_atomic(&json, &bytes).map_err(Failure::failed)?;
         console.file(&json);
         if !options.no_plot {
@@ -227,18 +204,9 @@ struct Kept<'a> {
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Answer<'a> {
-    folder: PathBuf,
-    runs: usize,
-    done_before: usize,
-    run_now: usize,
-    left: usize,
-    failed: usize,
-    interrupted: bool,
-    workers: usize,
-    seconds: f64,
-    cpu_seconds: f64,
-    ablated: &'a [Ablated],
-    skipped: &'a [Skipped],
-    finding: &'a Finding,
+    #[serde(flatten)]
+    tally: &'a Tally,
+    #[serde(flatten)]
+    kept: Kept<'a>,
     files: Vec<PathBuf>,
 }

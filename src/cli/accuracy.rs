@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::study::{self, Options, Place, Tally};
-use super::{format, plot};
+use super::{folders, format, plot};
 use phase::plot::accuracy as figures;
 use phase::record::{Program, RunRecord};
 use phase::store;
@@ -41,30 +41,38 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let place = Place::open("accuracy", &arguments.file, options, signature, console)?;
     match &study.subject {
         Subject::Scene(comparison) => of_scene(&study, comparison, options, &place, console),
-        Subject::Case(settings) => {
-            let evaluation = study.run_cases(options.workers(), place.stop);
-            let Some(evaluation) = evaluation.map_err(Failure::failed)? else {
-                return Ok(place.exit(settings.len(), 0));
-            };
-            let failed = evaluation
-                .outcomes
-                .iter()
-                .filter(|it| it.missing > 0)
-                .count();
-            conclude(&study, None, &evaluation, options, &place, console)?;
-            console.answer(&Answer {
-                folder: place.folder.root().to_owned(),
-                runs: settings.len(),
-                run_now: settings.len() - failed,
-                failed,
-                workers: options.workers(),
-                evaluation: Some(&evaluation),
-                files: console.files(),
-                ..Answer::default()
-            });
-            Ok(place.exit(0, failed))
+        Subject::Case(settings) => of_case(&study, settings.len(), options, &place, console),
+    }
+}
+
+fn of_case(
+    study: &AccuracyStudy,
+    runs: usize,
+    options: &Options,
+    place: &Place,
+    console: &Console,
+) -> Result<Exit, Failure> {
+    let evaluation = study.run_cases(options.workers(), place.stop);
+    let evaluation = evaluation.map_err(Failure::failed)?;
+    let mut tally = Tally {
+        folder: place.folder.root().to_owned(),
+        runs,
+        workers: options.workers(),
+        ..Tally::default()
+    };
+    match &evaluation {
+        Some(evaluation) => {
+            let missing = evaluation.outcomes.iter().filter(|it| it.missing > 0);
+            tally.failed = missing.count();
+            tally.run_now = runs - tally.failed;
+            conclude(study, None, evaluation, options, place, console)?;
+        }
+        None => {
+            tally.left = runs;
+            tally.interrupted = true;
         }
     }
+    Ok(answer(tally, evaluation.as_ref(), console))
 }
 
 fn of_scene(
@@ -74,55 +82,48 @@ fn of_scene(
     place: &Place,
     console: &Console,
 ) -> Result<Exit, Failure> {
-    let table = Comparing::table(&place.folder);
-    super::folders::refuse_to_replace(&table, "a table of runs", b"setting,")?;
-    let known = match options.force {
-        true => KnownRuns::default(),
-        false => read_runs(comparison, &table).map_err(Failure::refused)?,
-    };
-    let (report, seconds) = run(comparison, options, place, known, console)?;
-    let made = report.rows.iter().flatten().count() - report.known;
-    let tally = Tally {
-        all: report.rows.len(),
-        made,
-        known: report.known,
-        left: report.left,
-        failures: &report.failures,
-        seconds,
-        cpu_seconds: report.cpu_seconds,
-    };
-    tally.print(comparison.axes(), console);
-    console.file(&table);
-    let interrupted = place.is_interrupted(report.left);
-    let evaluation = (!interrupted).then(|| study.evaluate(comparison, &report.rows));
+    let known = known_runs(comparison, options, place)?;
+    let (report, tally) = run(comparison, options, place, known, console)?;
+    console.file(&Comparing::table(&place.folder));
+    let evaluation = (!tally.interrupted).then(|| study.evaluate(comparison, &report.rows));
     if let Some(evaluation) = &evaluation {
         conclude(study, Some(comparison), evaluation, options, place, console)?;
     }
-    console.answer(&Answer {
-        folder: place.folder.root().to_owned(),
-        runs: report.rows.len(),
-        done_before: report.known,
-        run_now: made,
-        left: report.left,
-        failed: report.failures.len(),
-        interrupted,
-        workers: options.workers(),
-        seconds,
-        cpu_seconds: report.cpu_seconds,
-        evaluation: evaluation.as_ref(),
-        files: console.files(),
-    });
-    Ok(place.exit(report.left, report.failures.len()))
+    Ok(answer(tally, evaluation.as_ref(), console))
 }
 
-/// Runs what is left of a comparison; and how long that took (s).
+fn answer(tally: Tally, evaluation: Option<&Evaluation>, console: &Console) -> Exit {
+    let exit = tally.exit();
+    console.answer(&Answer {
+        tally,
+        evaluation,
+        files: console.files(),
+    });
+    exit
+}
+
+/// The runs that the table of a folder has already.
+pub(super) fn known_runs(
+    comparison: &Comparison,
+    options: &Options,
+    place: &Place,
+) -> Result<KnownRuns, Failure> {
+    let table = Comparing::table(&place.folder);
+    folders::refuse_to_replace(&table, "a table of runs", b"setting,")?;
+    match options.force {
+        true => Ok(KnownRuns::default()),
+        false => read_runs(comparison, &table).map_err(Failure::refused),
+    }
+}
+
+/// Runs what is left of a comparison, and says what became of it.
 pub(super) fn run(
     comparison: &Comparison,
     options: &Options,
     place: &Place,
     known: KnownRuns,
     console: &Console,
-) -> Result<(Report, f64), Failure> {
+) -> Result<(Report, Tally), Failure> {
     let KnownRuns { rows, others } = known;
     let ids: std::collections::HashSet<String> = rows.iter().map(|row| row.id.clone()).collect();
     let axes: &[Axis] = comparison.axes();
@@ -149,7 +150,21 @@ pub(super) fn run(
             };
             comparing.run(rows)
         });
-    Ok((report.map_err(Failure::failed)?, seconds))
+    let report = report.map_err(Failure::failed)?;
+    let tally = Tally {
+        folder: place.folder.root().to_owned(),
+        runs: report.rows.len(),
+        done_before: report.known,
+        run_now: report.rows.iter().flatten().count() - report.known,
+        left: report.left,
+        failed: report.failures.len(),
+        interrupted: place.is_interrupted(report.left),
+        workers: options.workers(),
+        seconds,
+        cpu_seconds: report.cpu_seconds,
+    };
+    tally.print(axes, &report.failures, console);
+    Ok((report, tally))
 }
 
 /// Prints and writes what a study says.
@@ -221,18 +236,10 @@ fn text(evaluation: &Evaluation) -> String {
 }
 
 /// What `--json` prints.
-#[derive(Default, Serialize)]
+#[derive(Serialize)]
 struct Answer<'a> {
-    folder: PathBuf,
-    runs: usize,
-    done_before: usize,
-    run_now: usize,
-    left: usize,
-    failed: usize,
-    interrupted: bool,
-    workers: usize,
-    seconds: f64,
-    cpu_seconds: f64,
+    #[serde(flatten)]
+    tally: Tally,
     evaluation: Option<&'a Evaluation>,
     files: Vec<PathBuf>,
 }

@@ -55,53 +55,39 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let (report, seconds) = run(&trials, known, console)?;
     let tried = Tried::all(&study, &report.rows);
     let tally = Tally {
-        all: report.rows.len() + report.left,
-        made: report.rows.len() - report.known,
-        known: report.known,
-        left: report.left,
-        failures: &report.failures,
-        seconds,
-        cpu_seconds: report.cpu_seconds,
-    };
-    tally.print(&study.axes, console);
-    for tried in &tried {
-        console.result(tried.line());
-    }
-    let interrupted = place.is_interrupted(report.left);
-    console.file(&table);
-    if !interrupted && !options.no_plot {
-        draw(&study, &report.rows, &place, console)?;
-    }
-    console.answer(&Answer {
         folder: place.folder.root().to_owned(),
         runs: jobs.len(),
         done_before: report.known,
         run_now: report.rows.len() - report.known,
         left: report.left,
         failed: report.failures.len(),
-        interrupted,
-        workers: trials.workers,
+        interrupted: place.is_interrupted(report.left),
+        workers: options.workers(),
         seconds,
         cpu_seconds: report.cpu_seconds,
+    };
+    tally.print(&study.axes, &report.failures, console);
+    for tried in &tried {
+        console.result(tried.line());
+    }
+    console.file(&table);
+    if !tally.interrupted && !options.no_plot {
+        draw(&study, &report.rows, &place, console)?;
+    }
+    let exit = tally.exit();
+    console.answer(&Answer {
+        tally,
         integrators: tried,
         files: console.files(),
     });
-    Ok(place.exit(report.left, report.failures.len()))
+    Ok(exit)
 }
 
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Answer {
-    folder: PathBuf,
-    runs: usize,
-    done_before: usize,
-    run_now: usize,
-    left: usize,
-    failed: usize,
-    interrupted: bool,
-    workers: usize,
-    seconds: f64,
-    cpu_seconds: f64,
+    #[serde(flatten)]
+    tally: Tally,
     integrators: Vec<Tried>,
     files: Vec<PathBuf>,
 }

@@ -9,6 +9,7 @@ use phase::record::RunRecord;
 use phase::store::{self, Lock};
 use phase::study::comparison::Comparison;
 use phase::sweep::{self as sweeps, Axis, Event, Folder, FolderError, Job, describe, work};
+use serde::Serialize;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -84,15 +85,6 @@ impl Place {
     /// A file of the folder.
     pub(super) fn file(&self, name: &str) -> PathBuf {
         self.folder.root().join(name)
-    }
-
-    /// How the command ends, with so many runs left and so many that failed.
-    pub(super) fn exit(&self, left: usize, failed: usize) -> Exit {
-        match (self.is_interrupted(left), failed) {
-            (true, _) => Exit::Interrupted,
-            (false, 0) => Exit::Done,
-            (false, _) => Exit::Failed,
-        }
     }
 
     /// Whether runs are left because the command was told to end.
@@ -201,37 +193,36 @@ pub(super) fn warn_of_days(
     Ok(())
 }
 
-/// What was made, and what failed or is left.
-pub(super) struct Tally<'a> {
+/// What became of the runs of a study: what is printed of them, and what every `--json` has.
+#[derive(Default, Serialize)]
+pub(super) struct Tally {
+    pub(super) folder: PathBuf,
     /// Runs in all.
-    pub(super) all: usize,
-    /// Made now.
-    pub(super) made: usize,
-    /// There before.
-    pub(super) known: usize,
-    /// Still to make.
+    pub(super) runs: usize,
+    pub(super) done_before: usize,
+    pub(super) run_now: usize,
     pub(super) left: usize,
-    /// Those that could not be made.
-    pub(super) failures: &'a [sweeps::Failure],
-    /// Time (s).
+    pub(super) failed: usize,
+    pub(super) interrupted: bool,
+    pub(super) workers: usize,
+    /// Time, and processor time (s).
     pub(super) seconds: f64,
-    /// Processor time (s).
     pub(super) cpu_seconds: f64,
 }
 
-impl Tally<'_> {
-    /// Says what was made.
-    pub(super) fn print(&self, axes: &[Axis], console: &Console) {
+impl Tally {
+    /// Says what was made, and what failed.
+    pub(super) fn print(&self, axes: &[Axis], failures: &[sweeps::Failure], console: &Console) {
         console.result(format_args!(
             "{}: {} made now in {}, {} of CPU time, {} before, {} left",
-            format::count(self.all, "run"),
-            self.made,
+            format::count(self.runs, "run"),
+            self.run_now,
             format::duration(self.seconds),
             format::duration(self.cpu_seconds),
-            self.known,
+            self.done_before,
             self.left
         ));
-        let failures = self.failures.iter().map(|failure| {
+        let failures = failures.iter().map(|failure| {
             let point = describe(axes, &failure.values, failure.seed);
             format!("{point}: {}", failure.reason)
         });
@@ -240,6 +231,15 @@ impl Tally<'_> {
         });
         if self.left > 0 {
             console.note("interrupted. Go on with the same command");
+        }
+    }
+
+    /// How the command ends.
+    pub(super) fn exit(&self) -> Exit {
+        match (self.interrupted, self.failed) {
+            (true, _) => Exit::Interrupted,
+            (false, 0) => Exit::Done,
+            (false, _) => Exit::Failed,
         }
     }
 }

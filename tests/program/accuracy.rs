@@ -67,18 +67,15 @@ fn the_cheapest_setting_of_a_motion_is_the_largest_step_within_the_tolerance() {
     // As it is, the reference, then the ladder: errors fall with the step.
     let ladder: Vec<f64> = outcomes[2..].iter().map(error).collect();
     assert!(ladder.windows(2).all(|two| two[1] < two[0]), "{ladder:?}");
-    // The cheapest by work of those within the tolerance, since times are noise here.
     let within = |outcome: &&Value| error(outcome) <= 1e-2;
     let best = outcomes[2..].iter().find(within).unwrap();
     let work = |outcome: &Value| outcome["cost"]["force_evaluations"].as_f64().unwrap();
     assert!(work(&outcomes[2]) < work(&outcomes[3]));
-    let sentence = found["finding"]["sentence"].as_str().unwrap();
-    if error(best) > 0.0 {
-        assert!(
-            sentence.contains("within") || sentence.contains("with an error"),
-            "{sentence}"
-        );
-    }
+    // Which of those is cheapest by time depends on the machine; one of them it is.
+    let cheapest = found["finding"]["cheapest"].as_str().unwrap();
+    let mut chosen = outcomes.iter().filter(|it| it["name"] == cheapest);
+    assert!(within(&chosen.next().unwrap()), "{cheapest}");
+    assert!(error(best) > 0.0);
     let order = found["orders"][0]["order"].as_f64().unwrap();
     assert!(
         (0.7..1.4).contains(&order),

@@ -10,7 +10,9 @@ pub use table::write_ablation;
 use crate::document::{LoadError, Problem};
 use crate::run;
 use crate::scene::{Change, Start};
-use crate::study::comparison::{Base, Comparison, Cost, Measurement, RunRow, Setting, States};
+use crate::study::comparison::{
+    AS_IT_IS, Base, Comparison, Cost, Measurement, RunRow, Setting, States,
+};
 use crate::sweep::PointError;
 use serde::Serialize;
 use std::path::Path;
@@ -108,7 +110,7 @@ impl Ablation {
     }
 
     fn new(base: Base, changes: Vec<(String, Change)>) -> Result<Self, AblationError> {
-        let as_it_is = Setting::new(&base, "as it is".to_owned(), Change::default());
+        let as_it_is = Setting::new(&base, AS_IT_IS.to_owned(), Change::default());
         let as_it_is = as_it_is.map_err(|problems| {
             let problems: Vec<String> = problems.iter().map(Problem::to_string).collect();
             AblationError::AsItIs(problems.join("; "))
@@ -189,11 +191,10 @@ impl Ablation {
         let of = |place: usize| {
             let sample = self.comparison.sample(place, rows);
             let states = States::of(&self.comparison, place, rows);
-            let runs = sample.runs().count();
-            let missing = sample.points.iter().map(Vec::len).sum::<usize>() - runs;
+            let missing = sample.missing();
             Ablated {
                 name: self.comparison.settings[place].name.clone(),
-                runs,
+                runs: sample.runs().count(),
                 missing,
                 cost: sample.cost(),
                 verdict: Verdict::of(&states, missing, tolerance),

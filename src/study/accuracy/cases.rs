@@ -3,6 +3,7 @@
 use super::choices::Choice;
 use crate::document::{Problem, suggest};
 use crate::scene::{Change, Integrator};
+use crate::study::comparison::AS_IT_IS;
 use crate::sweep::work;
 use crate::verify::{self, Case, Check};
 use serde::Deserialize;
@@ -66,8 +67,8 @@ pub(super) fn settings(
     let mut problems = Vec::new();
     let as_it_is = Choice {
         path: "base".to_owned(),
-        name: "as it is".to_owned(),
-        method: "as it is".to_owned(),
+        name: AS_IT_IS.to_owned(),
+        method: AS_IT_IS.to_owned(),
         rung: None,
         change: Change::default(),
     };

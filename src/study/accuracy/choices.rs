@@ -3,11 +3,13 @@
 use super::file::{Combine, Ladder, Variant};
 use crate::document::{Problem, number};
 use crate::scene::{Change, leaf};
+use crate::study::comparison::AS_IT_IS;
 use serde_json::Value;
 
-/// Names of settings that every study has.
-pub(super) const AS_IT_IS: &str = "as it is";
+/// Name of the setting that others are compared with, where it is none of them.
 pub(super) const REFERENCE: &str = "reference";
+
+/// Names of settings that a study has besides its variants.
 const TAKEN: [&str; 2] = [AS_IT_IS, REFERENCE];
 
 /// Most settings of a study.

@@ -127,42 +127,15 @@ impl Outcome {
 impl AccuracyStudy {
     /// What the rows of a comparison's jobs say.
     pub fn evaluate(&self, comparison: &Comparison, rows: &[Option<RunRow>]) -> Evaluation {
-        let quantities = comparison.quantities();
-        let reference = comparison.sample(comparison.reference, rows);
-        let outcomes: Vec<Outcome> = (0..comparison.settings.len())
-            .map(|place| {
-                let setting = &comparison.settings[place];
-                let sample = comparison.sample(place, rows);
-                let errors = match &comparison.measurement {
-                    Measurement::States(_) => Errors::States(States::of(comparison, place, rows)),
-                    Measurement::Motion(_) => {
-                        Errors::Motion(MotionError::of(&sample, &reference, &quantities))
-                    }
-                };
-                let runs = sample.runs().count();
-                Outcome {
-                    name: setting.name.clone(),
-                    method: setting.method.clone(),
-                    rung: setting.rung.clone(),
-                    note: setting.note.clone(),
-                    runs,
-                    unstable: sample
-                        .runs()
-                        .filter(|it| it.label == Label::UNSTABLE)
-                        .count(),
-                    missing: sample.points.iter().map(Vec::len).sum::<usize>() - runs,
-                    cost: sample.cost(),
-                    errors,
-                }
-            })
-            .collect();
-        let times = match &comparison.measurement {
-            Measurement::Motion(times) => times.clone(),
-            Measurement::States(_) => Vec::new(),
-        };
-        let majorities = match &comparison.measurement {
-            Measurement::States(_) => majorities(&reference),
-            Measurement::Motion(_) => Vec::new(),
+        let places = 0..comparison.settings.len();
+        let outcomes = places.map(|place| of_setting(comparison, place, rows));
+        let outcomes = outcomes.collect();
+        let (times, majorities) = match &comparison.measurement {
+            Measurement::Motion(times) => (times.clone(), Vec::new()),
+            Measurement::States(_) => {
+                let reference = comparison.sample(comparison.reference, rows);
+                (Vec::new(), majorities(&reference))
+            }
         };
         self.conclude(
             outcomes,
@@ -237,6 +210,31 @@ impl AccuracyStudy {
         };
         evaluation.finding = Finding::of(&evaluation);
         evaluation
+    }
+}
+
+fn of_setting(comparison: &Comparison, place: usize, rows: &[Option<RunRow>]) -> Outcome {
+    let setting = &comparison.settings[place];
+    let sample = comparison.sample(place, rows);
+    let errors = match &comparison.measurement {
+        Measurement::States(_) => Errors::States(States::of(comparison, place, rows)),
+        Measurement::Motion(_) => {
+            let reference = comparison.sample(comparison.reference, rows);
+            let quantities = comparison.quantities();
+            Errors::Motion(MotionError::of(&sample, &reference, &quantities))
+        }
+    };
+    let is_unstable = |run: &&RunRow| run.label == Label::UNSTABLE;
+    Outcome {
+        name: setting.name.clone(),
+        method: setting.method.clone(),
+        rung: setting.rung.clone(),
+        note: setting.note.clone(),
+        runs: sample.runs().count(),
+        unstable: sample.runs().filter(is_unstable).count(),
+        missing: sample.missing(),
+        cost: sample.cost(),
+        errors,
     }
 }
 

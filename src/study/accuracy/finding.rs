@@ -118,11 +118,11 @@ fn sentence(
             100.0 * (1.0 - times(work_ratio))
         ),
         _ => format!(
-            "The scene as it is does not do: {}. It takes {:.1} times the processor time of that, \
-             and {:.1} times its force evaluations",
-            self::how_wrong(evaluation, base),
+            "It takes {:.1} times the processor time of the scene as it is and {:.1} times its \
+             force evaluations. Of that scene: {}",
             times(time_ratio),
-            times(work_ratio)
+            times(work_ratio),
+            self::how_wrong(evaluation, base)
         ),
     };
     format!(
@@ -143,8 +143,7 @@ fn wanted(evaluation: &Evaluation) -> String {
             match tolerance.shift {
                 None => labels,
                 Some(shift) => format!(
-                    "{labels} and shifts order parameters by at most {shift} of \
-                                        their spread"
+                    "{labels} and shifts order parameters by at most {shift} of their spread"
                 ),
             }
         }
@@ -178,8 +177,8 @@ fn how_wrong(evaluation: &Evaluation, outcome: &Outcome) -> String {
                 percent(it.excess.high)
             ),
             false => format!(
-                "no difference is seen beyond that of seeds ({}), and one of more than {} could \
-                 not have hidden",
+                "no difference is seen beyond that of seeds ({}), but one of up to {} could have \
+                 hidden",
                 percent(it.floor.value),
                 percent(it.excess.high)
             ),
@@ -253,5 +252,147 @@ fn short(value: f64) -> String {
     match value.abs() {
         size if size != 0.0 && !(0.01..100.0).contains(&size) => format!("{value:.1e}"),
         _ => format!("{value:.3}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::accuracy::{MotionError, Tolerance};
+    use crate::study::comparison::{Cost, Disagreement, Interval};
+    use std::collections::BTreeMap;
+
+    fn outcome(name: &str, seconds: f64, errors: Errors) -> Outcome {
+        Outcome {
+            name: name.to_owned(),
+            method: name.to_owned(),
+            rung: None,
+            note: None,
+            runs: 10,
+            unstable: 0,
+            missing: 0,
+            cost: Cost {
+                cpu_seconds: seconds,
+                sphere_steps: 1e6 * seconds,
+                force_evaluations: 1e6 * seconds,
+            },
+            errors,
+        }
+    }
+
+    fn labels(name: &str, seconds: f64, value: f64, half: f64) -> Outcome {
+        let interval = |value: f64, half: f64| Interval {
+            value,
+            low: value - half,
+            high: value + half,
+        };
+        let disagreement = Disagreement {
+            chance: interval(0.1 + value, half),
+            floor: interval(0.1, 0.02),
+            excess: interval(value, half),
+            points: Vec::new(),
+        };
+        let states = States {
+            disagreement: Some(disagreement),
+            shifts: Vec::new(),
+        };
+        outcome(name, seconds, Errors::States(states))
+    }
+
+    fn motion(name: &str, seconds: f64, error: f64) -> Outcome {
+        let error = MotionError {
+            times: vec![Some(error)],
+            quantities: Vec::new(),
+        };
+        outcome(name, seconds, Errors::Motion(error))
+    }
+
+    fn case(name: &str, seconds: f64, error: f64) -> Outcome {
+        let errors = BTreeMap::from([("restitution".to_owned(), error)]);
+        outcome(name, seconds, Errors::Case(errors))
+    }
+
+    /// The finding of these outcomes, the first of which is the scene as it is.
+    fn finding(outcomes: Vec<Outcome>, reference: Option<usize>, time: Option<f64>) -> Finding {
+        Finding::of(&Evaluation {
+            outcomes,
+            reference,
+            as_it_is: 0,
+            times: time.into_iter().collect(),
+            counted_time: time.map(|_| 0),
+            chaotic_from: None,
+            orders: Vec::new(),
+            majorities: Vec::new(),
+            tolerance: Tolerance {
+                labels: 0.05,
+                shift: None,
+                error: 1e-2,
+            },
+            finding: Finding::default(),
+        })
+    }
+
+    #[test]
+    fn of_labels_the_upper_end_of_the_interval_decides() {
+        let outcomes = || {
+            vec![
+                labels("as it is", 4.0, 0.0, 0.01),
+                labels("unsure", 1.0, 0.03, 0.04),
+                labels("sure", 2.0, 0.01, 0.03),
+                labels("wrong", 0.5, 0.2, 0.05),
+            ]
+        };
+        let found = finding(outcomes(), Some(0), None);
+        assert_eq!(found.cheapest.as_deref(), Some("sure"));
+        assert_eq!(
+            found.sentence,
+            "The cheapest setting that changes at most 5.0 % of the labels is sure: no difference is \
+             seen beyond that of seeds (10.0 %), but one of up to 4.0 % could have hidden. It saves \
+             50 % of the processor time of the scene as it is, and 50 % of its force evaluations."
+        );
+        let mut all_unstable = outcomes();
+        all_unstable[0].unstable = 10;
+        let found = finding(all_unstable, Some(0), None);
+        assert_eq!(found.cheapest, None);
+        assert!(
+            found.sentence.starts_with("Nothing can be compared"),
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn of_motions_the_error_decides() {
+        let outcomes = vec![
+            motion("as it is", 1.0, 0.1),
+            motion("reference", 50.0, 0.0),
+            motion("fine", 2.0, 0.004),
+            motion("finer", 4.0, 0.001),
+        ];
+        let found = finding(outcomes, Some(1), Some(0.5));
+        assert_eq!(
+            found.sentence,
+            "The cheapest setting with an error of at most 0.010 at 0.5 s is fine: its error is \
+             4.0e-3. It takes 2.0 times the processor time of the scene as it is and 2.0 times its \
+             force evaluations. Of that scene: its error is 0.100."
+        );
+    }
+
+    #[test]
+    fn of_cases_the_largest_error_decides() {
+        let good = || case("as it is", 1.0, 0.002);
+        let found = finding(vec![good(), case("coarse", 0.2, 0.05)], None, None);
+        assert_eq!(found.cheapest.as_deref(), Some("as it is"));
+        assert_eq!((found.time_ratio, found.work_ratio), (Some(1.0), Some(1.0)));
+        let found = finding(
+            vec![case("as it is", 1.0, 0.5), case("coarse", 0.2, 2.0)],
+            None,
+            None,
+        );
+        assert_eq!(found.cheapest, None);
+        assert_eq!(
+            found.sentence,
+            "There is no setting with errors of at most 0.010; the nearest is as it is: its error is \
+             0.500."
+        );
     }
 }

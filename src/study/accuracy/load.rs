@@ -1,6 +1,6 @@
 //! From the file of a study of accuracy to the study.
 
-use super::choices::{AS_IT_IS, Choice, REFERENCE, choices};
+use super::choices::{Choice, REFERENCE, choices};
 use super::file::{ACCURACY, AccuracyFile, Changes};
 use super::{AccuracyStudy, Subject, cases};
 use crate::document::{Document, LoadError, Problem, number};
@@ -8,7 +8,7 @@ use crate::run;
 use crate::scene::{Accuracy, Change, FileKind, Scene, Start, StartSphere};
 use crate::simulation::{BuildError, Snapshot};
 use crate::study::StudyName;
-use crate::study::comparison::{Base, Comparison, Measurement, Setting};
+use crate::study::comparison::{AS_IT_IS, Base, Comparison, Measurement, Setting};
 use crate::sweep::{
     check_axes, check_jobs, check_number_of_axes, check_steps, expand_axes, expand_seeds,
 };

@@ -88,6 +88,14 @@ impl Base {
         change.apply(&mut tree).map_err(not_in_a_table)?;
         let mut sweep = self.sweep.clone();
         sweep.scene = run::base_of_tree(&tree, &self.folder, Reading::RUN)?;
+        if sweep.axes.iter().any(|axis| axis.key == "time.dt") {
+            sweep.scene.time.safety_factor = None;
+        }
+        for (name, factor) in &change.scale {
+            for axis in sweep.axes.iter_mut().filter(|axis| axis.name == *name) {
+                axis.values.iter_mut().for_each(|value| *value *= factor);
+            }
+        }
         Ok(Self {
             sweep,
             tree,
@@ -109,22 +117,9 @@ impl Base {
 
     /// The sweep with a change. Problems have paths of the scene.
     pub(super) fn with(&self, change: &Change) -> Result<Changed, Vec<Problem>> {
-        self.check_axes(change)?;
-        let mut tree = self.tree.clone();
         let held = self.hold_impulse(change);
-        for change in [Some(change), held.as_ref()].into_iter().flatten() {
-            change.apply(&mut tree).map_err(not_in_a_table)?;
-        }
-        let mut sweep = self.sweep.clone();
-        sweep.scene = run::base_of_tree(&tree, &self.folder, Reading::RUN)?;
-        if sweep.axes.iter().any(|axis| axis.key == "time.dt") {
-            sweep.scene.time.safety_factor = None;
-        }
-        for (name, factor) in &change.scale {
-            for axis in sweep.axes.iter_mut().filter(|axis| axis.name == *name) {
-                axis.values.iter_mut().for_each(|value| *value *= factor);
-            }
-        }
+        let whole = held.as_ref().map(|held| change.then(held));
+        let mut sweep = self.changed(whole.as_ref().unwrap_or(change))?.sweep;
         self.check(&sweep, held.is_some())?;
         // Studies keep rows, not records.
         sweep.scene.output.snapshot_interval = 0.0;
@@ -177,11 +172,17 @@ impl Base {
             return None;
         }
         let is_removed = change.remove.iter().any(|it| is_within("friction", it));
+        let is_axis = self.varies("friction.coefficient");
         let dt = change.value("time.dt")?.as_f64()?;
         let before = self.tree["time"]["dt"].as_f64()?;
         let held = coefficient * dt / before;
-        (!is_removed && held != coefficient)
+        (!is_removed && !is_axis && held != coefficient)
             .then(|| Change::of_key("friction.coefficient", json!(held)))
+    }
+
+    /// Whether an axis varies a key.
+    fn varies(&self, key: &str) -> bool {
+        self.sweep.axes.iter().any(|axis| axis.key == key)
     }
 
     /// Whether the sweep of a setting can be run and compared.
@@ -198,8 +199,7 @@ impl Base {
             return refuse(Problem::new("friction.law", message).help(help));
         }
         if let Some((old, new)) = both_spin {
-            let is_axis = |key: &str| self.sweep.axes.iter().any(|axis| axis.key == key);
-            if !is_same_step && is_axis("friction.coefficient") {
+            if !is_same_step && self.varies("friction.coefficient") {
                 let message = "\"spin\" friction is an impulse mu per step, and an axis varies mu, \
                                so another step is another friction";
                 let help = "leave the step as it is, or use a friction law without the step";

@@ -28,11 +28,6 @@ impl Interval {
         self.low > 0.0 || self.high < 0.0
     }
 
-    /// The largest size of what lies in it.
-    pub fn largest(&self) -> f64 {
-        self.low.abs().max(self.high.abs())
-    }
-
     /// The same with another measure of what it holds.
     pub(super) fn map(self, change: impl Fn(f64) -> f64) -> Self {
         Self {

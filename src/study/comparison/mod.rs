@@ -30,6 +30,9 @@ use crate::scene::Change;
 use crate::sweep::{Axis, Job, PointError, Sweep};
 use std::collections::HashMap;
 
+/// Name of the setting that changes nothing.
+pub(super) const AS_IT_IS: &str = "as it is";
+
 /// One setting of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {

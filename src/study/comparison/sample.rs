@@ -28,6 +28,12 @@ impl<'a> Sample<'a> {
         self.points.iter().flatten().copied().flatten()
     }
 
+    /// Runs that there are not: they failed, or are left.
+    pub fn missing(&self) -> usize {
+        let all: usize = self.points.iter().map(Vec::len).sum();
+        all - self.runs().count()
+    }
+
     /// What a run costs on average.
     pub fn cost(&self) -> Cost {
         let count = self.runs().count().max(1) as f64;
@@ -42,33 +48,23 @@ impl<'a> Sample<'a> {
     /// Labels of the seeds of which both samples have a run, point by point: those of this one and
     /// of the other.
     pub(super) fn labels_with(&self, other: &Self) -> Vec<[Vec<Label>; 2]> {
-        let of_point = |(own, other): (&Vec<Option<&RunRow>>, &Vec<Option<&RunRow>>)| {
-            let pairs = own.iter().zip(other);
-            let pairs = pairs.filter_map(|(own, other)| Some((own.as_ref()?, other.as_ref()?)));
-            let (own, other) = pairs.map(|(own, other)| (own.label, other.label)).unzip();
-            [own, other]
-        };
-        self.points
-            .iter()
-            .zip(&other.points)
-            .map(of_point)
-            .collect()
+        self.pairs_with(other, |run| Some(run.label))
     }
 
     /// The same for the values of a quantity: seeds count of which both runs have one.
     pub(super) fn values_with(&self, other: &Self, quantity: usize) -> Vec<[Vec<f64>; 2]> {
-        let value = |run: Option<&RunRow>| *run?.values.get(quantity)?;
-        let of_point = |(own, other): (&Vec<Option<&RunRow>>, &Vec<Option<&RunRow>>)| {
-            let pairs = own.iter().zip(other);
-            let pairs = pairs.filter_map(|(own, other)| Some((value(*own)?, value(*other)?)));
+        self.pairs_with(other, |run| *run.values.get(quantity)?)
+    }
+
+    fn pairs_with<T>(&self, other: &Self, of: impl Fn(&RunRow) -> Option<T>) -> Vec<[Vec<T>; 2]> {
+        let points = self.points.iter().zip(&other.points);
+        let pairs = points.map(|(own, other)| {
+            let seeds = own.iter().zip(other);
+            let pairs = seeds.filter_map(|(own, other)| Some((of((*own)?)?, of((*other)?)?)));
             let (own, other) = pairs.unzip();
             [own, other]
-        };
-        self.points
-            .iter()
-            .zip(&other.points)
-            .map(of_point)
-            .collect()
+        });
+        pairs.collect()
     }
 
     /// The value of a quantity in the first run that has it.
