@@ -115,6 +115,26 @@ pub(crate) fn angular_momentum(particles: &Particles) -> Vector {
     })
 }
 
+/// Whether isolated spheres keep momentum and angular momentum over 1500 steps, to rounding.
+pub(crate) fn momentum_is_kept(scene: &Scene) -> Result<(), TestCaseError> {
+    let mut simulation = Simulation::new(scene).unwrap();
+    let before = simulation.particles().clone();
+    simulation.advance(1500).unwrap();
+    let after = simulation.particles();
+    let (linear, angular) = scales(&before);
+    let change = (momentum(after) - momentum(&before)).norm();
+    prop_assert!(
+        change <= 1e-13 * linear,
+        "momentum changes by {change} of {linear}"
+    );
+    let change = (angular_momentum(after) - angular_momentum(&before)).norm();
+    prop_assert!(
+        change <= 1e-12 * angular,
+        "angular momentum by {change} of {angular}"
+    );
+    Ok(())
+}
+
 /// Momentum and angular momentum if all of it had one direction: what rounding is relative to.
 pub(crate) fn scales(particles: &Particles) -> (f64, f64) {
     let spin = |i: usize| particles.spin.get(i).map_or(0.0, |spin| spin.norm());
