@@ -346,9 +346,9 @@ mod tests {
         assert_eq!(found.cheapest.as_deref(), Some("sure"));
         assert_eq!(
             found.sentence,
-            "The cheapest setting that changes at most 5.0 % of the labels is sure: no difference is \
-             seen beyond that of seeds (10.0 %), but one of up to 4.0 % could have hidden. It saves \
-             50 % of the processor time of the scene as it is, and 50 % of its force evaluations."
+            "The cheapest setting that changes at most 5.0 % of the labels is sure: no difference \
+             is seen beyond that of seeds (10.0 %), but one of up to 4.0 % could have hidden. It \
+             saves 50 % of the processor time of the scene as it is, and 50 % of its force evaluations."
         );
         let mut all_unstable = outcomes();
         all_unstable[0].unstable = 10;
@@ -391,8 +391,8 @@ mod tests {
         assert_eq!(found.cheapest, None);
         assert_eq!(
             found.sentence,
-            "There is no setting with errors of at most 0.010; the nearest is as it is: its error is \
-             0.500."
+            "There is no setting with errors of at most 0.010; the nearest is as it is: its error \
+             is 0.500."
         );
     }
 }
