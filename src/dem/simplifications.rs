@@ -94,7 +94,7 @@ mod tests {
             "gravity off",
             "buoyancy off",
             "added mass off",
-            "quadratic drag to linear, the same at the terminal speed of the mean sphere",
+            "quadratic drag to linear",
             "vector drag to component",
             "drag off",
             "swirl off",

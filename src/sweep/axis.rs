@@ -56,8 +56,9 @@ enum Spacing {
 }
 
 /// Other columns in the tables of results; no axis may have such a name.
-const RESERVED: [&str; 7] = [
+const RESERVED: [&str; 8] = [
     "id",
+    "setting",
     "seed",
     "seeds",
     "label",

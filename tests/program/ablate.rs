@@ -131,3 +131,27 @@ fn a_scene_without_effects_and_a_single_seed_are_refused() {
         .code(2)
         .complains("nowhere.toml");
 }
+
+/// Regularised friction at stiff contacts has a time step of its own, hundreds of times smaller: an
+/// ablation of glass in water was to take 15 hours, nearly all of them for a law called simpler.
+#[test]
+fn what_takes_far_more_work_is_no_simplification() {
+    let place = Workplace::new();
+    let stiff = SCENE
+        .replace("young_modulus = 1e5", "young_modulus = 1e8")
+        .replace("dt = 2e-4", "dt = \"auto\"")
+        .replace("duration = 0.4", "duration = 0.04");
+    place.write("scene.toml", &stiff);
+    let arguments = ["ablate", "scene.toml", "--no-pairs", "--json"];
+    let answer: Value = serde_json::from_str(&place.phase(&arguments).code(0).stdout).unwrap();
+    let skipped = answer["skipped"].as_array().unwrap();
+    let coulomb = skipped
+        .iter()
+        .find(|it| it["name"] == "mindlin friction to coulomb")
+        .unwrap_or_else(|| panic!("{skipped:?}"));
+    let reason = coulomb["reason"].as_str().unwrap();
+    assert!(
+        reason.contains("times the work of the scene as it is"),
+        "{reason}"
+    );
+}

@@ -124,6 +124,17 @@ fn runs_that_are_there_are_not_made_again() {
         (&2.into(), &3.into())
     );
     assert_eq!(errors(&first), errors(&rest));
+    // A table with other columns was written over, and its rows were lost.
+    let foreign = "setting,comfort\nsoft,3\n";
+    place.write("results/accuracy/study/runs.csv", foreign);
+    let refused = place.phase(&["accuracy", "study.toml"]).code(2).stderr;
+    assert!(
+        refused.contains("its columns are not those of this study"),
+        "{refused}"
+    );
+    assert_eq!(place.read("results/accuracy/study/runs.csv"), foreign);
+    let anew = ["accuracy", "study.toml", "--force"];
+    place.phase(&anew).code(0);
     for file in [
         "runs.csv",
         "accuracy.csv",

@@ -214,7 +214,7 @@ impl Drag {
             ..self.clone()
         };
         let linear = weight / terminal / of_one.coefficients(mean.radius).0;
-        let name = "quadratic drag to linear, the same at the terminal speed of the mean sphere";
+        let name = "quadratic drag to linear";
         let set = [
             ("drag.linear", json!(linear)),
             ("drag.quadratic", json!(0.0)),

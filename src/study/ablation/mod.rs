@@ -13,7 +13,7 @@ use crate::scene::{Change, Start};
 use crate::study::comparison::{
     AS_IT_IS, Base, Comparison, Cost, Measurement, RunRow, Setting, States,
 };
-use crate::sweep::PointError;
+use crate::sweep::{Job, PointError};
 use serde::Serialize;
 use std::path::Path;
 
@@ -23,17 +23,20 @@ pub const FEWEST_SEEDS: usize = 5;
 /// Most effects that are ablated in pairs: those that matter most.
 const MOST_IN_PAIRS: usize = 4;
 
+/// Most work of a simplification over that of the scene as it is.
+const MOST_WORK: f64 = 20.0;
+
 /// Effects that are ablated, with the scene as it is.
 #[derive(Clone, Debug)]
 pub struct Ablation {
     /// The scene as it is, then one setting for each simplification.
     pub comparison: Comparison,
-    /// Simplifications that cannot be run, and why.
+    /// Simplifications that cannot be run or take far more work, and why.
     pub skipped: Vec<Skipped>,
     base: Base,
 }
 
-/// A simplification that cannot be run.
+/// A simplification that is not tried.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Skipped {
     /// Its name.
@@ -74,6 +77,22 @@ pub enum AblationError {
     /// The scene has nothing to take away.
     #[error("{0}: the scene has no effect that can be switched off")]
     NothingToAblate(String),
+}
+
+/// The setting, unless its time step is so small that it simplifies nothing.
+fn worth_its_work(as_it_is: &Setting, setting: Setting) -> Result<Setting, String> {
+    let work = |setting: &Setting| {
+        let jobs = setting.sweep.jobs().unwrap_or_default();
+        jobs.iter().map(Job::work).sum::<u64>() as f64
+    };
+    let ratio = work(&setting) / work(as_it_is);
+    if ratio > MOST_WORK {
+        return Err(format!(
+            "its time steps, chosen by `dt = \"auto\"`, make {ratio:.0} times the work of the scene \
+             as it is; give `time.dt` a number to try it all the same"
+        ));
+    }
+    Ok(setting)
 }
 
 impl Ablation {
@@ -117,15 +136,13 @@ impl Ablation {
         })?;
         let (mut settings, mut skipped) = (vec![as_it_is], Vec::new());
         for (name, change) in changes {
-            match Setting::new(&base, name.clone(), change) {
+            let setting = Setting::new(&base, name.clone(), change).map_err(|problems| {
+                let reasons: Vec<String> = problems.iter().map(Problem::to_string).collect();
+                reasons.join("; ")
+            });
+            match setting.and_then(|setting| worth_its_work(&settings[0], setting)) {
                 Ok(setting) => settings.push(setting),
-                Err(problems) => {
-                    let reasons: Vec<String> = problems.iter().map(Problem::to_string).collect();
-                    skipped.push(Skipped {
-                        name,
-                        reason: reasons.join("; "),
-                    });
-                }
+                Err(reason) => skipped.push(Skipped { name, reason }),
             }
         }
         let measurement = Measurement::States(Box::new(base.sweep.sieves.clone()));

@@ -161,7 +161,11 @@ fn check(ladders: &[Ladder], variants: &[Variant], problems: &mut Vec<Problem>) 
             problems.push(problem.help("list at least one"));
         }
         for (place, value) in ladder.values.iter().enumerate() {
-            if ladder.values[..place].contains(value) {
+            let is_same = |earlier: &Value| match (earlier.as_f64(), value.as_f64()) {
+                (Some(one), Some(other)) => one == other,
+                _ => earlier == value,
+            };
+            if ladder.values[..place].iter().any(is_same) {
                 let path = format!("{path}.values[{place}]");
                 let problem = Problem::new(path, format!("the value {value} is there twice"));
                 problems.push(problem.help("remove one"));

@@ -103,7 +103,7 @@ pub struct KnownRuns {
 /// There are none where there is no file.
 ///
 /// # Errors
-/// If the file cannot be read or is no such table.
+/// If the file cannot be read, or has other columns: its rows are not to be written over.
 pub fn read_runs(comparison: &Comparison, path: &Path) -> Result<KnownRuns, StoreError> {
     if !path.exists() {
         return Ok(KnownRuns::default());
@@ -118,7 +118,9 @@ pub fn read_runs(comparison: &Comparison, path: &Path) -> Result<KnownRuns, Stor
         .iter()
         .ne(columns(axes, &quantities))
     {
-        return Ok(KnownRuns::default());
+        let reason = "its columns are not those of this study: other axes, other quantities, or a \
+                      table of something else; move it away, or write it anew with --force";
+        return Err(StoreError::text(path, 1, reason));
     }
     let measured = comparison.measurement.digest();
     let own: HashSet<&str> = comparison.jobs.iter().map(|job| job.id.as_str()).collect();
