@@ -163,7 +163,7 @@ mod tests {
     #[test]
     fn nothing_is_measured_on_an_unstable_run() {
         let verdict = classify(&quiet(FRAMES).unstable(), &Sieves::default()).unwrap();
-        assert_eq!(verdict.values, [None; 16]);
+        assert_eq!(verdict.values, [None; 17]);
     }
 
     #[test]

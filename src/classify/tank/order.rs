@@ -238,7 +238,7 @@ mod tests {
 
     #[test]
     fn nothing_is_measured_on_nothing() {
-        assert_eq!(measure(&quiet(0)).values, [None; 16]);
+        assert_eq!(measure(&quiet(0)).values, [None; 17]);
         // The first frame is no frame of a rise.
         assert_eq!(measure(&quiet(1)).value("spout_count"), None);
     }

@@ -44,14 +44,14 @@ fn a_table_looks_as_documented() {
     let mut lines = text.lines();
     assert_eq!(
         lines.next().unwrap(),
-        "id,radius,omega,seed,label,code,settle_time,settle_change,fluid_share,fluid_margin,\
-         pinned_share,pinned_margin,spout_share,spout_margin,spout_peak,hole_radius,\
+        "id,radius,omega,seed,label,code,settle_time,settle_change,settle_drift,fluid_share,\
+         fluid_margin,pinned_share,pinned_margin,spout_share,spout_margin,spout_peak,hole_radius,\
          paraboloid_rotation,paraboloid_residual,rotation,mobility,packing_height,spout_count"
     );
     assert_eq!(
         lines.next().unwrap(),
         "0123456789abcde1,0.30000000000000004,40.0,1,pinned,3,0.25,\
-         ,,-0.9,,,,,,,,,,,,1e-300"
+         ,,,-0.9,,,,,,,,,,,,1e-300"
     );
     assert!(lines.next().unwrap().contains(",2,small-spout,4,,,"));
 }
@@ -72,7 +72,7 @@ fn a_malformed_table_is_refused_with_line_and_reason() {
         (
             ",2,small-spout,4,",
             ",2,small-spout,4",
-            "labels.csv:3: 21 values, but the header line names 22 columns",
+            "labels.csv:3: 22 values, but the header line names 23 columns",
         ),
         (
             ",40.0,1,",
