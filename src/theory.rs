@@ -1,5 +1,9 @@
 //! Closed forms that the simulations are compared with.
 
+mod with_friction;
+
+pub use with_friction::critical_rotation_with_friction;
+
 use crate::scene::{Drag, Updraught};
 use std::f64::consts::{PI, SQRT_2};
 

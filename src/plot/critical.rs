@@ -1,60 +1,113 @@
-//! The curve of the critical rotation, drawn over a figure.
+//! The curves of the critical rotation, without and with friction, drawn over a figure.
 
 use super::chart::samples;
 use super::contour::{Nodes, Piece};
-use super::critical_rotation::radius_of_mean_volume;
-use super::grid::{Grid, Panel};
+use super::diagram::Curve;
+use super::grid::{Grid, GridAxis, Panel};
+use super::legend::{Entry, Key};
 use super::scale::Span;
 use crate::scene::Scene;
-use crate::theory::critical_rotation;
+use crate::theory::{critical_rotation, critical_rotation_with_friction};
 
 const OMEGA: &str = "swirl.omega";
 
-/// Name of the curve in legends.
-pub(super) const NAME: &str = "critical rotation $Ω_c$";
+/// Entries of the legend for the curves that there are.
+pub(super) fn entries(curves: &[Vec<Curve>]) -> Vec<Entry> {
+    let is_there = |dashed: bool| {
+        let mut curves = curves.iter().flatten();
+        curves.any(|curve| curve.dashed == dashed && !curve.pieces.is_empty())
+    };
+    let without = Entry::new(Key::Curve, "critical rotation $Ω_c$");
+    let with = Entry::new(Key::Dashes, "with friction, $Ω_μ$");
+    [(false, without), (true, with)]
+        .into_iter()
+        .filter_map(|(dashed, entry)| is_there(dashed).then_some(entry))
+        .collect()
+}
 
-/// The pieces of the curve Omega = Omega_c inside a panel, in shown values; none if the figure
-/// has no axis for Omega or the scene lacks a tank, gravity or one radius. What a panel is for
-/// (n, r, R or g) counts instead of the scene's value. On a strip y goes from 0 to 1.
-pub(super) fn curve(scene: &Scene, grid: &Grid, panel: &Panel) -> Vec<Piece> {
+/// The curves Omega = Omega_c and Omega = Omega_mu inside a panel, in shown values; empty if the
+/// figure has no axis for Omega or the scene lacks what they need. What a panel is for counts
+/// instead of the scene's value. On a strip y goes from 0 to 1.
+pub(super) fn curves(scene: &Scene, grid: &Grid, panel: &Panel) -> Vec<Curve> {
     let upright = grid.y.as_ref().is_some_and(|axis| axis.key == OMEGA);
     let (omega, other) = match &grid.y {
         Some(y) if y.key == OMEGA => (y, Some(&grid.x)),
         y if grid.x.key == OMEGA => (&grid.x, y.as_ref()),
         _ => return Vec::new(),
     };
-    let places = samples(0.0, 1.0);
-    let places: Vec<f64> = places
-        .map(|fraction| other.map_or(fraction, |axis| axis.along(fraction)))
-        .collect();
-    let critical = |place: f64| {
-        let value = |key: &str| match other {
-            Some(axis) if axis.key == key => Some(place / axis.factor),
-            _ => fixed(key, grid, panel).or_else(|| of_scene(key, scene)),
-        };
-        let critical = critical_rotation(
+    let along = |critical: &dyn Fn(f64) -> Option<f64>| {
+        let mut pieces = pieces(omega, other, critical);
+        if !upright {
+            let points = pieces.iter_mut().flatten();
+            points.for_each(|(place, omega)| std::mem::swap(place, omega));
+        }
+        pieces
+    };
+    let value = |key: &str, place: f64| match other {
+        Some(axis) if axis.key == key => Some(place / axis.factor),
+        _ => fixed(key, grid, panel),
+    };
+    let without = |place: f64| {
+        let value = |key: &str| value(key, place).or_else(|| of_scene(key, scene));
+        Some(critical_rotation(
             value("spheres.count")?,
             value("spheres.radius")?,
             value("tank.radius")?,
             value("gravity.acceleration")?,
-        );
-        Some(critical * omega.factor).filter(|critical| critical.is_finite())
+        ))
     };
-    let curve: Vec<Option<f64>> = places.iter().map(|&place| critical(place)).collect();
+    let with = |place: f64| {
+        let axes = [
+            Some(&grid.x),
+            grid.y.as_ref(),
+            grid.columns.as_ref(),
+            grid.rows.as_ref(),
+        ];
+        let keys = axes.into_iter().flatten().map(|axis| axis.key.as_str());
+        let values = keys.filter(|key| *key != OMEGA).filter_map(|key| {
+            let value = value(key, place)?;
+            // Between whole numbers of spheres there is no scene.
+            let is_number = key == "spheres.count";
+            Some((key, if is_number { value.round() } else { value }))
+        });
+        critical_rotation_with_friction(&scene.with_values(values).ok()?)
+    };
+    vec![
+        Curve {
+            pieces: along(&with),
+            dashed: true,
+        },
+        Curve {
+            pieces: along(&without),
+            dashed: false,
+        },
+    ]
+}
+
+/// The pieces of a curve of critical rotations over the places of the other axis.
+fn pieces(
+    omega: &GridAxis,
+    other: Option<&GridAxis>,
+    critical: &dyn Fn(f64) -> Option<f64>,
+) -> Vec<Piece> {
+    let places = samples(0.0, 1.0);
+    let places: Vec<f64> = places
+        .map(|fraction| other.map_or(fraction, |axis| axis.along(fraction)))
+        .collect();
+    let shown = |place: &f64| {
+        let critical = critical(*place)? * omega.factor;
+        Some(critical).filter(|critical| critical.is_finite())
+    };
+    let curve: Vec<Option<f64>> = places.iter().map(shown).collect();
     let Span { low, high, .. } = omega.span();
     let ends = [low, high];
-    let mut pieces = Nodes {
+    Nodes {
         x: &places,
         y: &ends,
         value: &|i, j| Some(ends[j] - curve[i]?),
         logarithmic: [false, false],
     }
-    .contour();
-    if !upright {
-        let points = pieces.iter_mut().flatten();
-        points.for_each(|(place, omega)| std::mem::swap(place, omega));
-    }
-    pieces
+    .contour()
 }
 
 /// Value of a key that the panel stands for.
@@ -70,7 +123,7 @@ fn fixed(key: &str, grid: &Grid, panel: &Panel) -> Option<f64> {
 fn of_scene(key: &str, scene: &Scene) -> Option<f64> {
     match key {
         "spheres.count" => Some(scene.spheres.count as f64),
-        "spheres.radius" => Some(radius_of_mean_volume(&scene.spheres.radius)),
+        "spheres.radius" => Some(scene.spheres.radius.of_mean_volume()),
         "tank.radius" => scene.tank.as_ref()?.radius,
         "gravity.acceleration" => Some(scene.dem.effects.gravity.as_ref()?.acceleration),
         _ => None,
@@ -136,7 +189,10 @@ mod tests {
             program: &Program::current(),
         })
         .unwrap();
-        let of = |panel| curve(&sweep.scene, &grid, panel);
+        let of = |panel| {
+            let mut curves = super::curves(&sweep.scene, &grid, panel);
+            curves.pop().map(|curve| curve.pieces).unwrap_or_default()
+        };
         (grid.panels.iter().map(of).collect(), grid.x.factor)
     }
 

@@ -5,7 +5,7 @@ use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, choice, palette};
 use crate::classify::{Family, TANK};
-use crate::scene::{Radii, Scene};
+use crate::scene::Scene;
 use crate::theory::critical_rotation;
 use plotters::style::RGBColor;
 
@@ -119,14 +119,9 @@ pub(super) fn radii(source: &Source<'_>) -> (f64, f64) {
     if low < high {
         (low, high)
     } else {
-        let radius = radius_of_mean_volume(&sweep.scene.spheres.radius);
+        let radius = sweep.scene.spheres.radius.of_mean_volume();
         (0.5 * radius, 1.5 * radius)
     }
-}
-
-/// Cube root of the mean of r^3, as eq. 42 sums it; not a number for a file that was not read.
-pub(super) fn radius_of_mean_volume(radii: &Radii) -> f64 {
-    libm::cbrt(radii.mean_volume() / volume(1.0))
 }
 
 /// Volume of a sphere (m3).

@@ -69,24 +69,16 @@ pub(super) struct Diagram<'a, P = Point> {
 }
 
 impl Diagram<'_> {
-    /// Draws it with the curve of the critical rotation.
+    /// Draws it with the curves of the critical rotation.
     pub(super) fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
         let scene = &source.sweep.scene;
-        let curve = |panel| Curve {
-            pieces: critical::curve(scene, self.grid, panel),
-            dashed: false,
-        };
-        let curves: Vec<Vec<Curve>> = self
-            .grid
-            .panels
-            .iter()
-            .map(|panel| vec![curve(panel)])
+        let panels = self.grid.panels.iter();
+        let curves: Vec<Vec<Curve>> = panels
+            .map(|panel| critical::curves(scene, self.grid, panel))
             .collect();
-        let is_there = |curve: &Curve| !curve.pieces.is_empty();
-        let entry = curves.iter().flatten().any(is_there);
-        let entry = entry.then(|| Entry::new(Key::Curve, critical::NAME));
+        let entries = critical::entries(&curves);
         let title = source.sweep.title.as_deref();
-        let (size, body) = self.body(title, &curves, entry)?;
+        let (size, body) = self.body(title, &curves, entries)?;
         Ok(Svg::new(self.name, source, size, &body))
     }
 }

@@ -75,6 +75,12 @@ impl Radii {
         self.mean_of(|radius| 4.0 / 3.0 * PI * radius * radius * radius)
     }
 
+    /// Cube root of the mean of r^3 (m), the radius of spheres of the same number and volume; not a
+    /// number for a file that has not been read.
+    pub fn of_mean_volume(&self) -> f64 {
+        libm::cbrt(self.mean_volume() / (4.0 / 3.0 * PI))
+    }
+
     fn mean_of(&self, quantity: impl Fn(f64) -> f64) -> f64 {
         match self {
             Self::One(radius) => quantity(*radius),

@@ -83,6 +83,18 @@ impl Friction {
         }
     }
 
+    /// Coefficient mu of a law that can hold spheres against a force; none of one that only slows
+    /// their spins.
+    pub fn holding_coefficient(&self) -> Option<f64> {
+        match self {
+            Self::Spin(_) => None,
+            Self::Coulomb(law) => Some(law.coefficient),
+            Self::CundallStrack(law) => Some(law.coefficient),
+            Self::Mindlin(law) => Some(law.coefficient),
+            Self::SilbertFriction(law) => Some(law.coefficient),
+        }
+    }
+
     /// The contact laws that it goes with, by name.
     pub fn contacts(&self) -> impl Iterator<Item = &'static str> + Clone {
         let law = self.law();

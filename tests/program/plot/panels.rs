@@ -4,6 +4,8 @@ use super::bench::{
     OMEGA, RADIUS, axis, draw, has, linear, made_up, nine, sweep, table, texts, verdict,
 };
 use phase::classify::Label;
+use phase::scene::Scene;
+use std::path::Path;
 
 #[test]
 fn three_axes_make_panels_with_their_own_critical_rotation() {
@@ -77,6 +79,22 @@ fn settings_choose_the_axes() {
     };
     assert!(rotated("r / R") && !rotated("Ω (rad/s)"));
     assert!(has(&svg, "critical rotation Ωc"));
+}
+
+/// Dashes show the critical rotation with friction, where friction can hold spheres: steel has it,
+/// the thesis's rule does not.
+#[test]
+fn friction_that_holds_spheres_has_a_curve_of_its_own() {
+    let (mut sweep, table) = nine();
+    let without = draw("without-friction", "phase", &sweep, &table);
+    assert!(!has(&without, "with friction, Ωμ"));
+    sweep.scene = Scene::load(Path::new("sweeps/scenes/steel.toml")).unwrap();
+    sweep.axes[1].values = linear(0.0, 600.0, 3);
+    let table = self::table(&sweep, |values, seed| {
+        Some(made_up(values[0], values[1] / 15.0, 0.05 * seed as f64))
+    });
+    let svg = draw("with-friction", "phase", &sweep, &table);
+    assert!(has(&svg, "critical rotation Ωc") && has(&svg, "with friction, Ωμ"));
 }
 
 #[test]
