@@ -81,7 +81,7 @@ fn shipped_sweeps_have_the_grids_they_promise() {
     let grids = [
         ("quick", 9, 9, 1),
         ("realistic", 9, 9, 1),
-        ("steel", 3, 3, 1),
+        ("steel", 9, 9, 1),
         ("theoretical", 41, 41, 1),
         ("theoretical-9x9", 9, 9, 3),
         ("theoretical-quadratic", 41, 41, 1),
@@ -106,13 +106,15 @@ fn shipped_sweeps_have_the_grids_they_promise() {
     let names: Vec<&str> = sweep.axes.iter().map(|axis| axis.name.as_str()).collect();
     assert_eq!(names, ["radius", "omega", "density", "coefficient"]);
     assert_eq!(sweep.jobs().unwrap().len(), 180);
-    let of_silos = [
+    let others = [
+        ("realistic-steady", 9 * 9),
+        ("steel-softened", 9 * 9 * 3),
         ("silo", 10 * 6 * 3),
         ("silo-quick", 3 * 2),
         ("beverloo", 8 * 2 * 4),
         ("silo-fillings", 2 * 12),
     ];
-    for (name, jobs) in of_silos {
+    for (name, jobs) in others {
         let sweep = load_sweep(format!("sweeps/{name}.toml"));
         assert_eq!(sweep.jobs().unwrap().len(), jobs, "{name}");
     }
@@ -120,7 +122,7 @@ fn shipped_sweeps_have_the_grids_they_promise() {
         let name = path.file_stem().unwrap().to_str().unwrap();
         assert!(
             name == "density-friction"
-                || of_silos.iter().any(|silo| silo.0 == name)
+                || others.iter().any(|other| other.0 == name)
                 || grids.iter().any(|grid| grid.0 == name),
             "{name} is not in this test"
         );
