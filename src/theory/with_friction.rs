@@ -18,9 +18,9 @@ const HALVINGS: usize = 80;
 /// R relative to it at the wall, is as large as that of friction, with the floor under the weight
 /// and with the wall under the centrifugal force:
 ///
-/// <drag(u rho / R) rho> = mu m (g max(1 - L, 0) + Omega_c^2 R) <rho>,
+/// mean(drag(u rho / R) rho) = mu m (g max(1 - L, 0) + Omega_c^2 R) mean(rho),
 ///
-/// where < > is the mean over the disc, m the mass of a sphere and mu the coefficient of friction.
+/// with the mean over the disc, m the mass of a sphere and mu the coefficient of friction.
 /// The updraught takes the part L of the weight off the floor,
 ///
 /// L = F_z / (m g) (1 - alpha^N) / ((1 - alpha) N),   N = 16 n r^2 / (pi R^2),
@@ -102,7 +102,7 @@ impl<'a> Bed<'a> {
         })
     }
 
-    /// <drag(u rho / R) rho> / <rho> (N) in air of a rotation (rad/s), by Simpson's rule.
+    /// mean(drag(u rho / R) rho) / mean(rho) (N) in air of a rotation (rad/s), by Simpson's rule.
     fn drag_at(&self, omega: f64) -> f64 {
         let speed = (omega - self.rotation) * self.tank_radius;
         let at = |part: usize| {

@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// Fast spheres exchange energies of many m g R with the air, however steady they are. So a run
 /// without such a window is settled in the first `drift_window` from which to the end of the run no
-/// centre is above `height` and the energy of motion (kinetic and rotational) drifts slowly in every
+/// centre is above `height` and the energy of motion (kinetic and rotational) drifts slowly in each
 /// such window: the means of its two halves differ by at most `drift` times their mean in a second.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -281,7 +281,7 @@ mod tests {
         assert_eq!(judge(&quiet(4000)).value("settle_drift"), None);
     }
 
-    /// The energy of spheres that fall and bounce has a maximum, where it drifts slowly for a while.
+    /// The energy of spheres that fall and bounce has a maximum, about which it drifts slowly.
     #[test]
     fn fast_spheres_that_slow_down_again_do_not_settle() {
         let mut record = fast(0.0);

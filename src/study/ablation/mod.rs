@@ -88,8 +88,8 @@ fn worth_its_work(as_it_is: &Setting, setting: Setting) -> Result<Setting, Strin
     let ratio = work(&setting) / work(as_it_is);
     if ratio > MOST_WORK {
         return Err(format!(
-            "its time steps, chosen by `dt = \"auto\"`, make {ratio:.0} times the work of the scene \
-             as it is; give `time.dt` a number to try it all the same"
+            "its time steps, chosen by `dt = \"auto\"`, make {ratio:.0} times the work of the \
+             scene as it is; give `time.dt` a number to try it all the same"
         ));
     }
     Ok(setting)

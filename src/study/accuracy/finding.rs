@@ -348,7 +348,8 @@ mod tests {
             found.sentence,
             "The cheapest setting that changes at most 5.0 % of the labels is sure: no difference \
              is seen beyond that of seeds (10.0 %), but one of up to 4.0 % could have hidden. It \
-             saves 50 % of the processor time of the scene as it is, and 50 % of its force evaluations."
+             saves 50 % of the processor time of the scene as it is, and 50 % of its force \
+             evaluations."
         );
         let mut all_unstable = outcomes();
         all_unstable[0].unstable = 10;
