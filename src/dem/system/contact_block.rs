@@ -147,7 +147,17 @@ impl<H: History> ContactBlock<H> {
                 self.contact_radius[k] = laws.contact_radius(&state, self.inverse_distance[k]);
             }
         }
-        self.turn_springs(Self::normal);
+        match EARLIER {
+            true => self.turn_springs_by(
+                #[inline(always)]
+                |block, k| {
+                    let state = block.contact_state::<T, EARLIER>(k, block.properties[1].at(k));
+                    let turn = laws.turn_of_pair(&state, block.inverse_distance[k]);
+                    (block.normal(k), turn)
+                },
+            ),
+            false => self.turn_springs(Self::normal),
+        }
         for k in 0..BLOCK {
             let state = self.contact_state::<T, EARLIER>(k, self.properties[1].at(k));
             let geometry = laws.geometry(&state, self.roots(k));

@@ -29,9 +29,19 @@ pub(super) struct ContactGeometry {
     pub(super) lever: f64,
     /// Mass of the lighter partner (kg).
     pub(super) lesser_mass: f64,
-    /// Sliding velocity (m/s) and contact radius (m) by which a spring is loaded, if these are not
-    /// the present ones.
-    pub(super) loading: Option<(Vector, f64)>,
+    /// The contact by which a spring is loaded, if that is not the present one.
+    pub(super) loading: Option<EarlierContact>,
+}
+
+/// A contact half way between two evaluations of its forces.
+#[derive(Clone, Copy)]
+pub(super) struct EarlierContact {
+    /// Sliding velocity (m/s).
+    pub(super) sliding: Vector,
+    /// Contact radius (m).
+    pub(super) radius: f64,
+    /// How much the normal changes from one evaluation to the next, to first order.
+    pub(super) turn: Vector,
 }
 
 /// Roots and quotients of the positions alone. They take longest to compute. So a loop over many
@@ -99,10 +109,18 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             let distance_squared = offset.norm_squared();
             let inverse_distance = inverse_square_root(distance_squared);
             let normal = offset * inverse_distance;
-            let lever = state.properties.map(|it| it.radius * lever);
-            let sliding = sliding_velocity(normal, earlier.velocity, earlier.spin, lever);
-            let overlap = sum - distance_squared * inverse_distance;
-            geometry.loading = Some((sliding, contact_radius(overlap, state.effective_radius())));
+            let distance = distance_squared * inverse_distance;
+            // The lever too must be that of the earlier moment: with the present one, spins load
+            // springs with an error of first order in the time step.
+            let lever = distance * state.inverse_sum;
+            let levers = state.properties.map(|it| it.radius * lever);
+            let sliding = sliding_velocity(normal, earlier.velocity, earlier.spin, levers);
+            let radius = contact_radius(sum - distance, state.effective_radius());
+            geometry.loading = Some(EarlierContact {
+                sliding,
+                radius,
+                turn: self.turn_of_pair(state, roots.inverse_distance),
+            });
         }
         geometry
     }
@@ -139,10 +157,29 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             (Self::HAS_HISTORY, &state.earlier, earlier_contact)
         {
             let lever = [radius, 0.0];
-            let sliding = sliding_velocity(contact.normal, earlier.velocity, earlier.spin, lever);
-            geometry.loading = Some((sliding, contact_radius(contact.overlap, radius)));
+            geometry.loading = Some(EarlierContact {
+                sliding: sliding_velocity(contact.normal, earlier.velocity, earlier.spin, lever),
+                radius: contact_radius(contact.overlap, radius),
+                turn: self.turn_at_wall(normal, contact.normal),
+            });
         }
         geometry
+    }
+
+    /// How much the normal of a pair changes while springs are loaded, up to a part along the
+    /// normal. Takes 1 / distance (1/m).
+    #[inline(always)]
+    pub(super) fn turn_of_pair(&self, state: &ContactState, inverse_distance: f64) -> Vector {
+        match &state.earlier {
+            Some(earlier) => earlier.velocity * (self.loading.duration * inverse_distance),
+            None => Vector::ZERO,
+        }
+    }
+
+    /// How much the normal at a wall changes, from the present one and that of half way.
+    #[inline(always)]
+    pub(super) fn turn_at_wall(&self, normal: Vector, earlier: Vector) -> Vector {
+        (normal - earlier) * (self.loading.duration / self.loading.age)
     }
 
     /// Where a sphere was when it had an earlier velocity (m/s).

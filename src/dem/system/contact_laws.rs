@@ -30,6 +30,13 @@ impl Loading {
         Self { duration, age: 0.0 }
     }
 
+    /// As [`earlier`](Self::earlier), by the velocities of the evaluation: turning and sliding are of
+    /// second order then, and the age is next to nothing.
+    pub(super) fn just_now(duration: f64) -> Self {
+        let age = duration / 1024.0;
+        Self { duration, age }
+    }
+
     /// Over a time (s), by velocities of this age (s).
     pub(super) fn earlier(duration: f64, age: f64) -> Self {
         Self { duration, age }
@@ -99,7 +106,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
     #[inline(always)]
     pub(super) fn pair_force(&self, state: &ContactState, spring: Spring) -> ContactForce {
         let geometry = self.pair_geometry(state);
-        let spring = Self::turned(spring, geometry.normal);
+        let spring = Self::turned(spring, &geometry);
         self.force(state, &geometry, spring)
     }
 
@@ -115,12 +122,13 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         self.geometry(state, roots)
     }
 
-    /// A spring turned into the plane across a normal, if a law has springs.
+    /// A spring turned into the plane of a contact, if a law has springs.
     #[inline(always)]
-    fn turned(spring: Spring, normal: Vector) -> Spring {
-        match Self::HAS_HISTORY {
-            true => spring.turned(normal),
-            false => spring,
+    fn turned(spring: Spring, geometry: &ContactGeometry) -> Spring {
+        match (Self::HAS_HISTORY, geometry.loading) {
+            (true, Some(earlier)) => spring.turned_by(geometry.normal, earlier.turn),
+            (true, None) => spring.turned(geometry.normal),
+            (false, _) => spring,
         }
     }
 
@@ -138,8 +146,8 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             wall.contact(position, radius)
         });
         let contact = wall.contact(state.offset, radius);
-        let spring = Self::turned(spring, contact.normal);
         let geometry = self.geometry_at_wall(state, contact, earlier.as_ref());
+        let spring = Self::turned(spring, &geometry);
         self.force(state, &geometry, spring)
     }
 
@@ -158,7 +166,10 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             let Traction {
                 force: sideways,
                 torque: torques,
-            } = self.tangential.traction(&touch, &mut spring);
+            } = match Self::HAS_HISTORY {
+                true => self.loaded(&touch, geometry, spring).traction(&touch),
+                false => self.tangential.traction(&touch, &mut spring),
+            };
             force.total += sideways;
             torque = torques;
         }
@@ -198,7 +209,17 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             overlap: geometry.overlap,
             force: force.total,
             lever: geometry.lever,
-            spring: self.tangential.load(&touch, spring),
+            spring: self.loaded(&touch, geometry, spring),
+        }
+    }
+
+    /// The loaded spring of a contact. The limit of friction is applied later.
+    #[inline(always)]
+    fn loaded(&self, touch: &Touch, geometry: &ContactGeometry, spring: Spring) -> LoadedSpring {
+        let loaded = self.tangential.load(touch, spring);
+        match geometry.loading {
+            Some(_) => loaded.turned_while_sliding(spring),
+            None => loaded,
         }
     }
 
@@ -242,7 +263,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         // A wall has no radius.
         let lever = state.properties.map(|it| it.radius * lever);
         let (loading_velocity, loading_radius) = match loading {
-            Some(loading) => loading,
+            Some(earlier) => (earlier.sliding, earlier.radius),
             None => (
                 sliding_velocity(normal, velocity, spin, lever),
                 contact_radius,

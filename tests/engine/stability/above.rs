@@ -149,9 +149,10 @@ fn a_sphere_at_rest_above_the_damped_limit_trembles_or_is_reported() {
     }
 }
 
-/// Its spin grows a thousandfold, until friction can carry no more; then the contact goes too.
+/// Its spin grows a thousandfold, until friction can carry no more; then the contact goes too, with
+/// synchronised Verlet at once.
 #[test]
-fn a_sphere_at_rest_above_the_sticking_limit_trembles() {
+fn a_sphere_at_rest_above_the_sticking_limit_trembles_or_is_reported() {
     let friction = Friction::CundallStrack(CundallStrack {
         coefficient: 0.5,
         stiffness: 8e3,
@@ -162,7 +163,11 @@ fn a_sphere_at_rest_above_the_sticking_limit_trembles() {
     for integrator in PLAIN {
         let spin = |part| motion(&scene, integrator, part, 20_000).unwrap()[1];
         assert!(spin(LIMIT) < 1e-3, "{}", spin(LIMIT));
-        assert!(spin(1.5) > 0.01, "{}", spin(1.5));
+        match motion(&scene, integrator, 1.5, 20_000) {
+            Ok([_, spin]) => assert!(spin > 0.01, "{spin}"),
+            // A spring that turns and slides to second order does not hold it down.
+            Err(broken) => assert_eq!(broken.guard, Guard::Displacement, "{broken}"),
+        }
         let broken = motion(&scene, integrator, 3.0, 20_000).unwrap_err();
         assert_eq!(broken.guard, Guard::Displacement, "{broken}");
     }

@@ -62,8 +62,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Loads the springs of an island over the last `time` (s) of its step.
-    fn load_springs(&mut self, island: &Island, time: f64, work: &mut Workspace<T::History>) {
-        self.loading = Loading::present(time);
+    fn load_springs(
+        &mut self,
+        island: &Island,
+        histories: &mut IslandHistories<T::History>,
+        time: f64,
+        work: &mut Workspace<T::History>,
+    ) {
+        self.loading = Loading::just_now(time);
         let spheres = || island.spheres.iter().map(|&i| i as usize);
         let particles = &self.particles;
         work.held.force.clear();
@@ -71,6 +77,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             .force
             .extend(spheres().map(|i| particles.force[i]));
         work.held.torque.clear();
+        for i in spheres() {
+            self.earlier[i] = [particles.velocity[i].row(), particles.spin[i].row()];
+        }
         if particles.rotate() {
             let torques = spheres().map(|i| particles.torque[i]);
             work.held.torque.extend(torques);

@@ -95,6 +95,21 @@ impl<H: History> ContactBlock<H> {
         }
     }
 
+    /// The same with the [turn](Spring::turned_by) of each normal since the springs were loaded.
+    #[inline(always)]
+    pub(super) fn turn_springs_by(
+        &mut self,
+        normal_and_turn: impl Fn(&Self, usize) -> (Vector, Vector),
+    ) {
+        if Self::HAS_HISTORY {
+            for k in 0..BLOCK {
+                let (normal, turn) = normal_and_turn(self, k);
+                let force = self.spring(k).turned_by(normal, turn).force;
+                self.spring.set(k, force);
+            }
+        }
+    }
+
     #[inline(always)]
     pub(super) fn spring(&self, k: usize) -> Spring {
         let force = match Self::HAS_HISTORY {

@@ -55,10 +55,20 @@ impl<H: History> ContactBlock<H> {
         &mut self,
         laws: &Laws<N, T>,
     ) {
-        self.turn_springs(
-            #[inline(always)]
-            |block, k| block.wall_contact.at(k).normal,
-        );
+        match EARLIER {
+            true => self.turn_springs_by(
+                #[inline(always)]
+                |block, k| {
+                    let normal = block.wall_contact.at(k).normal;
+                    let earlier = block.earlier_wall_contact.at(k).normal;
+                    (normal, laws.turn_at_wall(normal, earlier))
+                },
+            ),
+            false => self.turn_springs(
+                #[inline(always)]
+                |block, k| block.wall_contact.at(k).normal,
+            ),
+        }
         for k in 0..BLOCK {
             let mut state = self.contact_state::<T, EARLIER>(k, SphereProperties::WALL);
             state.spin[1] = Vector::ZERO;
