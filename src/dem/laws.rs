@@ -72,6 +72,7 @@ mod tests {
             json!({ "law": "coulomb", "coefficient": 0.3, "regularisation": 1e-3 }),
             json!({ "law": "cundall-strack", "coefficient": 0.3, "stiffness": 60.0 }),
             json!({ "law": "mindlin", "coefficient": 0.3 }),
+            json!({ "law": "mindlin-deresiewicz", "coefficient": 0.3 }),
             json!({ "law": "silbert", "coefficient": 0.3, "stiffness": 1e7 }),
         ];
         let mut together = 0;
@@ -93,6 +94,6 @@ mod tests {
                 assert_eq!(built.is_ok(), allowed, "{contact} {friction}");
             }
         }
-        assert_eq!(together, 6);
+        assert_eq!(together, 7);
     }
 }

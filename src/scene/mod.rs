@@ -29,9 +29,9 @@ pub use change::Change;
 pub(crate) use change::is_within;
 pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
-    Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, FixedSphere, FixedSpheres,
-    Friction, Geometry, Guards, Hertz, Hopper, LengthUnit, Linear, Mindlin, Neighbours, Outlet,
-    Rest, Rolling, Silbert, SilbertFriction, Spin,
+    Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Driven, FixedSphere,
+    FixedSpheres, Friction, Geometry, Guards, Hertz, Hopper, LengthUnit, Linear, Mindlin,
+    MindlinDeresiewicz, Neighbours, Outlet, Rest, Rolling, Silbert, SilbertFriction, Spin,
 };
 pub use file_kind::FileKind;
 pub use keys::Notation;

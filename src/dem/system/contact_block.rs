@@ -10,11 +10,11 @@ mod springs;
 mod walls;
 
 use super::contact_geometry::{ContactGeometry, Roots};
-use super::contact_laws::{ContactForce, Laws};
+use super::contact_laws::{ContactForce, Laws, LoadedContact};
 use super::contact_state::{ContactState, EarlierMotion, SphereProperties};
 use super::lanes::{PropertyColumns, WallContactColumns};
 use crate::forces::contact::NormalLaw;
-use crate::forces::friction::{History, TangentialLaw};
+use crate::forces::friction::{History, TangentialLaw, Turning};
 use crate::particles::block::{BLOCK, Column, Columns, Row};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
@@ -52,6 +52,10 @@ pub(super) struct ContactBlock<H> {
     earlier_wall_contact: WallContactColumns,
     /// Forces of springs (N).
     spring: Columns,
+    /// [`Turning`] of every contact, if the law has it.
+    turning_force: Columns,
+    turning_normal_force: Column,
+    turning_peak: Column,
     /// For friction with a history: forces of dashpots (N), limits of friction (N), squared forces
     /// of spring and dashpot (N2), the inverse roots of these squares, and levers in radii.
     drag: Columns,
@@ -90,6 +94,9 @@ impl<H: History> ContactBlock<H> {
             wall_contact: WallContactColumns::NONE,
             earlier_wall_contact: WallContactColumns::NONE,
             spring: Columns::ZERO,
+            turning_force: Columns::ZERO,
+            turning_normal_force: [0.0; BLOCK],
+            turning_peak: [0.0; BLOCK],
             drag: Columns::ZERO,
             limit: [0.0; BLOCK],
             squared: [0.0; BLOCK],
@@ -223,8 +230,13 @@ impl<H: History> ContactBlock<H> {
     ) {
         let spring = self.spring(k);
         match Self::HAS_HISTORY {
-            true => self.store_loaded::<T>(k, &laws.load(state, geometry, spring)),
-            false => self.store_force::<T>(k, &laws.force(state, geometry, spring)),
+            true => {
+                let mut turning = self.turning(k);
+                let loaded = laws.load(state, geometry, spring, &mut turning);
+                self.store_loaded::<T>(k, &loaded);
+                self.set_turning(k, if_loaded(&loaded, turning));
+            }
+            false => self.store_force::<T>(k, &laws.force(state, geometry, H::of_spring(spring))),
         }
     }
 
@@ -254,6 +266,15 @@ impl<H: History> ContactBlock<H> {
         (0..contacts)
             .find(|&k| self.too_deep[k] != NOT_DEEP)
             .map(|k| (k, self.too_deep[k]))
+    }
+}
+
+/// What a contact remembers, or nothing if the two do not touch.
+#[inline(always)]
+fn if_loaded(loaded: &LoadedContact, turning: Turning) -> Turning {
+    match loaded.touches {
+        true => turning,
+        false => Turning::default(),
     }
 }
 

@@ -8,7 +8,7 @@ use super::contact_state::ContactState;
 use crate::dem::walls::Wall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{
-    LoadedSpring, Spring, TangentialLaw, Touch, Traction, sliding_velocity,
+    History, LoadedSpring, Spring, TangentialLaw, Touch, Traction, Turning, sliding_velocity,
 };
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
@@ -104,10 +104,9 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
 
     /// Two spheres.
     #[inline(always)]
-    pub(super) fn pair_force(&self, state: &ContactState, spring: Spring) -> ContactForce {
+    pub(super) fn pair_force(&self, state: &ContactState, history: T::History) -> ContactForce {
         let geometry = self.pair_geometry(state);
-        let spring = Self::turned(spring, &geometry);
-        self.force(state, &geometry, spring)
+        self.force(state, &geometry, Self::turned(history, &geometry))
     }
 
     /// The geometry of two spheres.
@@ -122,14 +121,28 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         self.geometry(state, roots)
     }
 
-    /// A spring turned into the plane of a contact, if a law has springs.
+    /// The forces of a history turned into the plane of a contact, if it has any.
     #[inline(always)]
-    fn turned(spring: Spring, geometry: &ContactGeometry) -> Spring {
-        match (Self::HAS_HISTORY, geometry.loading) {
-            (true, Some(earlier)) => spring.turned_by(geometry.normal, earlier.turn),
-            (true, None) => spring.turned(geometry.normal),
-            (false, _) => spring,
+    fn turned(history: T::History, geometry: &ContactGeometry) -> T::History {
+        if !Self::HAS_HISTORY {
+            return history;
         }
+        let turned = |force: Vector| {
+            let spring = Spring { force };
+            match geometry.loading {
+                Some(earlier) => spring.turned_by(geometry.normal, earlier.turn),
+                None => spring.turned(geometry.normal),
+            }
+        };
+        let now = T::History::of_spring(turned(history.spring().force));
+        if !T::History::TURNS {
+            return now;
+        }
+        let turning = history.turning();
+        now.with_turning(Turning {
+            force: turned(turning.force).force,
+            ..turning
+        })
     }
 
     /// A sphere and a wall.
@@ -137,7 +150,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         &self,
         wall: W,
         state: &ContactState,
-        spring: Spring,
+        history: T::History,
     ) -> ContactForce {
         let radius = state.properties[0].radius;
         let earlier = state.earlier.as_ref();
@@ -147,17 +160,16 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         });
         let contact = wall.contact(state.offset, radius);
         let geometry = self.geometry_at_wall(state, contact, earlier.as_ref());
-        let spring = Self::turned(spring, &geometry);
-        self.force(state, &geometry, spring)
+        self.force(state, &geometry, Self::turned(history, &geometry))
     }
 
-    /// Force and torques of a contact, whose spring is in the plane across the normal.
+    /// Force and torques of a contact, whose history is in the plane across the normal.
     #[inline(always)]
     pub(super) fn force(
         &self,
         state: &ContactState,
         geometry: &ContactGeometry,
-        mut spring: Spring,
+        history: T::History,
     ) -> ContactForce {
         let mut force = self.normal_force(state, geometry);
         let mut torque = [Vector::ZERO; 2];
@@ -167,8 +179,12 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
                 force: sideways,
                 torque: torques,
             } = match Self::HAS_HISTORY {
-                true => self.loaded(&touch, geometry, spring).traction(&touch),
-                false => self.tangential.traction(&touch, &mut spring),
+                true => {
+                    let mut turning = history.turning();
+                    let spring = self.loaded(&touch, geometry, history.spring(), &mut turning);
+                    spring.traction(&touch)
+                }
+                false => self.tangential.traction(&touch, &mut Spring::default()),
             };
             force.total += sideways;
             torque = torques;
@@ -193,13 +209,15 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         }
     }
 
-    /// Normal force and loaded spring of a contact. The limit of friction is applied later.
+    /// Normal force and loaded spring of a contact, whose turning point moves with it. The limit of
+    /// friction is applied later.
     #[inline(always)]
     pub(super) fn load(
         &self,
         state: &ContactState,
         geometry: &ContactGeometry,
         spring: Spring,
+        turning: &mut Turning,
     ) -> LoadedContact {
         let force = self.normal_force(state, geometry);
         let touch = self.touch(state, geometry, &force);
@@ -209,17 +227,23 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             overlap: geometry.overlap,
             force: force.total,
             lever: geometry.lever,
-            spring: self.loaded(&touch, geometry, spring),
+            spring: self.loaded(&touch, geometry, spring, turning),
         }
     }
 
     /// The loaded spring of a contact. The limit of friction is applied later.
     #[inline(always)]
-    fn loaded(&self, touch: &Touch, geometry: &ContactGeometry, spring: Spring) -> LoadedSpring {
-        let loaded = self.tangential.load(touch, spring);
+    fn loaded(
+        &self,
+        touch: &Touch,
+        geometry: &ContactGeometry,
+        spring: Spring,
+        turning: &mut Turning,
+    ) -> LoadedSpring {
+        let loaded = self.tangential.load_and_turn(touch, spring, turning);
         match geometry.loading {
-            Some(_) => loaded.turned_while_sliding(spring),
-            None => loaded,
+            Some(_) if T::BY_INCREMENTS => loaded.turned_while_sliding(spring),
+            _ => loaded,
         }
     }
 

@@ -15,7 +15,7 @@ use crate::dem::neighbours::NearPair;
 use crate::dem::profile::Part;
 use crate::dem::walls::TankWall;
 use crate::forces::contact::NormalLaw;
-use crate::forces::friction::{History, Spring, TangentialLaw};
+use crate::forces::friction::TangentialLaw;
 use crate::particles::reorder::reorder;
 use crate::particles::vector::Vector;
 use crate::particles::{Particles, retain};
@@ -214,11 +214,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let mut notes = Notes::new(laws, &self.particles, &self.earlier, &mut ledger.books);
         let pairs = self.neighbours.near.pairs().iter();
         for (&pair, history) in pairs.zip(&self.pair_history) {
-            notes.add_pair(pair, history.spring());
+            notes.add_pair(pair, *history);
         }
         for wall in &self.walls {
             for (sphere, history) in wall.near.iter().zip(&wall.histories) {
-                notes.add_at_wall(wall.wall, sphere.i, history.spring());
+                notes.add_at_wall(wall.wall, sphere.i, *history);
             }
         }
     }
@@ -239,11 +239,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         };
         let mut notes = Notes::new(laws, &self.particles, &self.earlier, &mut ledger.books);
         for (&pair, &entry) in contacts.pairs.iter().zip(&contacts.entries) {
-            notes.add_pair(pair, self.pair_history[entry as usize].spring());
+            notes.add_pair(pair, self.pair_history[entry as usize]);
         }
         for (wall, near) in self.walls.iter().zip(&contacts.walls) {
             for &NearSphere { i, entry } in near {
-                notes.add_at_wall(wall.wall, i, wall.histories[entry as usize].spring());
+                notes.add_at_wall(wall.wall, i, wall.histories[entry as usize]);
             }
         }
     }
@@ -274,10 +274,10 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Notes<'a, N, T> {
         }
     }
 
-    fn add_pair(&mut self, pair: NearPair, spring: Spring) {
+    fn add_pair(&mut self, pair: NearPair, history: T::History) {
         let (i, j) = (pair.i(), pair.j());
         let state = ContactState::of_pair(&self.spheres, i, j);
-        let contact = self.laws.pair_force(&state, spring);
+        let contact = self.laws.pair_force(&state, history);
         if contact.touches {
             let [damping, tangential] = self.laws.damping_and_friction(&contact);
             let [one, other] = contact.torque;
@@ -286,9 +286,9 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Notes<'a, N, T> {
         }
     }
 
-    fn add_at_wall(&mut self, wall: TankWall, i: u32, spring: Spring) {
+    fn add_at_wall(&mut self, wall: TankWall, i: u32, history: T::History) {
         let state = ContactState::at_wall(&self.spheres, i);
-        let contact = self.laws.wall_force(wall, &state, spring);
+        let contact = self.laws.wall_force(wall, &state, history);
         if contact.touches {
             let [damping, tangential] = self.laws.damping_and_friction(&contact);
             self.books.add(i, damping, tangential, contact.torque[0]);

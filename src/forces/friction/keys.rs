@@ -1,6 +1,8 @@
 //! The table of a friction law in a scene, and which contact laws it goes with.
 
-use super::{Coulomb, CundallStrack, Mindlin, SilbertFriction, Spin, TangentialLaw};
+use super::{
+    Coulomb, CundallStrack, Mindlin, MindlinDeresiewicz, SilbertFriction, Spin, TangentialLaw,
+};
 use crate::forces::contact::{Collision, Contact, ContactKeys, Hertz, Linear, Silbert};
 use crate::forces::limit::{Limit, Regime};
 use crate::forces::simplification::Simplification;
@@ -17,6 +19,7 @@ pub enum Friction {
     Coulomb(Coulomb),
     CundallStrack(CundallStrack),
     Mindlin(Mindlin),
+    MindlinDeresiewicz(MindlinDeresiewicz),
     #[serde(rename = "silbert")]
     SilbertFriction(SilbertFriction),
 }
@@ -56,6 +59,7 @@ macro_rules! with_pairs_of_laws {
             (Linear, Coulomb),
             (Linear, CundallStrack),
             (Hertz, Mindlin),
+            (Hertz, MindlinDeresiewicz),
             (Silbert, SilbertFriction),
         }
     };
@@ -79,6 +83,7 @@ impl Friction {
             Self::Coulomb(_) => Coulomb::NAME,
             Self::CundallStrack(_) => CundallStrack::NAME,
             Self::Mindlin(_) => Mindlin::NAME,
+            Self::MindlinDeresiewicz(_) => MindlinDeresiewicz::NAME,
             Self::SilbertFriction(_) => SilbertFriction::NAME,
         }
     }
@@ -91,6 +96,7 @@ impl Friction {
             Self::Coulomb(law) => Some(law.coefficient),
             Self::CundallStrack(law) => Some(law.coefficient),
             Self::Mindlin(law) => Some(law.coefficient),
+            Self::MindlinDeresiewicz(law) => Some(law.coefficient),
             Self::SilbertFriction(law) => Some(law.coefficient),
         }
     }

@@ -40,22 +40,37 @@ impl FrictionKeys<Hertz> for Mindlin {
         collisions: &[Collision],
         regime: &Regime<'_>,
     ) -> Option<Limit> {
-        let nu = contact.poisson_ratio;
-        let stiffness_ratio = 2.0 * (1.0 - nu) / (2.0 - nu);
-        let factor = (regime.surface_factor() * stiffness_ratio).sqrt();
-        Some(Limit {
-            name: "sticking contact",
-            seconds: (regime.scheme).oscillator(factor * collisions.first()?.frequency, 0.0),
-            decisive: true,
-            explanation: "2/w of the tangential spring, w^2 = (1 + m r^2 / I) k_t / m_eff with \
-                          k_t / k_n = 2 (1 - nu) / (2 - nu)",
-            consequence: Limit::COARSE,
-        })
+        mindlin_limit(contact, collisions, regime)
     }
 
     fn simpler(&self, _: &Hertz) -> Option<Coulomb> {
         Some(Coulomb::instead(self.coefficient))
     }
+}
+
+/// The limit of the time step by Mindlin's spring of a contact that sticks.
+pub(super) fn mindlin_limit(
+    contact: &Hertz,
+    collisions: &[Collision],
+    regime: &Regime<'_>,
+) -> Option<Limit> {
+    let nu = contact.poisson_ratio;
+    let stiffness_ratio = 2.0 * (1.0 - nu) / (2.0 - nu);
+    let factor = (regime.surface_factor() * stiffness_ratio).sqrt();
+    Some(Limit {
+        name: "sticking contact",
+        seconds: (regime.scheme).oscillator(factor * collisions.first()?.frequency, 0.0),
+        decisive: true,
+        explanation: "2/w of the tangential spring, w^2 = (1 + m r^2 / I) k_t / m_eff with \
+                      k_t / k_n = 2 (1 - nu) / (2 - nu)",
+        consequence: Limit::COARSE,
+    })
+}
+
+/// 8 G* (Pa) of Young's modulus (Pa) and Poisson's ratio of both partners.
+pub(super) fn mindlin_modulus(young_modulus: f64, poisson_ratio: f64) -> f64 {
+    let shear_modulus = young_modulus / (2.0 * (1.0 + poisson_ratio));
+    8.0 * shear_modulus / (2.0 * (2.0 - poisson_ratio))
 }
 
 /// Mindlin's tangential stiffness k_t = 8 G* sqrt(R_eff xi) on a contact that sticks, loaded and
@@ -77,10 +92,9 @@ pub struct MindlinLaw {
 impl MindlinLaw {
     /// The law with coefficient mu, Young's modulus (Pa) and Poisson's ratio of both partners.
     pub fn new(coefficient: f64, young_modulus: f64, poisson_ratio: f64) -> Self {
-        let shear_modulus = young_modulus / (2.0 * (1.0 + poisson_ratio));
         Self {
             coefficient,
-            modulus: 8.0 * shear_modulus / (2.0 * (2.0 - poisson_ratio)),
+            modulus: mindlin_modulus(young_modulus, poisson_ratio),
         }
     }
 }

@@ -5,6 +5,7 @@ mod coulomb;
 mod cundall_strack;
 mod keys;
 mod mindlin;
+mod mindlin_deresiewicz;
 mod silbert;
 mod spin;
 mod spring;
@@ -14,14 +15,15 @@ pub use cundall_strack::{CundallStrack, CundallStrackLaw};
 pub use keys::Friction;
 pub(crate) use keys::{FrictionKeys, with_pairs_of_laws};
 pub use mindlin::{Mindlin, MindlinLaw};
+pub use mindlin_deresiewicz::{MindlinDeresiewicz, MindlinDeresiewiczLaw, SlipHistory};
 pub use silbert::{SilbertFriction, SilbertFrictionLaw};
 pub use spin::{Spin, SpinLaw};
 pub use spring::{LoadedSpring, Spring};
 
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 
 /// A touching pair, or a sphere touching a wall, as a tangential law sees it. The first
 /// partner is the sphere that the force acts on; a wall is a partner at rest, of infinite mass.
@@ -116,13 +118,39 @@ pub struct Traction {
     pub torque: [Vector; 2],
 }
 
-/// What a contact remembers: a spring, or nothing.
+/// Where a contact with partial slip was loaded another way.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+pub struct Turning {
+    /// The tangential force at the latest turning point (N); zero before the first one.
+    pub(crate) force: Vector,
+    /// The normal force to which spring and turning point belong (N).
+    pub(crate) normal_force: f64,
+    /// The tangential force at which the contact was first unloaded (N).
+    pub(crate) peak: f64,
+}
+
+/// What a contact remembers: nothing, a spring, or a spring and its latest turning point.
 pub trait History: Copy + Default + Send + Sync + Serialize + DeserializeOwned {
+    /// Whether it has a turning point.
+    const TURNS: bool = false;
+
     /// Its spring.
     fn spring(self) -> Spring;
 
     /// The history of a contact with that spring.
     fn of_spring(spring: Spring) -> Self;
+
+    /// Its turning point.
+    #[inline(always)]
+    fn turning(self) -> Turning {
+        Turning::default()
+    }
+
+    /// The same history with a turning point, if it has one.
+    #[inline(always)]
+    fn with_turning(self, _: Turning) -> Self {
+        self
+    }
 
     /// The history of the same contact as the other partner sees it.
     fn turned_round(self) -> Self {
@@ -172,6 +200,8 @@ pub trait TangentialLaw: Copy + Send + Sync + 'static {
     const NEEDS_EFFECTIVE_MASS: bool = false;
     /// Whether a dashpot acts beside the spring of a law with history.
     const DRAGS: bool = false;
+    /// Whether the force of a sliding contact is a spring that is loaded by increments and capped.
+    const BY_INCREMENTS: bool = true;
     /// What a contact remembers from step to step; `()` costs nothing. A checkpoint stores it.
     type History: History;
 
@@ -192,6 +222,12 @@ pub trait TangentialLaw: Copy + Send + Sync + 'static {
     #[inline(always)]
     fn load(&self, _touch: &Touch, _spring: Spring) -> LoadedSpring {
         LoadedSpring::default()
+    }
+
+    /// The same for a law whose history has a turning point, which it moves.
+    #[inline(always)]
+    fn load_and_turn(&self, touch: &Touch, spring: Spring, _: &mut Turning) -> LoadedSpring {
+        self.load(touch, spring)
     }
 
     /// Energy (J) stored in the history of a contact, at an overlap and effective radius (m).

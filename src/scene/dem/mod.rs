@@ -7,7 +7,7 @@ mod silo;
 
 pub use crate::forces::contact::{Contact, ContactDrag, Hertz, Linear, Silbert};
 pub use crate::forces::friction::{
-    Coulomb, CundallStrack, Friction, Mindlin, SilbertFriction, Spin,
+    Coulomb, CundallStrack, Friction, Mindlin, MindlinDeresiewicz, SilbertFriction, Spin,
 };
 pub use crate::forces::rolling::Rolling;
 pub use guards::Guards;

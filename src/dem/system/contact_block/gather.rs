@@ -223,5 +223,10 @@ impl<H: History> ContactBlock<H> {
                 |k| history(k).spring().force.simd(simd),
             );
         }
+        if H::TURNS {
+            for k in 0..BLOCK {
+                self.set_turning(k, history(k).turning());
+            }
+        }
     }
 }

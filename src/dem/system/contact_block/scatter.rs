@@ -135,7 +135,8 @@ impl<H: History> ContactBlock<H> {
             for k in 0..ROWS {
                 if let Some(history) = histories.get_mut(entry(at + k)) {
                     let force = Vector::of_row(rows[k].into());
-                    *history = H::of_spring(Spring { force });
+                    let turning = self.turning(at + k);
+                    *history = H::of_spring(Spring { force }).with_turning(turning);
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use super::{ContactBlock, NOT_DEEP, if_touching, store};
 use crate::dem::system::contact_laws::LoadedContact;
-use crate::forces::friction::{History, LoadedSpring, Spring, TangentialLaw, arm};
+use crate::forces::friction::{History, LoadedSpring, Spring, TangentialLaw, Turning, arm};
 use crate::particles::block::{BLOCK, ROWS};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
@@ -92,6 +92,7 @@ impl<H: History> ContactBlock<H> {
                 let force = self.spring(k).turned(normal(self, k)).force;
                 self.spring.set(k, force);
             }
+            self.turn_turning_points(|block, k, spring| spring.turned(normal(block, k)));
         }
     }
 
@@ -107,6 +108,42 @@ impl<H: History> ContactBlock<H> {
                 let force = self.spring(k).turned_by(normal, turn).force;
                 self.spring.set(k, force);
             }
+            self.turn_turning_points(|block, k, spring| {
+                let (normal, turn) = normal_and_turn(block, k);
+                spring.turned_by(normal, turn)
+            });
+        }
+    }
+
+    #[inline(always)]
+    fn turn_turning_points(&mut self, turned: impl Fn(&Self, usize, Spring) -> Spring) {
+        if H::TURNS {
+            for k in 0..BLOCK {
+                let force = self.turning_force.vector(k);
+                let force = turned(self, k, Spring { force }).force;
+                self.turning_force.set(k, force);
+            }
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn turning(&self, k: usize) -> Turning {
+        match H::TURNS {
+            true => Turning {
+                force: self.turning_force.vector(k),
+                normal_force: self.turning_normal_force[k],
+                peak: self.turning_peak[k],
+            },
+            false => Turning::default(),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn set_turning(&mut self, k: usize, turning: Turning) {
+        if H::TURNS {
+            self.turning_force.set(k, turning.force);
+            self.turning_normal_force[k] = turning.normal_force;
+            self.turning_peak[k] = turning.peak;
         }
     }
 
