@@ -13,7 +13,7 @@ use crate::cpu_time;
 use crate::forces::effects::Targets;
 use crate::particles::vector::Vector;
 use crate::particles::{Particles, Sphere};
-use crate::scene::{Neighbours, Rolling, Scene, Start};
+use crate::scene::{Driven, MOST_BESIDE_DRIVEN, Neighbours, Rolling, Scene, Start};
 use crate::simulation::{Counts, Instability, Milestone};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
@@ -94,6 +94,13 @@ impl Simulation {
                 feed = Some(Feed::new(waiting(&spheres, scene), interval));
             }
             _ => particles.append(spheres),
+        }
+        // Forces do not move what is driven.
+        for (sphere, _) in driven(scene, particles.fixed) {
+            particles.inverse_mass[sphere] = 0.0;
+            if particles.rotate() {
+                particles.inverse_inertia[sphere] = 0.0;
+            }
         }
         let present = particles.len() - particles.fixed;
         let process = Process::of_scene(scene, feed, present);
@@ -258,6 +265,7 @@ fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
             scene: scene.facts(),
         }),
         shielded: scene.dem.effects.updraught.is_some(),
+        driven: driven(scene, particles.fixed),
         rolling: scene.dem.rolling.as_ref().map(Rolling::law),
         limits: Limits::new(scene, particles),
         dt: scene.time.dt,
@@ -269,6 +277,16 @@ fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
 }
 
 /// Radii, masses and moments of inertia of the spheres that move.
+const _: () = assert!(MOST_BESIDE_DRIVEN < order::MANY);
+
+/// The driven spheres of a scene by their indices, after those that are fixed.
+fn driven(scene: &Scene, fixed: usize) -> Vec<(usize, Driven)> {
+    let paths = scene.dem.driven.iter();
+    paths
+        .map(|path| (fixed + path.sphere, path.clone()))
+        .collect()
+}
+
 fn scalars_of(particles: &Particles) -> [Vec<f64>; 3] {
     [&particles.radius, &particles.mass, &particles.inertia]
         .map(|values| of_moving(values, particles).to_vec())

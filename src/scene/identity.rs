@@ -1,7 +1,9 @@
 //! The identity of a run: a hash of everything that determines its motion.
 
 use super::{Contact, Door, Friction, Geometry, Outlet, Rest, Rolling};
-use super::{DemScene, Effects, Guards, Neighbours, Output, Scene, Spheres, Start, Tank, Time};
+use super::{
+    DemScene, Driven, Effects, Guards, Neighbours, Output, Scene, Spheres, Start, Tank, Time,
+};
 use serde::Serialize;
 
 /// The keys that determine the motion, in the order in which identities are computed. Random
@@ -27,12 +29,18 @@ struct Motion<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     outlet: &'a Option<Outlet>,
     start: &'a Start,
+    #[serde(skip_serializing_if = "is_empty")]
+    driven: &'a [Driven],
     #[serde(flatten)]
     effects: &'a Effects,
     time: &'a Time,
     guards: &'a Guards,
     /// As by default.
     output: Output,
+}
+
+fn is_empty(driven: &&[Driven]) -> bool {
+    driven.is_empty()
 }
 
 impl Scene {
@@ -68,6 +76,7 @@ impl Scene {
             door,
             rest,
             outlet,
+            driven,
             effects,
             neighbours: _,
             guards,
@@ -84,6 +93,7 @@ impl Scene {
             rest,
             outlet,
             start,
+            driven,
             effects,
             time,
             guards,

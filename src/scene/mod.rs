@@ -32,6 +32,7 @@ pub use dem::{
     Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Driven, FixedSphere,
     FixedSpheres, Friction, Geometry, Guards, Hertz, Hopper, LengthUnit, Linear, Mindlin,
     MindlinDeresiewicz, Neighbours, Outlet, Rest, Rolling, Silbert, SilbertFriction, Spin,
+pub(crate) use dem::{MOST_BESIDE_DRIVEN, MOST_HOPPER_SPHERES};
 };
 pub use file_kind::FileKind;
 pub use keys::Notation;

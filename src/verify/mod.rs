@@ -29,6 +29,7 @@ mod rolling_resistance;
 mod silbert;
 mod stack;
 mod step_limit;
+mod tangential_loop;
 mod tripod;
 mod wall_orbit;
 
@@ -47,10 +48,11 @@ use std::sync::OnceLock;
 use std::sync::atomic::AtomicBool;
 
 /// The tables of all families.
-const TABLES: [&str; 17] = [
+const TABLES: [&str; 18] = [
     include_str!("impact.toml"),
     include_str!("dashpot.toml"),
     include_str!("silbert.toml"),
+    include_str!("tangential_loop.toml"),
     include_str!("cradle.toml"),
     include_str!("rolling.toml"),
     include_str!("incline.toml"),
@@ -128,6 +130,8 @@ pub enum Setup {
     Dashpot(dashpot::Dashpot),
     /// A sphere hits another one, or what does not move, under the contact of Silbert et al.
     SilbertImpact(silbert::SilbertImpact),
+    /// A sphere is pressed on the floor and moved to and fro.
+    TangentialLoop(tangential_loop::TangentialLoop),
     /// Spheres in a row, hit by the first of them.
     Cradle(cradle::Cradle),
     /// A sphere slides on the floor until it rolls.
@@ -164,6 +168,7 @@ impl Setup {
             Self::Impact(it) => it,
             Self::Dashpot(it) => it,
             Self::SilbertImpact(it) => it,
+            Self::TangentialLoop(it) => it,
             Self::Cradle(it) => it,
             Self::Rolling(it) => it,
             Self::Incline(it) => it,

@@ -5,6 +5,7 @@
 mod allocations;
 mod collisions;
 mod determinism;
+mod driven;
 mod integrators;
 mod invariants;
 mod large;

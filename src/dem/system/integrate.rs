@@ -145,6 +145,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.step.number += 1;
         self.neighbours.age.steps += 1;
         self.neighbours.near_age.steps += 1;
+        self.drive(0.0, 1.0);
     }
 
     /// Evaluates the forces at the start, before which there are no latest ones. No time passes, so
@@ -200,7 +201,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return self.check_speeds(too_fast);
         }
         // The order of spheres follows from where they are after whole steps.
-        let begins_next = next == Next::Step && !self.checks_order();
+        let begins_next =
+            next == Next::Step && !self.checks_order() && self.setup.driven.is_empty();
         let motion = match begins_next {
             true => Motion {
                 kicks: &[half, half],
@@ -236,13 +238,16 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let duration = if self.step.number == 1 { half } else { dt };
         self.loading = Loading::earlier(duration, half);
         self.drift(half);
+        self.drive(-0.5, 0.5);
         self.before.keep(&self.particles);
         if self.loads_springs() {
             self.before.to_rows(&mut self.earlier);
         }
+        self.drive(0.0, 1.0);
         self.kick(half);
         self.evaluate()?;
         self.before.put_back(&mut self.particles);
+        self.drive(0.0, 1.0);
         let too_fast = self.kick(dt);
         self.note_kick(dt);
         self.check_speeds(too_fast)?;

@@ -8,6 +8,7 @@ mod contact_laws;
 mod contact_state;
 mod contact_task;
 mod division;
+mod drive;
 mod evaluate;
 mod integrate;
 mod lanes;
@@ -47,7 +48,7 @@ use crate::forces::friction::TangentialLaw;
 use crate::forces::rolling::RollingLaw;
 use crate::particles::bodies::Bodies;
 use crate::particles::{Particles, Sphere, retain};
-use crate::scene::{Integrator, Neighbours};
+use crate::scene::{Driven, Integrator, Neighbours};
 use crate::simulation::Instability;
 use fearless_simd::Level;
 
@@ -104,6 +105,8 @@ pub(in crate::dem) struct Setup {
     pub(in crate::dem) effects: Vec<PlacedEffect>,
     /// Whether an effect needs the number of spheres below each sphere.
     pub(in crate::dem) shielded: bool,
+    /// Spheres that move along prescribed paths, by their indices.
+    pub(in crate::dem) driven: Vec<(usize, Driven)>,
     /// Absent where nothing resists rolling.
     pub(in crate::dem) rolling: Option<RollingLaw>,
     pub(in crate::dem) limits: Limits,

@@ -24,7 +24,7 @@ pub use crate::forces::limit::Limit;
 pub use standing::Standing;
 
 use crate::forces::limit::{DISPLACEMENT, Regime, Scheme};
-use crate::scene::{Integrator, Scene, Spheres, Start, StartSphere, Tank};
+use crate::scene::{Driven, Integrator, Scene, Spheres, Start, StartSphere, Tank};
 use overlap::deepest_at_start;
 use std::cell::LazyCell;
 
@@ -60,7 +60,8 @@ pub fn fastest_impact(scene: &Scene) -> f64 {
         _ => free_fall,
     };
     let reach = tank.and_then(farthest_wall).unwrap_or(widest);
-    let of_effects = scene.dem.effects.fastest(reach);
+    let of_paths = scene.dem.driven.iter().map(Driven::fastest);
+    let of_effects = of_paths.fold(scene.dem.effects.fastest(reach), f64::max);
     start_speed.max(free_fall).max(of_effects)
 }
 

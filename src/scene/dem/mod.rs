@@ -1,6 +1,7 @@
 //! The part of a scene that belongs to the discrete element model: laws of contact, effects, fixed
 //! spheres, what ends a run, guards.
 
+mod driven;
 mod guards;
 mod neighbours;
 mod silo;
@@ -10,6 +11,8 @@ pub use crate::forces::friction::{
     Coulomb, CundallStrack, Friction, Mindlin, MindlinDeresiewicz, SilbertFriction, Spin,
 };
 pub use crate::forces::rolling::Rolling;
+pub use driven::Driven;
+pub(crate) use driven::MOST_BESIDE_DRIVEN;
 pub use guards::Guards;
 pub use neighbours::Neighbours;
 pub(crate) use silo::MOST_HOPPER_SPHERES;
@@ -47,6 +50,10 @@ pub struct DemScene {
     /// Where spheres leave the simulation. Absent: nowhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outlet: Option<Outlet>,
+    /// Spheres that move along prescribed paths. Absent: none. The energy balance does not know
+    /// what drives them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub driven: Vec<Driven>,
     /// The effects on single spheres.
     #[serde(flatten)]
     pub effects: Effects,

@@ -1,5 +1,6 @@
 //! What a scene must satisfy beyond the kinds of its values.
 
+mod driven;
 mod neighbours;
 mod output;
 mod silo;
@@ -45,6 +46,7 @@ impl Scene {
         self.check_start(problems);
         self.check_times(problems);
         self.check_silo(problems);
+        self.check_driven(problems);
         self.check_neighbours(problems);
         self.check_output(problems);
     }

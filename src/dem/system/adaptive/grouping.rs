@@ -63,13 +63,18 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return;
         }
         work.islands.join(i as u32, j as u32, *fixed);
+        let yielding = inverse_mass[i] + inverse_mass[j];
+        if yielding == 0.0 {
+            // Two driven spheres, which do not oscillate.
+            return;
+        }
         let rates = self.rates(&Approach {
             spheres: &[i, j],
             overlap: (sum - squared.sqrt()).max(0.0),
             speed: (velocity[i] - velocity[j]).norm(),
             gain: work.gain[i] + work.gain[j],
             effective_radius: radius[i] * radius[j] / sum,
-            yielding: inverse_mass[i] + inverse_mass[j],
+            yielding,
             turning: self.turning(i) + self.turning(j),
         });
         work.add(i, rates);
@@ -85,6 +90,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 continue;
             }
             work.islands.touch(sphere);
+            if particles.inverse_mass[i] == 0.0 {
+                continue;
+            }
             let contact = wall.contact(centre, radius);
             let rates = self.rates(&Approach {
                 spheres: &[i],
