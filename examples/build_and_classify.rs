@@ -30,6 +30,7 @@ fn tank(omega: f64) -> Scene {
     let time = Time {
         dt: 1e-4,
         safety_factor: None,
+        resolution: None,
         duration: 5.0,
         frame_interval: 1e-3,
         integrator: Integrator::SymplecticEuler,

@@ -56,6 +56,7 @@
 //!         Time {
 //!             dt: 1e-4,
 //!             safety_factor: None,
+//!             resolution: None,
 //!             duration: 4.0,
 //!             frame_interval: 1e-2,
 //!             integrator: Integrator::SymplecticEuler,

@@ -270,13 +270,13 @@ fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
         limits: Limits::new(scene, particles),
         dt: scene.time.dt,
         integrator: scene.time.integrator,
+        resolution: scene.time.resolution(),
         neighbours: scene.dem.neighbours,
         skin,
         sorted: false,
     }
 }
 
-/// Radii, masses and moments of inertia of the spheres that move.
 const _: () = assert!(MOST_BESIDE_DRIVEN < order::MANY);
 
 /// The driven spheres of a scene by their indices, after those that are fixed.
@@ -287,6 +287,7 @@ fn driven(scene: &Scene, fixed: usize) -> Vec<(usize, Driven)> {
         .collect()
 }
 
+/// Radii, masses and moments of inertia of the spheres that move.
 fn scalars_of(particles: &Particles) -> [Vec<f64>; 3] {
     [&particles.radius, &particles.mass, &particles.inertia]
         .map(|values| of_moving(values, particles).to_vec())

@@ -27,13 +27,12 @@ mod vary;
 pub use accuracy::Accuracy;
 pub use change::Change;
 pub(crate) use change::is_within;
-pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
     Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Driven, FixedSphere,
     FixedSpheres, Friction, Geometry, Guards, Hertz, Hopper, LengthUnit, Linear, Mindlin,
     MindlinDeresiewicz, Neighbours, Outlet, Rest, Rolling, Silbert, SilbertFriction, Spin,
-pub(crate) use dem::{MOST_BESIDE_DRIVEN, MOST_HOPPER_SPHERES};
 };
+pub(crate) use dem::{MOST_BESIDE_DRIVEN, MOST_HOPPER_SPHERES};
 pub use file_kind::FileKind;
 pub use keys::Notation;
 pub(crate) use keys::leaf;
@@ -115,6 +114,7 @@ impl Scene {
     ///     Time {
     ///         dt: 1e-4,
     ///         safety_factor: None,
+    ///         resolution: None,
     ///         duration: 0.1,
     ///         frame_interval: 1e-2,
     ///         integrator: Integrator::VelocityVerlet,

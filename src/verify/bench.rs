@@ -240,6 +240,7 @@ impl<'a> Bench<'a> {
         let time = Time {
             dt,
             safety_factor: None,
+            resolution: None,
             duration: dt,
             frame_interval: dt,
             integrator: self.integrator,

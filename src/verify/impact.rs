@@ -6,7 +6,7 @@ use crate::dem::{Simulation, timestep};
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 use crate::scene::{
-    AddedMass, Contact, DemScene, Effects, Friction, Hertz, Scene, StartSphere, Tank,
+    AddedMass, Contact, DemScene, Effects, Friction, Hertz, Scene, StartSphere, Tank, Time,
 };
 use serde::Deserialize;
 use std::f64::consts::PI;
@@ -57,6 +57,9 @@ pub struct Impact {
     /// Time step (s), in place of `steps_per_contact`.
     #[serde(default)]
     dt: Option<f64>,
+    /// Resolution of adaptive Verlet (rad), in place of the default.
+    #[serde(default)]
+    resolution: Option<f64>,
     /// Number of impacts to average over, which begin at equally spaced parts of a step; one
     /// impact begins with a step.
     #[serde(default = "once")]
@@ -269,8 +272,14 @@ impl Impact {
                 });
             }
         }
+        let bare = bench.scene(material.density, self.radius, spheres, dt);
+        let time = Time {
+            resolution: self.resolution,
+            ..bare.time.clone()
+        };
         Scene {
             tank,
+            time,
             dem: DemScene {
                 contact: Some(self.contact(material)),
                 friction: self.friction.clone(),
@@ -280,7 +289,7 @@ impl Impact {
                 },
                 ..unguarded()
             },
-            ..bench.scene(material.density, self.radius, spheres, dt)
+            ..bare
         }
     }
 

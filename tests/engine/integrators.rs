@@ -189,6 +189,39 @@ fn a_pile_rests_at_large_steps() {
     );
 }
 
+/// A pile at rest is followed as coarsely as stability allows, and one that falls is not.
+#[test]
+fn contacts_that_are_held_take_few_sub_steps() {
+    let steps = |height: f64, resolution: Option<f64>| {
+        let column: Vec<StartSphere> = (0..4)
+            .map(|i| StartSphere::at([0.0, 0.0, 0.004 + height + f64::from(i) * 0.008]))
+            .collect();
+        let mut scene = steel(column, 1e-5, 1e-3);
+        scene.time.resolution = resolution;
+        scene.dem.effects.gravity = Some(phase::scene::Gravity {
+            acceleration: 9.8,
+            tilt: 0.0,
+        });
+        scene.tank = Some(phase::scene::Tank {
+            floor: Some(0.0),
+            ..phase::scene::Tank::default()
+        });
+        let mut simulation = Simulation::new(&scene).unwrap();
+        simulation
+            .advance(if height > 0.0 { 1 } else { 300 })
+            .unwrap();
+        let before = simulation.moves();
+        simulation.advance(10).unwrap();
+        simulation.moves() - before
+    };
+    let (fine, coarse) = (steps(0.0, None), steps(0.0, Some(0.6)));
+    let ratio = fine as f64 / coarse as f64;
+    assert!((ratio - 1.0).abs() < 0.01, "{fine} {coarse}");
+    // Falls from a tenth of a millimetre, and collides.
+    let (fine, coarse) = (steps(1e-4, None), steps(1e-4, Some(0.6)));
+    assert!(fine > 2 * coarse, "{fine} {coarse}");
+}
+
 /// Bits do not depend on how the pairs are found, nor on where the advance is cut.
 #[test]
 fn adaptive_bits_depend_on_the_scene_alone() {

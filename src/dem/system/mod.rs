@@ -113,6 +113,8 @@ pub(in crate::dem) struct Setup {
     /// Time step (s).
     pub(in crate::dem) dt: f64,
     pub(in crate::dem) integrator: Integrator,
+    /// The largest h (w + g) of a sub-step of adaptive Verlet (rad).
+    pub(in crate::dem) resolution: f64,
     /// Skin of the neighbour list (m).
     pub(in crate::dem) skin: f64,
     pub(in crate::dem) neighbours: Neighbours,

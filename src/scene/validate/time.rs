@@ -2,7 +2,7 @@
 
 use super::rounded;
 use crate::document::{Problem, number};
-use crate::scene::{Output, Scene, Start};
+use crate::scene::{Integrator, Output, Scene, Start};
 
 /// Two times count as commensurate if their ratio is a whole number within this.
 const ROUNDING: f64 = 1e-6;
@@ -17,6 +17,12 @@ impl Scene {
         if !multiple(time.duration, interval) {
             let name = "time.frame_interval";
             problems.push(not_multiple("time.duration", time.duration, name, interval));
+        }
+        if time.resolution.is_some() && time.integrator != Integrator::AdaptiveVerlet {
+            let message = "`time.resolution` goes with `integrator = \"adaptive-verlet\"` only";
+            let help = "use that integrator, or remove `resolution`";
+            let problem = Problem::new("time.resolution", message).help(help);
+            problems.push(problem.at_key());
         }
         let frames = time.duration / interval;
         if frames > MOST_FRAMES {

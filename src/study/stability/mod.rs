@@ -144,6 +144,7 @@ mod tests {
             let mut time = Time {
                 dt,
                 safety_factor: None,
+                resolution: None,
                 duration: 1.0,
                 frame_interval: 0.1,
                 integrator: Integrator::default(),

@@ -37,6 +37,7 @@ fn neck(ratio: f64) -> Scene {
     )]);
     let time = Time {
         safety_factor: None,
+        resolution: None,
         dt: 1e-6,
         duration: 0.3,
         frame_interval: 1e-3,

@@ -1,6 +1,6 @@
 //! Groups of spheres that may touch within a step, and how fast their contacts oscillate.
 
-use super::workspace::Workspace;
+use super::workspace::{HELD, Workspace};
 use crate::dem::system::System;
 use crate::dem::system::wall_contacts::{NearSphere, WallContacts};
 use crate::dem::walls::Wall;
@@ -8,15 +8,26 @@ use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{Grip, TangentialLaw};
 use crate::particles::Particles;
 
+/// A contact is held if an oscillation of its speed would not change its overlap by more than this
+/// fraction.
+const SWING: f64 = 0.1;
+
+/// Partners that do not touch yet are held if their speed, now and a step later, is below this
+/// fraction of what the slow forces alone may add to it in a step: others hold them.
+const SLOW: f64 = 0.05;
+
 /// Two partners that may touch within a step.
 struct Approach<'a> {
     /// The spheres among them.
     spheres: &'a [usize],
     /// Present overlap (m).
     overlap: f64,
-    /// Relative speed (m/s), and how much it may gain.
+    /// Relative speed (m/s), how much of it is along the normal, and how much it may gain.
     speed: f64,
+    along: f64,
     gain: f64,
+    /// Sum of the accelerations that the latest forces give both (m/s2).
+    accelerations: f64,
     effective_radius: f64,
     /// 1 / m_eff, and what rotation adds to it (1/kg).
     yielding: f64,
@@ -58,7 +69,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         } = &self.particles;
         let sum = radius[i] + radius[j];
         let way = work.reach[i] + work.reach[j];
-        let squared = (position[i] - position[j]).norm_squared();
+        let offset = position[i] - position[j];
+        let squared = offset.norm_squared();
         if squared >= (sum + way) * (sum + way) {
             return;
         }
@@ -68,15 +80,22 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             // Two driven spheres, which do not oscillate.
             return;
         }
-        let rates = self.rates(&Approach {
-            spheres: &[i, j],
-            overlap: (sum - squared.sqrt()).max(0.0),
-            speed: (velocity[i] - velocity[j]).norm(),
-            gain: work.gain[i] + work.gain[j],
-            effective_radius: radius[i] * radius[j] / sum,
-            yielding,
-            turning: self.turning(i) + self.turning(j),
-        });
+        let (distance, velocity) = (squared.sqrt(), velocity[i] - velocity[j]);
+        let rates = self.rates(
+            work,
+            &Approach {
+                spheres: &[i, j],
+                overlap: (sum - distance).max(0.0),
+                speed: velocity.norm(),
+                along: velocity.dot(offset) / distance,
+                accelerations: work.acceleration(i, inverse_mass[i])
+                    + work.acceleration(j, inverse_mass[j]),
+                gain: work.gain[i] + work.gain[j],
+                effective_radius: radius[i] * radius[j] / sum,
+                yielding,
+                turning: self.turning(i) + self.turning(j),
+            },
+        );
         work.add(i, rates);
         work.add(j, rates);
     }
@@ -94,18 +113,23 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 continue;
             }
             let contact = wall.contact(centre, radius);
-            let rates = self.rates(&Approach {
-                spheres: &[i],
-                overlap: match contact.touches {
-                    true => contact.overlap,
-                    false => 0.0,
+            let rates = self.rates(
+                work,
+                &Approach {
+                    spheres: &[i],
+                    overlap: match contact.touches {
+                        true => contact.overlap,
+                        false => 0.0,
+                    },
+                    speed: particles.velocity[i].norm(),
+                    along: particles.velocity[i].dot(contact.normal),
+                    accelerations: work.acceleration(i, particles.inverse_mass[i]),
+                    gain: work.gain[i],
+                    effective_radius: radius,
+                    yielding: particles.inverse_mass[i],
+                    turning: self.turning(i),
                 },
-                speed: particles.velocity[i].norm(),
-                gain: work.gain[i],
-                effective_radius: radius,
-                yielding: particles.inverse_mass[i],
-                turning: self.turning(i),
-            });
+            );
             work.add(i, rates);
         }
     }
@@ -118,12 +142,40 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         radius * radius * inverse
     }
 
-    /// Squared frequency (1/s2) and damping rate (1/s) of an impact at its deepest.
-    fn rates(&self, approach: &Approach<'_>) -> [f64; 2] {
+    /// Whether a contact is held, so that it changes little within a step: nothing collides.
+    fn is_held(&self, work: &Workspace<T::History>, approach: &Approach<'_>) -> bool {
         let Approach {
             spheres,
             overlap,
             speed,
+            along,
+            gain,
+            accelerations,
+            effective_radius,
+            yielding,
+            ..
+        } = *approach;
+        // Before the first step there are no latest forces.
+        if self.step.number == 1 || work.any_strayed(spheres) {
+            return false;
+        }
+        if overlap == 0.0 {
+            let gained = accelerations * self.setup.dt;
+            return speed.max(gained) < SLOW * gain;
+        }
+        let swing = SWING * overlap;
+        let squared = self.normal.stiffness(overlap, effective_radius) * yielding;
+        along * along < squared * swing * swing && accelerations < squared * swing
+    }
+
+    /// Squared frequency (1/s2) and damping rate (1/s) of an impact at its deepest.
+    fn rates(&self, work: &Workspace<T::History>, approach: &Approach<'_>) -> [f64; 2] {
+        let Approach {
+            spheres,
+            overlap,
+            speed,
+            along: _,
+            accelerations: _,
             gain,
             effective_radius,
             yielding,
@@ -148,6 +200,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let friction = (tangential.damping(&grip) * along).min(squared.sqrt());
         let damping = normal.damping(overlap, effective_radius, effective_mass) * yielding;
         let [rolling, drag] = self.rolling_rates(spheres, overlap, effective_radius);
-        [squared.max(rolling), damping.max(friction).max(drag)]
+        let share = match self.is_held(work, approach) {
+            true => (self.setup.resolution / HELD).min(1.0),
+            false => 1.0,
+        };
+        let damping = damping.max(friction).max(drag);
+        [squared.max(rolling) * share * share, damping * share]
     }
 }

@@ -84,7 +84,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.move_free_spheres(work);
         let islands = std::mem::take(&mut work.islands);
         let outcome = islands.all().iter().try_for_each(|island| {
-            let sub_steps = work.sub_steps(island, self.setup.dt);
+            let sub_steps = work.sub_steps(island, self.setup.dt, self.setup.resolution);
             self.move_island(island, sub_steps, work)
         });
         work.islands = islands;

@@ -35,6 +35,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 particles.torque[i] = work.start.torque[i];
             }
         }
+        let mut histories = IslandHistories::of(&island.contacts, &self.pair_history, &self.walls);
         for sub_step in 0..sub_steps {
             // Springs are loaded from one middle to the next, and at first from the start to the
             // middle.
@@ -49,15 +50,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
             self.note_island(&island.contacts);
             self.mark_ledger();
-            self.add_island_forces(&island.contacts);
+            self.add_island_forces(&island.contacts, &mut histories);
             self.check_overlaps()?;
+            if self.ledger.is_some() {
+                histories.put_back(&island.contacts, &mut self.pair_history, &mut self.walls);
+            }
             for &i in &island.spheres {
                 self.finish(i as usize, time, work);
             }
         }
         if self.loads_springs() {
-            self.load_springs(island, half, work);
+            self.load_springs(island, &mut histories, half, work);
         }
+        histories.put_back(&island.contacts, &mut self.pair_history, &mut self.walls);
         Ok(())
     }
 
@@ -72,19 +77,19 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.loading = Loading::just_now(time);
         let spheres = || island.spheres.iter().map(|&i| i as usize);
         let particles = &self.particles;
+        for i in spheres() {
+            self.earlier[i] = [particles.velocity[i].row(), particles.spin[i].row()];
+        }
         work.held.force.clear();
         work.held
             .force
             .extend(spheres().map(|i| particles.force[i]));
         work.held.torque.clear();
-        for i in spheres() {
-            self.earlier[i] = [particles.velocity[i].row(), particles.spin[i].row()];
-        }
         if particles.rotate() {
             let torques = spheres().map(|i| particles.torque[i]);
             work.held.torque.extend(torques);
         }
-        self.add_island_forces(&island.contacts);
+        self.add_island_forces(&island.contacts, histories);
         // Forces must remain those of the last middle. An overlap that is too deep is found by the
         // next step.
         let particles = &mut self.particles;
@@ -135,9 +140,12 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// Adds the forces and torques of an island's contacts.
-    fn add_island_forces(&mut self, contacts: &IslandContacts) {
+    fn add_island_forces(
+        &mut self,
+        contacts: &IslandContacts,
+        histories: &mut IslandHistories<T::History>,
+    ) {
         let settings = self.settings();
-        let mut histories = IslandHistories::of(contacts, &self.pair_history, &self.walls);
         let mut spheres = Spheres::new(&mut self.particles, &[]);
         let (partners, [force, torque]) = Partners::of(&mut spheres, &self.earlier);
         let sums = Sums {
@@ -151,7 +159,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let mut task = ContactTask::of_all(partners, sums, candidates, &mut self.buffers);
         task.add_contacts(self.level, &settings, &mut self.profile);
         self.step.too_deep = self.step.too_deep.or(task.first_too_deep());
-        histories.put_back(contacts, &mut self.pair_history, &mut self.walls);
         self.add_rolling_of_island(contacts);
     }
 }
@@ -203,12 +210,12 @@ impl<H: Copy> IslandHistories<H> {
     }
 
     /// Writes the histories back to their entries.
-    fn put_back(self, contacts: &IslandContacts, pairs: &mut [H], walls: &mut [WallContacts<H>]) {
-        for (&entry, history) in contacts.entries.iter().zip(self.pairs) {
+    fn put_back(&self, contacts: &IslandContacts, pairs: &mut [H], walls: &mut [WallContacts<H>]) {
+        for (&entry, &history) in contacts.entries.iter().zip(&self.pairs) {
             pairs[entry as usize] = history;
         }
-        for ((copies, wall), near) in self.walls.into_iter().zip(walls).zip(&contacts.walls) {
-            for (sphere, history) in near.iter().zip(copies) {
+        for ((copies, wall), near) in self.walls.iter().zip(walls).zip(&contacts.walls) {
+            for (sphere, &history) in near.iter().zip(copies) {
                 wall.histories[sphere.entry as usize] = history;
             }
         }

@@ -6,9 +6,9 @@ use crate::dem::walls::TankWall;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 
-/// The largest h (w + g) of a sub-step h, with angular frequency w and damping rate g of the
-/// island's fastest oscillation. An impact then lasts 27 sub-steps or more.
-const RESOLUTION: f64 = 0.15;
+/// The largest h (w + g) of a sub-step at contacts that are held, which need only be stable: (w h)^2
+/// + 4 g h < 4.
+pub(super) const HELD: f64 = 0.6;
 
 /// Tolerance on a sphere's displacement beyond the prediction from its speed and the slow forces,
 /// in radii. If a sphere exceeds it, the step is repeated. Contacts that the step resolves stay
@@ -27,10 +27,13 @@ pub(in crate::dem::system) struct Workspace<H> {
     /// and how far the sphere may move (m).
     pub(super) gain: Vec<f64>,
     pub(super) reach: Vec<f64>,
+    /// Whether a sphere went farther in an earlier attempt than was foreseen: it collides.
+    strayed: Vec<bool>,
     /// The largest displacement of each sphere so far, squared (m2).
     way_squared: Vec<f64>,
     pub(super) islands: Islands,
-    /// Squared frequency (1/s2) and damping rate (1/s) of each sphere at its contacts.
+    /// Squared frequency (1/s2) and damping rate (1/s) of each sphere at its contacts; of contacts
+    /// that are held, as slow as to be followed at the resolution of all.
     pub(super) stiffness: Vec<f64>,
     pub(super) damping: Vec<f64>,
 }
@@ -91,6 +94,8 @@ impl<H> Workspace<H> {
         }));
         self.way_squared.clear();
         self.way_squared.resize(particles.len(), 0.0);
+        self.strayed.clear();
+        self.strayed.resize(particles.len(), false);
         self.reach.iter().copied().fold(0.0, f64::max)
     }
 
@@ -99,11 +104,21 @@ impl<H> Workspace<H> {
         self.damping[i] += damping;
     }
 
-    /// How many sub-steps of a step the contacts of an island need.
-    pub(super) fn sub_steps(&self, island: &Island, dt: f64) -> u64 {
+    /// The acceleration of a sphere by the latest forces (m/s2).
+    pub(super) fn acceleration(&self, i: usize, inverse_mass: f64) -> f64 {
+        self.start.force[i].norm() * inverse_mass
+    }
+
+    /// Whether one of these spheres went farther than was foreseen.
+    pub(super) fn any_strayed(&self, spheres: &[usize]) -> bool {
+        spheres.iter().any(|&i| self.strayed[i])
+    }
+
+    /// How many sub-steps of a step the contacts of an island need, at a resolution (rad).
+    pub(super) fn sub_steps(&self, island: &Island, dt: f64, resolution: f64) -> u64 {
         let rate = |&i: &u32| self.stiffness[i as usize].sqrt() + self.damping[i as usize];
         let fastest = island.spheres.iter().map(rate).fold(0.0, f64::max);
-        ((dt * fastest / RESOLUTION).ceil() as u64).max(1)
+        ((dt * fastest / resolution).ceil() as u64).max(1)
     }
 
     /// Notes how far a sphere is from its position at the start.
@@ -116,16 +131,17 @@ impl<H> Workspace<H> {
     /// if there are such spheres.
     pub(super) fn widen(&mut self, dt: f64) -> Option<f64> {
         let mut strayed = false;
-        for ((squared, reach), gain) in self
+        for (((squared, reach), gain), sphere_strayed) in self
             .way_squared
             .iter_mut()
             .zip(&mut self.reach)
             .zip(&mut self.gain)
+            .zip(&mut self.strayed)
         {
             if *squared > *reach * *reach && squared.is_finite() {
                 *reach = 2.0 * squared.sqrt();
                 *gain = *reach / dt;
-                strayed = true;
+                (strayed, *sphere_strayed) = (true, true);
             }
             *squared = 0.0;
         }
