@@ -30,8 +30,8 @@ impl Loading {
         Self { duration, age: 0.0 }
     }
 
-    /// As [`earlier`](Self::earlier), by the velocities of the evaluation: turning and sliding are of
-    /// second order then, and the age is next to nothing.
+    /// As [`earlier`](Self::earlier), by the velocities of the evaluation: turning and sliding are
+    /// of second order then, and the age is next to nothing.
     pub(super) fn just_now(duration: f64) -> Self {
         let age = duration / 1024.0;
         Self { duration, age }

@@ -6,8 +6,8 @@ use crate::dem::walls::TankWall;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 
-/// The largest h (w + g) of a sub-step at contacts that are held, which need only be stable: (w h)^2
-/// + 4 g h < 4.
+/// The largest h (w + g) of a sub-step at contacts that are held, which need only be stable:
+/// (w h)^2 + 4 g h < 4.
 pub(super) const HELD: f64 = 0.6;
 
 /// Tolerance on a sphere's displacement beyond the prediction from its speed and the slow forces,
