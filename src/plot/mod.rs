@@ -29,6 +29,7 @@ mod net_force;
 mod page;
 mod palette;
 mod phase;
+mod png;
 mod scale;
 mod series;
 mod single;

@@ -1,7 +1,7 @@
 //! A finished figure: its SVG, its PNG, and where it comes from.
 
 use super::canvas::{self, PNG_SCALE, UNITS};
-use super::{PlotError, Source, text};
+use super::{PlotError, Source, png, text};
 use crate::fonts;
 use crate::markup::escape;
 use crate::record::{Program, RunRecord};
@@ -144,44 +144,11 @@ impl Svg {
         for picture in &self.pictures {
             paste(picture, &mut pixels, scale).ok_or_else(|| failed(&"an empty picture"))?;
         }
-        self.encode(&pixels, scale).map_err(|e| failed(&e))
-    }
-
-    fn encode(
-        &self,
-        pixels: &tiny_skia::Pixmap,
-        scale: f32,
-    ) -> Result<Vec<u8>, png::EncodingError> {
-        let mut file = Vec::new();
-        let mut encoder = png::Encoder::new(&mut file, pixels.width(), pixels.height());
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_compression(png::Compression::High);
         // A CSS pixel is 1/96 of an inch of .0254 m.
         let per_metre = (scale * 96.0 / 0.0254).round() as u32;
-        encoder.set_pixel_dims(Some(png::PixelDimensions {
-            xppu: per_metre,
-            yppu: per_metre,
-            unit: png::Unit::Meter,
-        }));
-        for (key, value) in &self.metadata {
-            // A tEXt chunk holds Latin-1 only.
-            if value.is_ascii() {
-                encoder.add_text_chunk((*key).to_owned(), value.clone())?;
-            } else {
-                encoder.add_itxt_chunk((*key).to_owned(), value.clone())?;
-            }
-        }
-        // The background is opaque, so the colours are not premultiplied by anything but one.
-        let colours: Vec<u8> = pixels
-            .pixels()
-            .iter()
-            .flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()])
-            .collect();
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(&colours)?;
-        writer.finish()?;
-        Ok(file)
+        // Shaded spheres have more colours than a palette.
+        let all_colors = !self.pictures.is_empty();
+        png::encode(&pixels, per_metre, &self.metadata, all_colors).map_err(|e| failed(&e))
     }
 }
 
