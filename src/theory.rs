@@ -4,7 +4,7 @@ mod with_friction;
 
 pub use with_friction::critical_rotation_with_friction;
 
-use crate::scene::{Drag, Updraught};
+use crate::scene::{Drag, Swirl, Updraught};
 use std::f64::consts::{PI, SQRT_2};
 
 /// Critical angular velocity Omega_c (rad/s) at which the surface of the spheres, taken for that
@@ -34,12 +34,19 @@ pub fn critical_rotation(count: f64, radius: f64, tank_radius: f64, gravity: f64
 ///
 /// F_z = s exp(-beta (z - z0)) drag(v_z), with drag(v) = c1 v + c2 v^2 in the thesis.
 ///
+/// * `swirl`: the rotation of the air, which a strength s proportional to Omega^2 follows
 /// * `drag`: the drag law
 /// * `radius`: radius of the sphere (m)
 /// * `height`: height z of its centre (m)
-pub fn unshielded_lift(updraught: &Updraught, drag: &Drag, radius: f64, height: f64) -> f64 {
+pub fn unshielded_lift(
+    updraught: &Updraught,
+    swirl: Option<&Swirl>,
+    drag: &Drag,
+    radius: f64,
+    height: f64,
+) -> f64 {
     let speed = updraught.speed;
-    updraught.strength
+    updraught.strength_in(swirl)
         * libm::exp(-updraught.decay * (height - updraught.origin))
         * drag.coefficient(radius, speed)
         * speed
@@ -94,7 +101,7 @@ mod tests {
             form: DragForm::Component,
         };
         let weight = 3750.0 * 4.0 / 3.0 * PI * 0.004 * 0.004 * 0.004 * 9.8;
-        let lift = |height| unshielded_lift(&updraught, &drag, 0.004, height);
+        let lift = |height| unshielded_lift(&updraught, None, &drag, 0.004, height);
         assert!((lift(-0.2) / weight - 3.0).abs() < 1e-12);
         assert!((lift(-0.16) / lift(-0.2) - libm::exp(-1.0)).abs() < 1e-12);
     }

@@ -11,7 +11,7 @@ use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, palette, scale};
 use crate::classify::{Family, TANK};
-use crate::scene::{Scene, Updraught};
+use crate::scene::Scene;
 use crate::theory::unshielded_lift;
 
 /// The net vertical force over the radius.
@@ -96,11 +96,8 @@ fn net_force(scene: &Scene, radius: f64, share: f64) -> Option<f64> {
     let updraught = scene.dem.effects.updraught.as_ref()?;
     let floor = scene.tank.as_ref().and_then(|tank| tank.floor);
     let height = floor.unwrap_or(updraught.origin) + radius;
-    let updraught = Updraught {
-        strength: updraught.strength_in(scene.dem.effects.swirl.as_ref()),
-        ..updraught.clone()
-    };
-    let lift = unshielded_lift(&updraught, scene.dem.effects.drag.as_ref()?, radius, height);
+    let (swirl, drag) = (&scene.dem.effects.swirl, &scene.dem.effects.drag);
+    let lift = unshielded_lift(updraught, swirl.as_ref(), drag.as_ref()?, radius, height);
     let mass = scene.spheres.density * volume(radius);
     Some(share * share * lift - mass * scene.gravity_in_fluid()?.acceleration)
 }

@@ -128,12 +128,8 @@ impl<'a> Bed<'a> {
 
     /// The part L of the weight that the updraught carries.
     fn lifted(&self, updraught: &Updraught, omega: f64) -> f64 {
-        let updraught = Updraught {
-            strength: updraught.strength_in(Some(&Swirl { omega })),
-            reference_omega: None,
-            ..updraught.clone()
-        };
-        let lift = unshielded_lift(&updraught, self.drag, self.radius, self.floor);
+        let swirl = Swirl { omega };
+        let lift = unshielded_lift(updraught, Some(&swirl), self.drag, self.radius, self.floor);
         let shielded = match updraught.alpha {
             1.0 => 1.0,
             alpha => (1.0 - libm::pow(alpha, self.column)) / ((1.0 - alpha) * self.column),
