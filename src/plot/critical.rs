@@ -4,26 +4,14 @@ use super::chart::samples;
 use super::contour::{Nodes, Piece};
 use super::diagram::Curve;
 use super::grid::{Grid, GridAxis, Panel};
-use super::legend::{Entry, Key};
 use super::scale::Span;
 use crate::scene::Scene;
 use crate::theory::{critical_rotation, critical_rotation_with_friction};
 
 const OMEGA: &str = "swirl.omega";
 
-/// Entries of the legend for the curves that there are.
-pub(super) fn entries(curves: &[Vec<Curve>]) -> Vec<Entry> {
-    let is_there = |dashed: bool| {
-        let mut curves = curves.iter().flatten();
-        curves.any(|curve| curve.dashed == dashed && !curve.pieces.is_empty())
-    };
-    let without = Entry::new(Key::Curve, "critical rotation $Ω_c$");
-    let with = Entry::new(Key::Dashes, "with friction, $Ω_μ$");
-    [(false, without), (true, with)]
-        .into_iter()
-        .filter_map(|(dashed, entry)| is_there(dashed).then_some(entry))
-        .collect()
-}
+/// What the legend calls the curves without and with friction.
+pub(super) const WORDS: [&str; 2] = ["critical rotation $Ω_c$", "with friction, $Ω_μ$"];
 
 /// The curves Omega = Omega_c and Omega = Omega_mu inside a panel, in shown values; empty if the
 /// figure has no axis for Omega or the scene lacks what they need. What a panel is for counts

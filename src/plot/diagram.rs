@@ -54,6 +54,22 @@ pub(super) struct Curve {
     pub(super) dashed: bool,
 }
 
+impl Curve {
+    /// Entries of the legend for the curves that there are, with words for full and dashed ones.
+    pub(super) fn entries(curves: &[Vec<Self>], words: [&str; 2]) -> Vec<Entry> {
+        let is_there = |dashed: bool| {
+            let mut curves = curves.iter().flatten();
+            curves.any(|curve| curve.dashed == dashed && !curve.pieces.is_empty())
+        };
+        let [full, dashed] = words;
+        let entries = [(false, Key::Curve, full), (true, Key::Dashes, dashed)].into_iter();
+        entries
+            .filter(|(dashed, ..)| is_there(*dashed))
+            .map(|(_, key, words)| Entry::new(key, words))
+            .collect()
+    }
+}
+
 /// A diagram: what differs between the figures that are one.
 pub(super) struct Diagram<'a, P = Point> {
     /// Name of the figure.
@@ -76,7 +92,7 @@ impl Diagram<'_> {
         let curves: Vec<Vec<Curve>> = panels
             .map(|panel| critical::curves(scene, self.grid, panel))
             .collect();
-        let entries = critical::entries(&curves);
+        let entries = Curve::entries(&curves, critical::WORDS);
         let title = source.sweep.title.as_deref();
         let (size, body) = self.body(title, &curves, entries)?;
         Ok(Svg::new(self.name, source, size, &body))

@@ -13,6 +13,9 @@ use crate::record::Program;
 use crate::scene::{Integrator, Scene};
 use crate::study::stability::{Label, Row, Study, Theory};
 
+/// What the legend calls the full and the dashed curves.
+const LIMITS: [&str; 2] = ["limit of the time step", "advised limit of twelve contacts"];
+
 /// Draws the rows of a study.
 ///
 /// # Errors
@@ -42,7 +45,11 @@ pub fn draw(study: &Study, rows: &[Row], program: &Program) -> Result<Svg, PlotE
         legend: legend.collect(),
         bar: None,
     };
-    let (size, body) = diagram.body(study.title.as_deref(), &curves, of_curves(&curves))?;
+    let (size, body) = diagram.body(
+        study.title.as_deref(),
+        &curves,
+        Curve::entries(&curves, LIMITS),
+    )?;
     let scene = Scene {
         title: study.title.clone(),
         ..study.scene.clone()
@@ -131,21 +138,4 @@ fn nodes(axis: &GridAxis) -> Vec<f64> {
     nodes.insert(0, end(0.0));
     nodes.push(end(1.0));
     nodes
-}
-
-/// Entries of the legend for the curves that there are.
-fn of_curves(curves: &[Vec<Curve>]) -> Vec<Entry> {
-    let is_there = |dashed: bool| {
-        let mut curves = curves.iter().flatten();
-        curves.any(|curve| curve.dashed == dashed && !curve.pieces.is_empty())
-    };
-    let mut entries = Vec::new();
-    if is_there(false) {
-        entries.push(Entry::new(Key::Curve, "limit of the time step"));
-    }
-    if is_there(true) {
-        let words = "advised limit of twelve contacts";
-        entries.push(Entry::new(Key::Dashes, words));
-    }
-    entries
 }
