@@ -9,11 +9,24 @@ pub(super) fn frames(window: f64, interval: f64) -> usize {
 
 /// Whether the threshold `key` is a duration (s) of at least one frame.
 pub(super) fn check(key: &'static str, window: f64, interval: f64) -> Result<(), ClassifyError> {
-    let valid = window.is_finite() && frames(window, interval) >= 1;
+    check_of(key, window, interval, 1)
+}
+
+/// Whether the threshold `key` is a duration (s) of at least so many frames.
+pub(super) fn check_of(
+    key: &'static str,
+    window: f64,
+    interval: f64,
+    least: usize,
+) -> Result<(), ClassifyError> {
+    let valid = window.is_finite() && frames(window, interval) >= least;
     valid.then_some(()).ok_or_else(|| ClassifyError::Threshold {
         key,
         value: window,
-        expected: format!("a duration of at least one frame, {interval} s"),
+        expected: match least {
+            1 => format!("a duration of at least one frame, {interval} s"),
+            _ => format!("a duration of at least {least} frames of {interval} s"),
+        },
     })
 }
 

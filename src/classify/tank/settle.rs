@@ -73,7 +73,8 @@ measures! {
 impl SettleSieve {
     pub(super) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
         window::check("settle.window", self.window, interval)?;
-        window::check("settle.drift_window", self.drift_window, interval)?;
+        // A drift is told from two halves.
+        window::check_of("settle.drift_window", self.drift_window, interval, 2)?;
         let invalid = |key, value, expected: &str| ClassifyError::Threshold {
             key,
             value,
@@ -104,9 +105,10 @@ impl SettleSieve {
         let window = window::frames(self.window, run.interval);
         let changes = window::sums(&changes(run), window).into_iter();
         let changes = changes.map(|change| change / window as f64 / self.tolerance);
-        let (mut start, least) = first_steady(changes, window::sums(&high, window));
-        // Changes are counted from the second frame.
-        start = start.map(|first| 1 + first + window / 2);
+        let (start, least) = first_steady(changes, window::sums(&high, window));
+        // Changes and drifts are counted from the second frame.
+        let middle = |window: usize| move |first: usize| 1 + first + window / 2;
+        let mut start = start.map(middle(window));
 
         let mut drift = None;
         if start.is_none() {
@@ -114,7 +116,7 @@ impl SettleSieve {
             let drifts = drifts(run, window).into_iter();
             let drifts = drifts.map(|drift| drift / self.drift);
             (start, drift) = steady_to_the_end(drifts, window::sums(&high, window));
-            start = start.map(|first| 1 + first + window / 2);
+            start = start.map(middle(window));
         }
         let settling = Settling {
             settle_time: start.map(|frame| run.time(frame)),
@@ -167,9 +169,6 @@ fn drifts(run: &Run<'_>, window: usize) -> Vec<f64> {
         f64::from(observations.kinetic[frame]) + f64::from(observations.rotational[frame])
     });
     let half = window / 2;
-    if half == 0 {
-        return Vec::new();
-    }
     let sums = window::sums(&energies.collect::<Vec<f64>>(), half);
     // Between the middles of both halves.
     let apart = window - half;
@@ -279,6 +278,21 @@ mod tests {
         assert_eq!(judge(&fast(0.0)).value("settle_time"), Some(1001.0 * 1e-3));
         // Where changes are small by m g R, nothing else is looked at.
         assert_eq!(judge(&quiet(4000)).value("settle_drift"), None);
+    }
+
+    /// A drift window of one frame has no halves, and found nothing without a word.
+    #[test]
+    fn a_drift_window_of_one_frame_is_refused() {
+        let mut sieves = Sieves::default();
+        for (window, is_refused) in [(1e-3, true), (2e-3, false)] {
+            sieves.settle.drift_window = window;
+            let found = classify(&quiet(1000), &sieves);
+            let key = found.err().map(|error| match error {
+                ClassifyError::Threshold { key, .. } => key,
+                other => panic!("{other}"),
+            });
+            assert_eq!(key, is_refused.then_some("settle.drift_window"));
+        }
     }
 
     /// The energy of spheres that fall and bounce has a maximum, about which it drifts slowly.
