@@ -38,20 +38,25 @@ impl Family for Gas {
     }
 
     fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
-        let drift = self.energy_drift(self.dt, bench)?;
-        let mut measured = named([("energy_drift", drift)]);
+        let [energy, momentum] = self.drifts(self.dt, bench)?;
+        let mut measured = named([
+            ("energy_drift", energy),
+            ("angular_momentum_drift", momentum),
+        ]);
         if bench.expects("order") {
             // Collisions are many and their errors random: halving the step would tell little.
-            let finer = self.energy_drift(self.dt / 8.0, bench)?;
-            measured.insert("order".to_owned(), libm::log2(drift / finer) / 3.0);
+            let [finer, _] = self.drifts(self.dt / 8.0, bench)?;
+            measured.insert("order".to_owned(), libm::log2(energy / finer) / 3.0);
         }
         Ok(measured)
     }
 }
 
 impl Gas {
-    /// Root mean square deviation of the energy from its first value, over that value.
-    fn energy_drift(&self, dt: f64, bench: &mut Bench<'_>) -> Result<f64, VerifyError> {
+    /// Root mean square deviations from their first values: of the energy, over that value, and of
+    /// the angular momentum about the axis, which a round wall without friction leaves alone, over
+    /// the sum of the sizes of all spheres' own.
+    fn drifts(&self, dt: f64, bench: &mut Bench<'_>) -> Result<[f64; 2], VerifyError> {
         let scene = Scene {
             tank: Some(Tank {
                 radius: Some(self.tank_radius),
@@ -82,14 +87,22 @@ impl Gas {
             ..scene
         };
         let mut simulation = Simulation::new(&scene)?;
-        let first = self.energy(&mut simulation);
-        let mut sum = 0.0;
+        let momenta = angular_momenta(&simulation);
+        let first = [self.energy(&mut simulation), momenta.iter().sum()];
+        let scale = [first[0], momenta.iter().map(|it| it.abs()).sum()];
+        let mut sums = [0.0; 2];
         for _ in 0..LOOKS {
             bench.advance_for(&mut simulation, self.duration / f64::from(LOOKS), dt)?;
-            let deviation = self.energy(&mut simulation) / first - 1.0;
-            sum += deviation * deviation;
+            let momentum = angular_momenta(&simulation).iter().sum();
+            for (place, value) in [self.energy(&mut simulation), momentum]
+                .into_iter()
+                .enumerate()
+            {
+                let deviation = (value - first[place]) / scale[place];
+                sums[place] += deviation * deviation;
+            }
         }
-        Ok((sum / f64::from(LOOKS)).sqrt())
+        Ok(sums.map(|sum| (sum / f64::from(LOOKS)).sqrt()))
     }
 
     fn energy(&self, simulation: &mut Simulation) -> f64 {
@@ -103,4 +116,14 @@ impl Gas {
             .sum::<f64>()
             + elastic
     }
+}
+
+/// Angular momentum of each sphere about the axis of the tank (kg m2/s).
+fn angular_momenta(simulation: &Simulation) -> Vec<f64> {
+    let particles = simulation.particles();
+    let momentum = |i: usize| {
+        let (place, velocity) = (particles.position[i], particles.velocity[i]);
+        particles.mass[i] * (place.x * velocity.y - place.y * velocity.x)
+    };
+    (0..particles.len()).map(momentum).collect()
 }

@@ -166,28 +166,42 @@ fn how_wrong(evaluation: &Evaluation, outcome: &Outcome) -> String {
         Errors::States(_) if Some(&outcome.name) == reference(evaluation) => {
             "it is what others are compared with".to_owned()
         }
-        Errors::States(States {
-            disagreement: Some(it),
-            ..
-        }) => match it.excess.is_clear() {
-            true => format!(
-                "it changes {} ({} to {})",
-                percent(it.excess.value),
-                percent(it.excess.low),
-                percent(it.excess.high)
-            ),
-            false => format!(
-                "no difference is seen beyond that of seeds ({}), but one of up to {} could have \
-                 hidden",
-                percent(it.floor.value),
-                percent(it.excess.high)
-            ),
-        },
-        Errors::States(_) => "nothing is known of its labels".to_owned(),
+        Errors::States(states) => {
+            let labels = of_labels(states);
+            match (evaluation.tolerance.shift, states.most_shift()) {
+                (Some(_), Some((quantity, most))) => format!(
+                    "{labels}; order parameters shift by at most {most:.2} of their spread \
+                     ({})",
+                    quantity.replace('_', " ")
+                ),
+                _ => labels,
+            }
+        }
         Errors::Motion(_) | Errors::Case(_) => match outcome.error(evaluation.counted_time) {
             Some(0.0) => "it is what others are compared with".to_owned(),
             error => format!("its error is {}", short(error.unwrap_or(f64::NAN))),
         },
+    }
+}
+
+/// How wrong labels are.
+fn of_labels(states: &States) -> String {
+    let Some(it) = &states.disagreement else {
+        return "nothing is known of its labels".to_owned();
+    };
+    match it.excess.is_clear() {
+        true => format!(
+            "it changes {} ({} to {})",
+            percent(it.excess.value),
+            percent(it.excess.low),
+            percent(it.excess.high)
+        ),
+        false => format!(
+            "no difference is seen beyond that of seeds ({}), but one of up to {} could have \
+             hidden",
+            percent(it.floor.value),
+            percent(it.excess.high)
+        ),
     }
 }
 
@@ -259,7 +273,7 @@ fn short(value: f64) -> String {
 mod tests {
     use super::*;
     use crate::study::accuracy::{MotionError, Tolerance};
-    use crate::study::comparison::{Cost, Disagreement, Interval};
+    use crate::study::comparison::{Cost, Disagreement, Interval, Shift, ShiftOf};
     use std::collections::BTreeMap;
 
     fn outcome(name: &str, seconds: f64, errors: Errors) -> Outcome {
@@ -314,7 +328,15 @@ mod tests {
 
     /// The finding of these outcomes, the first of which is the scene as it is.
     fn finding(outcomes: Vec<Outcome>, reference: Option<usize>, time: Option<f64>) -> Finding {
-        Finding::of(&Evaluation {
+        Finding::of(&evaluation(outcomes, reference, time))
+    }
+
+    fn evaluation(
+        outcomes: Vec<Outcome>,
+        reference: Option<usize>,
+        time: Option<f64>,
+    ) -> Evaluation {
+        Evaluation {
             outcomes,
             reference,
             as_it_is: 0,
@@ -329,7 +351,7 @@ mod tests {
                 error: 1e-2,
             },
             finding: Finding::default(),
-        })
+        }
     }
 
     #[test]
@@ -359,6 +381,42 @@ mod tests {
             found.sentence.starts_with("Nothing can be compared"),
             "{found:?}"
         );
+    }
+
+    /// The sentence of a study that bounds shifts spoke of labels alone.
+    #[test]
+    fn of_order_parameters_the_sentence_says_how_far_they_may_shift() {
+        let mut as_it_is = labels("as it is", 4.0, 0.0, 0.01);
+        let Errors::States(states) = &mut as_it_is.errors else {
+            panic!("labels have states");
+        };
+        let interval = Interval {
+            value: 0.1,
+            low: -0.2,
+            high: 0.4,
+        };
+        states.shifts = vec![ShiftOf {
+            quantity: "packing_height".to_owned(),
+            shift: Some(Shift {
+                spread: 1e-3,
+                mean: interval,
+                root_mean_square: interval,
+            }),
+        }];
+        let sentence = |shift: Option<f64>| {
+            let mut evaluation = evaluation(vec![as_it_is.clone()], None, None);
+            evaluation.tolerance.shift = shift;
+            Finding::of(&evaluation).sentence
+        };
+        assert!(!sentence(None).contains("order parameters"));
+        assert_eq!(
+            sentence(Some(0.5)),
+            "The scene as it is is the cheapest setting that changes at most 5.0 % of the labels \
+             and shifts order parameters by at most 0.5 of their spread: no difference is seen \
+             beyond that of seeds (10.0 %), but one of up to 1.0 % could have hidden; order \
+             parameters shift by at most 0.40 of their spread (packing height)."
+        );
+        assert!(sentence(Some(0.3)).starts_with("There is no setting"));
     }
 
     #[test]

@@ -58,6 +58,17 @@ impl States {
         few && shift.is_none_or(near)
     }
 
+    /// How far an order parameter may be shifted at most, and which: the largest upper end of all
+    /// intervals.
+    pub fn most_shift(&self) -> Option<(&str, f64)> {
+        let shifts = self.shifts.iter();
+        let known = shifts.filter_map(|it| {
+            let most = it.shift.as_ref()?.root_mean_square.high;
+            Some((it.quantity.as_str(), most))
+        });
+        known.max_by(|(_, one), (_, other)| one.total_cmp(other))
+    }
+
     /// The order parameter that is shifted most, for which the lower end of the interval counts.
     pub fn largest_shift(&self) -> Option<(&str, &Shift)> {
         let shifts = self.shifts.iter();
