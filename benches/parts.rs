@@ -4,13 +4,14 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
+use phase::dem::Simulation;
 use phase::dem::neighbours::{Reach, VerletList};
-use phase::dem::{Simulation, start};
 use phase::forces::contact::{HertzLaw, NormalLaw};
 use phase::forces::friction::{CoulombLaw, Frictionless, MindlinLaw, Spring, TangentialLaw, Touch};
 use phase::observe::Observer;
 use phase::particles::vector::Vector;
 use phase::scene::{Neighbours, Scene, Start};
+use phase::start;
 use std::hint::black_box;
 use std::path::Path;
 

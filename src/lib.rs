@@ -103,6 +103,8 @@ pub mod resume;
 pub mod run;
 pub mod scene;
 pub mod simulation;
+pub mod spot;
+pub mod start;
 pub mod statistics;
 pub mod store;
 pub mod study;

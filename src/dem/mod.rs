@@ -20,7 +20,6 @@ mod process;
 mod profile;
 mod simplifications;
 mod simulation;
-pub mod start;
 mod state;
 mod system;
 mod threads;

@@ -6,7 +6,6 @@ use super::laws::engine;
 use super::neighbours::VerletList;
 use super::order;
 use super::process::{Feed, Process};
-use super::start::{self, StartError};
 use super::system::{Engine, Setup};
 use super::walls::TankWall;
 use crate::cpu_time;
@@ -15,6 +14,7 @@ use crate::particles::vector::Vector;
 use crate::particles::{Particles, Sphere};
 use crate::scene::{Driven, MOST_BESIDE_DRIVEN, Neighbours, Rolling, Scene, Start};
 use crate::simulation::{Counts, Instability, Milestone};
+use crate::start::{self, StartError};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 /// Why a scene cannot be run.

@@ -62,6 +62,9 @@ impl Scene {
 
     /// The same for a scene whose numbers are known to be within their ranges.
     pub(crate) fn with_chosen_step_in_range(mut self) -> Result<Self, Vec<Problem>> {
+        if self.spot.is_some() {
+            self.time.dt = self.time.frame_interval;
+        }
         if let Some(safety_factor) = self.time.safety_factor {
             let mut problems = Vec::new();
             self.check_all_but_step(&mut problems);

@@ -1,8 +1,8 @@
 //! Whether a random start finds room for the spheres.
 
-use crate::dem::start;
 use crate::document::Problem;
 use crate::scene::{Scene, Start, Tank, plural, rounded};
+use crate::start;
 
 /// Largest share of the space open to the spheres that a random start may fill. Random placement
 /// one by one without overlap cannot exceed 0.384 (Zhang and Torquato, Phys. Rev. E 88, 053312

@@ -42,6 +42,7 @@ pub fn fastest_impact(scene: &Scene) -> f64 {
             velocity: *velocity,
             ..StartSphere::at(*position)
         }]),
+        Start::Packing {} => (scene.packed_height(), 0.0, 0.0),
         Start::File { .. } => (0.0, 0.0, 0.0),
     };
     let tank = scene.tank.as_ref();
@@ -144,7 +145,7 @@ fn start_spin(scene: &Scene) -> f64 {
             let [x, y, z] = sphere.spin;
             most.max((x * x + y * y + z * z).sqrt())
         }),
-        Start::Feed { .. } | Start::File { .. } => 0.0,
+        Start::Packing {} | Start::Feed { .. } | Start::File { .. } => 0.0,
     }
 }
 
@@ -157,7 +158,7 @@ fn lowest_height(scene: &Scene) -> f64 {
             .iter()
             .fold(f64::MAX, |low, sphere| low.min(sphere.position[2])),
         (Start::Feed { position, .. }, None) => position[2],
-        (Start::File { .. }, None) => 0.0,
+        (Start::Packing {} | Start::File { .. }, None) => 0.0,
     }
 }
 

@@ -1,11 +1,11 @@
 //! How deep spheres overlap at the start.
 
 use crate::dem::neighbours::visit_pairs;
-use crate::dem::start;
 use crate::dem::walls::{TankWall, Wall};
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 use crate::scene::{Scene, Start, Tank};
+use crate::start;
 
 /// The deepest overlap (m) of two listed spheres, or of one with a wall. Zero if none touch. Other
 /// starts have no overlap.

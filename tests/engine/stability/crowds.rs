@@ -5,11 +5,12 @@ use super::bench::{
 };
 use super::contacts::of_steel;
 use crate::scenes::{cluster, damped};
-use phase::dem::{BuildError, Simulation, start::StartError};
+use phase::dem::{BuildError, Simulation};
 use phase::scene::{
     Contact, ContactDrag, Coulomb, Friction, Hertz, Integrator, Linear, Mindlin, Scene, Start,
     StartSphere, Tank,
 };
+use phase::start::StartError;
 
 pub(crate) const MINDLIN: Friction = Friction::Mindlin(Mindlin { coefficient: 0.5 });
 
