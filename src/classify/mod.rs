@@ -4,6 +4,7 @@
 //! in the list [`FAMILIES`]. A sieve is one file; its windows are durations; it reads records,
 //! never simulations.
 
+mod drainage;
 mod error;
 mod family;
 mod label;
@@ -17,6 +18,7 @@ mod tank;
 mod verdict;
 mod window;
 
+pub use drainage::{BlockedSieve, DRAINAGE, DrainedSieve, StagnantSieve};
 pub use error::ClassifyError;
 pub use family::{FAMILIES, Family};
 pub use label::Label;

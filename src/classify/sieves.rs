@@ -1,11 +1,18 @@
 //! Thresholds of all sieves.
 
+use super::drainage::{BlockedSieve, DrainedSieve, StagnantSieve};
 use super::silo::{ArchingSieve, EmptiedSieve, FlowingSieve};
 use super::tank::{FluidSieve, PinnedSieve, SettleSieve, SpoutSieve};
 use super::{ClassifyError, Family};
 use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+// Tables of studies and results folders say which sieves they were judged by. What a family has of
+// new ones does not concern the others.
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
 
 /// Thresholds of all sieves; every default of a tank's is that of the thesis's listing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -25,6 +32,15 @@ pub struct Sieves {
     pub arching: ArchingSieve,
     /// Silo: when grains are still leaving.
     pub flowing: FlowingSieve,
+    /// Drainage: when a box counts as empty.
+    #[serde(skip_serializing_if = "is_default")]
+    pub drained: DrainedSieve,
+    /// Drainage: when an opening counts as blocked.
+    #[serde(skip_serializing_if = "is_default")]
+    pub blocked: BlockedSieve,
+    /// Drainage: when corners count as stagnant.
+    #[serde(skip_serializing_if = "is_default")]
+    pub stagnant: StagnantSieve,
 }
 
 impl Sieves {

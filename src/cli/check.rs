@@ -159,6 +159,7 @@ fn effects(scene: &Scene) -> Vec<String> {
         (tank.is_some_and(|tank| tank.floor.is_some()), "floor"),
         (scene.dem.geometry.is_some(), "fixed spheres"),
         (matches!(scene.start, Start::Feed { .. }), "feed"),
+        (scene.spot.is_some(), "spots"),
         (scene.dem.door.is_some(), "door"),
         (scene.dem.outlet.is_some(), "outlet"),
     ];
@@ -170,6 +171,9 @@ fn effects(scene: &Scene) -> Vec<String> {
 
 fn describe_time(scene: &Scene) -> String {
     let (steps, frames) = (scene.time.steps_per_frame(), scene.time.frames());
+    if scene.spot.is_some() {
+        return format!("{} s in {frames} frames", scene.time.duration);
+    }
     format!(
         "{} s in {frames} frames of {steps} steps of {} s",
         scene.time.duration, scene.time.dt
@@ -220,7 +224,7 @@ fn print_forecast(
         format_args!(
             "from the first part of {}, {} per worker",
             format::count(forecast.tried, "job"),
-            format::rate(forecast.rate)
+            format::rate(forecast.rate, job::unit_of(jobs))
         ),
     ));
     let time = format::duration(forecast.seconds);

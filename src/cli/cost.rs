@@ -36,13 +36,14 @@ pub(crate) struct Arguments {
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let (sweep, kind) = kind::load_scene_or_sweep(&arguments.file)?;
     let jobs = sweep.jobs().map_err(Failure::refused)?;
+    let unit = job::unit_of(&jobs);
     let seconds = format::duration(arguments.seconds.as_secs_f64());
     console.note(format_args!("measuring for up to about {seconds} ..."));
     let cost = SweepCost::measure(&jobs, arguments.seconds).map_err(Failure::failed)?;
     for tried in &cost.tried {
-        console.result(describe_tried(tried, &sweep.axes, jobs.len()));
+        console.result(describe_tried(tried, &sweep.axes, jobs.len(), unit));
     }
-    print_parts(&cost, console);
+    print_parts(&cost, unit, console);
     let about = match cost.tried.iter().all(|tried| tried.cost.whole) && jobs.len() == 1 {
         true => "the run took",
         false if jobs.iter().any(|job| job.scene.has_flow()) => "all of it takes at most about",
@@ -51,7 +52,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     console.result(format_args!(
         "{about} {} of processor time for {}",
         format::duration(cost.total()),
-        format::sphere_steps(cost.work() as f64)
+        format::work(cost.work() as f64, unit)
     ));
     console.answer(&Answer::new(
         arguments,
@@ -64,7 +65,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 }
 
 /// What of a job was run, and what it stands for.
-fn describe_tried(tried: &Tried<'_>, axes: &[Axis], jobs: usize) -> String {
+fn describe_tried(tried: &Tried<'_>, axes: &[Axis], jobs: usize, unit: &str) -> String {
     let cost = &tried.cost;
     let extent = match (&cost.record.outcome, cost.whole) {
         (Outcome::Unstable(instability), _) => {
@@ -76,23 +77,26 @@ fn describe_tried(tried: &Tried<'_>, axes: &[Axis], jobs: usize) -> String {
     let what = format!(
         "{}, {} in {extent}",
         format::count(cost.frames as usize, "frame"),
-        format::sphere_steps(cost.work as f64)
+        format::work(cost.work as f64, unit)
     );
     if jobs == 1 {
         return what;
     }
     format!(
-        "{}: {what}; {:.1} ns per sphere and step, stands for {}",
+        "{}: {what}; {:.1} ns per {}, stands for {}",
         describe(axes, &tried.job.values, tried.job.seed),
         1e9 * cost.total() / cost.work.max(1) as f64,
+        unit.trim_end_matches('s'),
         format::count(tried.jobs, "job")
     )
 }
 
-fn print_parts(cost: &SweepCost<'_>, console: &Console) {
+fn print_parts(cost: &SweepCost<'_>, unit: &str, console: &Console) {
     console.result(format_args!(
         "  {:<20} {:>18} {:>9}",
-        "part", "ns per sphere-step", "share"
+        "part",
+        format!("ns per {}", unit.trim_end_matches('s')),
+        "share"
     ));
     for row in rows(cost) {
         match row.present {

@@ -40,14 +40,14 @@ pub(crate) fn bytes(value: f64) -> String {
     with_prefix(value, "B")
 }
 
-/// An amount of work: `1.05 G sphere-steps`.
-pub(crate) fn sphere_steps(value: f64) -> String {
-    with_prefix(value, " sphere-steps")
+/// An amount of work in the unit of a model: `1.05 G sphere-steps`.
+pub(crate) fn work(value: f64, unit: &str) -> String {
+    with_prefix(value, &format!(" {unit}"))
 }
 
 /// A rate of work: `1.05 M sphere-steps/s`.
-pub(crate) fn rate(value: f64) -> String {
-    with_prefix(value, " sphere-steps/s")
+pub(crate) fn rate(value: f64, unit: &str) -> String {
+    with_prefix(value, &format!(" {unit}/s"))
 }
 
 /// A number to three digits, with a decimal prefix before the unit.
@@ -113,7 +113,7 @@ mod tests {
         ] {
             assert_eq!(bytes(value), text);
         }
-        assert_eq!(sphere_steps(960_000.0), "960 k sphere-steps");
-        assert_eq!(rate(7.0), "7 sphere-steps/s");
+        assert_eq!(work(960_000.0, "sphere-steps"), "960 k sphere-steps");
+        assert_eq!(rate(7.0, "spot-moves"), "7 spot-moves/s");
     }
 }

@@ -2,6 +2,7 @@
 
 use super::progress::Progress;
 use phase::record::RunRecord;
+use phase::run;
 use phase::sweep::{Axis, Event, Failure, Job};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -27,6 +28,12 @@ impl NamedJob {
         };
         jobs.iter().map(named).collect()
     }
+}
+
+/// The unit in which the work of jobs is counted.
+pub(super) fn unit_of(jobs: &[Job]) -> &'static str {
+    let first = jobs.first();
+    first.map_or("", |job| run::model_of(&job.scene).work_unit())
 }
 
 /// Values by the names of their axes.

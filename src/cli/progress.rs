@@ -16,23 +16,25 @@ pub(crate) struct Progress<'a> {
     started: Instant,
 }
 
-/// Work is counted in sphere-steps.
+/// Work is counted in the unit of the model.
 pub(crate) struct Work {
     /// Jobs in all.
     pub(crate) jobs: usize,
     /// Jobs done before.
     pub(crate) jobs_done: usize,
-    /// Sphere-steps in all.
+    /// Work in all.
     pub(crate) steps: u64,
-    /// Sphere-steps done before.
+    /// Work done before.
     pub(crate) steps_done: u64,
+    /// Its unit.
+    pub(crate) unit: &'static str,
 }
 
 struct State {
     work: Work,
-    /// Sphere-steps done before.
+    /// Work done before.
     done_before: u64,
-    /// Sphere-steps that were run now.
+    /// Work that was done now.
     run: u64,
     /// What is going on, if that is known.
     phase: String,
@@ -63,7 +65,7 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// Sphere-steps were run.
+    /// Work was done.
     pub(crate) fn advance(&self, steps: u64) {
         self.advance_to(steps, steps, String::new());
     }
@@ -85,7 +87,7 @@ impl<'a> Progress<'a> {
         self.show(state);
     }
 
-    /// A job is over; this many of its sphere-steps need not be run any more.
+    /// A job is over; this much of its work need not be done any more.
     pub(crate) fn job_done(&self, skipped: u64) {
         let mut state = self.state();
         state.work.jobs_done += 1;
@@ -141,6 +143,7 @@ impl State {
             jobs_done,
             steps,
             steps_done,
+            unit,
         } = self.work;
         let rate = self.run as f64 / elapsed.max(1e-3);
         let done = steps_done.saturating_sub(self.done_before) as f64;
@@ -158,7 +161,7 @@ impl State {
         format!(
             "{what}, {:.0} %, {}{left}",
             percent.min(100.0),
-            format::rate(rate)
+            format::rate(rate, unit)
         )
     }
 }

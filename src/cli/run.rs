@@ -13,7 +13,7 @@ use phase::dem::timestep::Standing;
 use phase::document::Problem;
 use phase::record::{Milestone, MilestoneKind, Outcome, RunRecord};
 use phase::resume::{Checkpoints, DEFAULT_INTERVAL};
-use phase::run::frame_of_state;
+use phase::run::{frame_of_state, model_of};
 use phase::scene::{Scene, Start};
 use phase::store::{self, Lock};
 use serde::Serialize;
@@ -365,7 +365,10 @@ fn summary(record: &RunRecord, seconds: f64) -> String {
         "\n  {:<14} {} ({})",
         "took",
         format::duration(seconds),
-        format::rate(steps / record.cpu_seconds.max(1e-9))
+        format::rate(
+            steps / record.cpu_seconds.max(1e-9),
+            model_of(&record.scene).work_unit()
+        )
     );
     text += &format!("\n  {:<14} {}", "frames", observations.frames());
     for milestone in &record.milestones {

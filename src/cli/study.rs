@@ -118,6 +118,7 @@ pub(super) fn with_progress<T>(
             jobs_done,
             steps: jobs.iter().map(Job::work).sum(),
             steps_done,
+            unit: job::unit_of(jobs),
         },
     );
     let watch = |event: Event<'_>| job::tell(event, &progress, name, ended);

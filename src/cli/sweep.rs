@@ -7,6 +7,7 @@ use super::progress::{Progress, Work};
 use super::{builds, classify, format, interrupt, job, plot, time_step};
 use phase::record::{Outcome, RunRecord};
 use phase::resume::DEFAULT_INTERVAL;
+use phase::run::model_of;
 use phase::sweep::{
     Event, Failure as JobFailure, Folder, FolderError, Job, Plan, Pool, PoolError, Report,
     Standing, Sweep, describe, differing_keys, refuse_to_lose_labels, work,
@@ -287,6 +288,7 @@ fn run(plan: &Plan, pool: Pool<'_>, console: &Console) -> Result<Run, Failure> {
             jobs_done: plan.done().count(),
             steps: plan.jobs.iter().map(|(job, _)| steps(job)).sum(),
             steps_done: plan.done().map(|(job, _)| steps(job)).sum(),
+            unit: model_of(&sweep.scene).work_unit(),
         },
     );
     let name = |job: &Job| describe(&sweep.axes, &job.values, job.seed);
@@ -359,11 +361,12 @@ impl Run {
             }
         }
         if *finished > 0 {
+            let unit = model_of(&sweep.scene).work_unit();
             text += &format!(
                 "\n{} in {} of CPU time: {} per CPU second",
-                format::sphere_steps(*work as f64),
+                format::work(*work as f64, unit),
                 format::duration(*cpu_seconds),
-                format::sphere_steps(*work as f64 / cpu_seconds.max(1e-9)),
+                format::work(*work as f64 / cpu_seconds.max(1e-9), unit),
             );
         }
         console.result(text);

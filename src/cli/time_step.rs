@@ -40,6 +40,9 @@ pub(super) fn tightest_limits(jobs: &[Job]) -> Vec<Tightest<'_>> {
 /// Prints the step of a scene over the limit above which it is refused, and whether it is coarse.
 /// `check` explains the consequences of a coarse step.
 pub(super) fn tell_of_scene(scene: &Scene, console: &Console) {
+    if scene.spot.is_some() {
+        return;
+    }
     let standings = Standing::all(scene);
     let decisive = standings.first().filter(|it| it.limit.decisive);
     console.note(describe_step(scene, decisive, ""));
@@ -55,6 +58,7 @@ pub(super) fn tell_of_jobs(jobs: &[Job], axes: &[Axis], console: &Console) {
             let scene = &nearest.job.scene;
             console.note(describe_step(scene, Some(&nearest.standing), &at));
         }
+        None if jobs.iter().all(|job| job.scene.spot.is_some()) => {}
         None => console
             .note("time step: nothing in these scenes sets a limit beyond which it is refused"),
     }

@@ -25,6 +25,8 @@ pub struct Observer {
     has_axis: bool,
     has_air: bool,
     has_contacts: bool,
+    /// Whether velocities mean motion: those of spots are but mean displacements.
+    has_energies: bool,
     bins: usize,
     bin_width: f64,
     /// Rises per frame relative to the mean that count, in radii of the sphere.
@@ -84,6 +86,7 @@ impl Observer {
                 && (tank_radius.is_some() || scene.dem.effects.swirl.is_some()),
             has_air: scene.dem.effects.swirl.is_some(),
             has_contacts: scene.dem.contact.is_some(),
+            has_energies: scene.spot.is_none(),
             air_rotation: scene
                 .dem
                 .effects
@@ -172,6 +175,9 @@ impl Observer {
         let kinetic = totals.kinetic.total() * self.inertial_factor;
         let rotational = totals.rotational.total();
         let gravitational = totals.gravitational.total();
+        if !self.has_energies {
+            return;
+        }
         let observations = &mut self.observations;
         observations.kinetic.push(kinetic as f32);
         observations.rotational.push(rotational as f32);
@@ -215,8 +221,10 @@ impl Observer {
         let time = observations.time[now] - observations.time[before];
         let rate = if time > 0.0 { left / time as f32 } else { 0.0 };
         observations.discharge_rate.push(rate);
-        let coordination = flow.contacts as f64 / totals.count as f64;
-        observations.coordination.push(coordination as f32);
+        if self.has_contacts {
+            let coordination = flow.contacts as f64 / totals.count as f64;
+            observations.coordination.push(coordination as f32);
+        }
         observations.mass_inside.push(totals.mass.total() as f32);
     }
 

@@ -30,6 +30,7 @@ mod page;
 mod palette;
 mod phase;
 mod png;
+mod radial_distribution;
 mod scale;
 mod series;
 mod single;
@@ -38,6 +39,7 @@ pub mod stability;
 mod states;
 pub mod step_time;
 mod style;
+mod surface_angle;
 mod svg;
 mod text;
 mod tracks;
@@ -106,6 +108,8 @@ fn all() -> Vec<&'static dyn Figure> {
         &net_force::NetForce,
         &beverloo::Beverloo,
         &measures::MeasuresFigure,
+        &surface_angle::SurfaceAngle,
+        &radial_distribution::RadialDistributionFigure,
     ];
     figures.extend(map::MAPS.iter().map(|map| map as &dyn Figure));
     figures

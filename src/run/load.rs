@@ -2,7 +2,7 @@
 
 use crate::dem::SAFETY_FACTOR;
 use crate::document::{Document, LoadError, Problem};
-use crate::scene::{AUTO, Accuracy, FileKind, SCENE, Scene};
+use crate::scene::{AUTO, FileKind, SCENE, Scene, settings};
 use serde_json::Value;
 use std::path::Path;
 
@@ -78,7 +78,7 @@ pub(crate) fn base_of_tree(
     reading: Reading,
 ) -> Result<Scene, Vec<Problem>> {
     let mut tree = tree.clone();
-    let mut problems = Accuracy::choose_settings(&mut tree);
+    let mut problems = settings::complete(&mut tree);
     SCENE.kind.check(&tree, "", &mut problems);
     if !problems.is_empty() {
         return Err(problems);

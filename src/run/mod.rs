@@ -2,6 +2,7 @@
 
 mod load;
 mod models;
+mod packed;
 mod state;
 
 pub(crate) use load::{Reading, base_of_document, base_of_tree, load_base_with};
@@ -26,6 +27,8 @@ pub struct Progress {
     pub frames: u64,
     /// Where spheres come and go: how many did.
     pub counts: Option<Counts>,
+    /// Work done, in the unit of the model.
+    pub work: u64,
 }
 
 impl Progress {
@@ -208,6 +211,7 @@ impl Run {
             frame: self.frame,
             frames: self.frames,
             counts: self.simulation.counts(),
+            work: self.simulation.work(),
         }
     }
 

@@ -1,10 +1,18 @@
 //! The one place that knows which models there are.
 
+use super::packed::Packed;
 use crate::dem::Dem;
-use crate::scene::Scene;
+use crate::scene::{Scene, Start};
 use crate::simulation::Model;
+use crate::spot::SpotModel;
 
 /// The model of a scene.
-pub fn model_of(_scene: &Scene) -> &'static dyn Model {
-    &Dem
+pub fn model_of(scene: &Scene) -> &'static dyn Model {
+    let is_packed = matches!(scene.start, Start::Packing {});
+    match (scene.spot.is_some(), is_packed) {
+        (true, true) => &Packed(&SpotModel),
+        (true, false) => &SpotModel,
+        (false, true) => &Packed(&Dem),
+        (false, false) => &Dem,
+    }
 }

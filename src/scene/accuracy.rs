@@ -63,20 +63,9 @@ impl Accuracy {
         }
     }
 
-    /// Chooses the settings of a scene in the table `scene` of a file, if it has one.
-    pub(crate) fn choose_settings_of_file(tree: &mut Value) -> Vec<Problem> {
-        match tree.get_mut("scene") {
-            Some(scene) if scene.is_object() => {
-                let problems = Self::choose_settings(scene).into_iter();
-                problems.map(|problem| problem.within("scene")).collect()
-            }
-            _ => Vec::new(),
-        }
-    }
-
     /// Replaces the key `accuracy` of the tree of a scene by the settings that it stands for. What
     /// the scene says itself stays.
-    pub(crate) fn choose_settings(tree: &mut Value) -> Vec<Problem> {
+    pub(super) fn choose_settings(tree: &mut Value) -> Vec<Problem> {
         let Ok(Some(accuracy)) = Option::<Self>::deserialize(&tree["accuracy"]) else {
             // Absent, or no such word, which the check of the keys says.
             return Vec::new();

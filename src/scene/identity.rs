@@ -2,7 +2,7 @@
 
 use super::{Contact, Door, Friction, Geometry, Outlet, Rest, Rolling};
 use super::{
-    DemScene, Driven, Effects, Guards, Neighbours, Output, Scene, Spheres, Start, Tank, Time,
+    DemScene, Driven, Effects, Guards, Neighbours, Output, Scene, Spheres, Spot, Start, Tank, Time,
 };
 use serde::Serialize;
 
@@ -31,6 +31,8 @@ struct Motion<'a> {
     start: &'a Start,
     #[serde(skip_serializing_if = "is_empty")]
     driven: &'a [Driven],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    spot: &'a Option<Spot>,
     #[serde(flatten)]
     effects: &'a Effects,
     time: &'a Time,
@@ -64,6 +66,7 @@ impl Scene {
             tank,
             start,
             dem,
+            spot,
             accuracy: _,
             time,
             output: _,
@@ -94,6 +97,7 @@ impl Scene {
             outlet,
             start,
             driven,
+            spot,
             effects,
             time,
             guards,

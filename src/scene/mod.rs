@@ -15,8 +15,10 @@ mod identity;
 mod keys;
 mod output;
 mod radius;
+pub(crate) mod settings;
 mod simplified;
 mod spheres;
+mod spot;
 mod start;
 mod tank;
 mod time;
@@ -39,6 +41,7 @@ pub(crate) use keys::leaf;
 pub use output::Output;
 pub use radius::{Radii, RadiusShare};
 pub use spheres::{Shape, Spheres};
+pub use spot::{RelaxationMethod, Spot, SpotRelaxation, SpotSchedule, SpotWalk, SpotWeighting};
 pub(crate) use start::LIST_KEY;
 use start::START_SPHERE;
 pub use start::{Start, StartSphere};
@@ -79,6 +82,9 @@ pub struct Scene {
     /// What the discrete element model needs besides.
     #[serde(flatten)]
     pub dem: DemScene,
+    /// The spot model in place of the discrete element model. Absent: the latter.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spot: Option<Spot>,
     /// How accurate the numerics are to be: chooses `integrator`, `dt = "auto"` with its
     /// `safety_factor`, and `frame_interval` of `time`, if the file does not say them. A scene that
     /// runs has the chosen settings instead of this key.
@@ -131,6 +137,7 @@ impl Scene {
             tank: None,
             start,
             dem: DemScene::default(),
+            spot: None,
             accuracy: None,
             time,
             output: Output::default(),

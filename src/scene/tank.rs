@@ -27,6 +27,16 @@ pub struct Tank {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = place("z_{floor}", "height of the floor"))]
     pub floor: Option<f64>,
+    /// Radius of a round orifice in the floor, about the axis (m), through which spheres leave.
+    /// Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = length("R_o", "radius of the orifice"))]
+    pub orifice_radius: Option<f64>,
+    /// Width of a slit in the floor along x (m), about the axis and across the whole depth, through
+    /// which spheres leave; excludes `orifice_radius`. Absent: none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = length("W_o", "width of the slit"))]
+    pub slit_width: Option<f64>,
 }
 
 impl Tank {
@@ -34,6 +44,13 @@ impl Tank {
     /// and depth. None where there is no wall.
     pub fn reach(&self) -> [Option<f64>; 2] {
         [self.width, self.depth].map(|side| self.radius.or(side.map(|side| 0.5 * side)))
+    }
+
+    /// Half of the width of the opening in its floor along x (m), and its key, if there is one.
+    pub fn opening(&self) -> Option<(&'static str, f64)> {
+        let round = self.orifice_radius.map(|it| ("tank.orifice_radius", it));
+        let slit = self.slit_width.map(|it| ("tank.slit_width", 0.5 * it));
+        round.or(slit)
     }
 
     /// Whether its walls are plane, those that there are.

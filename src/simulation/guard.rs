@@ -29,16 +29,22 @@ pub enum Guard {
     Displacement,
     /// A disc passed between two fixed ones where there is no way through.
     WallPassed,
+    /// More spheres are near one sphere than can be.
+    Crowded,
+    /// A spot found no sphere, though there are spheres above it.
+    EmptySpot,
 }
 
 impl Guard {
     /// All guards.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 7] = [
         Self::NotANumber,
         Self::OutOfBounds,
         Self::Overlap,
         Self::Displacement,
         Self::WallPassed,
+        Self::Crowded,
+        Self::EmptySpot,
     ];
 
     /// Name, as in records and tables.
@@ -49,6 +55,8 @@ impl Guard {
             Self::Overlap => "overlap",
             Self::Displacement => "displacement",
             Self::WallPassed => "wall-passed",
+            Self::Crowded => "crowded",
+            Self::EmptySpot => "empty-spot",
         }
     }
 }

@@ -6,7 +6,7 @@ use super::{Axis, PlotSettings, Sweep};
 use crate::classify::{ClassifyError, Family, Sieves};
 use crate::document::{Document, LoadError, Problem, Schema, one_of, suggest};
 use crate::run::{self, Reading};
-use crate::scene::{Accuracy, FileKind, LARGEST_SEED, Scene};
+use crate::scene::{FileKind, LARGEST_SEED, Scene, settings};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -84,7 +84,7 @@ pub fn from_str(text: &str, path: &Path) -> Result<Sweep, LoadError> {
 pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     FileKind::Sweep.expect(document)?;
     let mut tree = document.tree().clone();
-    let mut problems = Accuracy::choose_settings_of_file(&mut tree);
+    let mut problems = settings::complete_scene_of(&mut tree);
     SWEEP.kind.check(&tree, "", &mut problems);
     document.accept(&problems)?;
     let file = SweepFile::deserialize(&tree)

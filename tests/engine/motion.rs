@@ -30,8 +30,16 @@ fn digest(path: &str) -> String {
     let frames = (steps / scene.time.steps_per_frame() as f64)
         .clamp(1.0, 200.0)
         .floor();
-    // Grains come in one by one.
-    let frames = if scene.has_flow() { 400.0 } else { frames };
+    let frames = match &scene.spot {
+        // The packing alone of all spheres would take minutes.
+        Some(_) => {
+            scene.spheres.count = scene.spheres.count.min(600);
+            2.0
+        }
+        // Grains come in one by one.
+        None if scene.has_flow() => 400.0,
+        None => frames,
+    };
     if frames < scene.time.frames() as f64 {
         scene.time.duration = frames * scene.time.frame_interval;
     }

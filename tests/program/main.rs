@@ -27,6 +27,7 @@ mod scene_files;
 mod scenes;
 mod silo_figures;
 mod silo_sweep;
+mod spot;
 mod stability_study;
 #[path = "../support/mod.rs"]
 mod support;

@@ -112,6 +112,7 @@ fn shipped_sweeps_have_the_grids_they_promise() {
         ("silo", 10 * 6 * 3),
         ("silo-quick", 3 * 2),
         ("beverloo", 8 * 2 * 4),
+        ("spot", 7 * 6 * 3),
         ("silo-fillings", 2 * 12),
     ];
     for (name, jobs) in others {
@@ -151,7 +152,7 @@ fn every_job_of_the_sweeps_off_the_main_road_is_stable() {
 fn the_two_fillings_are_dealt_exactly() {
     let sweep = load_sweep("sweeps/silo-fillings.toml");
     for job in sweep.jobs().unwrap() {
-        let grains = phase::dem::start::place(&job.scene).unwrap();
+        let grains = phase::start::place(&job.scene).unwrap();
         let small = grains.radius.iter().filter(|radius| **radius == 0.03);
         assert_eq!(small.count(), if job.values[0] == 0.0 { 0 } else { 500 });
         assert_eq!(grains.radius.len(), 1000);
@@ -388,7 +389,7 @@ fn a_random_start_that_is_accepted_can_be_placed() {
         for filled in [0.08, 0.14, 0.20, 0.29, 0.31] {
             let count = (filled * space / volume) as usize;
             match tank(count, radius, 0.06, height) {
-                Ok(scene) => assert!(phase::dem::start::place(&scene).is_ok()),
+                Ok(scene) => assert!(phase::start::place(&scene).is_ok()),
                 Err(error) => {
                     let message = error.to_string();
                     assert!(message.contains("spheres do not fit"), "{message}");

@@ -42,6 +42,8 @@ impl Workplace {
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_phase"));
         command.current_dir(self.folder.path()).args(arguments);
+        // Packings that the program makes are kept here.
+        command.env("XDG_CACHE_HOME", self.path("cache"));
         command
     }
 
@@ -167,6 +169,26 @@ impl TinySweep {
 /// A scene file.
 pub(crate) fn scene_file() -> String {
     scene("", 2.0, 0.01)
+}
+
+/// A small box that spots drain: a scene file that ends with its table `[spot]`.
+pub(crate) fn drainage_file() -> String {
+    r#"
+spheres = { count = 400, radius = 0.5, density = 1.9 }
+start = { kind = "packing" }
+tank = { width = 9.0, depth = 6.0, floor = 0.0, orifice_radius = 2.0 }
+time = { duration = 4.0, frame_interval = 0.5 }
+output = { snapshot_interval = 1.0 }
+
+[spot]
+radius = 2.6
+displacement_ratio = 399.0
+diffusion_length = 2.28
+vertical_step = 0.1
+insertion_rate = 375.0
+move_rate = 28.0
+"#
+    .to_owned()
 }
 
 /// A silo that twelve grains of two sizes fill, come to rest in and leave, in 3.6 s.

@@ -6,14 +6,16 @@ use super::folders;
 use phase::store;
 use std::path::{Path, PathBuf};
 
-/// Write a scene, sweep or silo file to start from, with a comment on every key.
+/// Write a scene, sweep, silo or spot file to start from, with a comment on every key.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: a tank, and a sweep over it
   phase new scene tank
   phase new sweep diagram --scene tank.toml
 Example: a grain silo
-  phase new silo my-silo")]
+  phase new silo my-silo
+Example: a silo drained by the spot model
+  phase new spot my-drainage")]
 pub(crate) struct Arguments {
     /// The kind of file.
     kind: Kind,
@@ -36,10 +38,13 @@ enum Kind {
     Sweep,
     /// One simulation of a grain silo: filled, at rest, drained.
     Silo,
+    /// One simulation of a silo by the spot model.
+    Spot,
 }
 
 const SCENE: &str = include_str!("scene.toml");
 const SILO: &str = include_str!("silo.toml");
+const SPOT: &str = include_str!("spot.toml");
 const SWEEP: &str = include_str!("sweep.toml");
 
 /// The line of the starter sweep that names its scene.
@@ -53,7 +58,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let text = match (arguments.kind, &arguments.scene) {
         (Kind::Scene, None) => SCENE.to_owned(),
         (Kind::Silo, None) => SILO.to_owned(),
-        (Kind::Scene | Kind::Silo, Some(_)) => {
+        (Kind::Spot, None) => SPOT.to_owned(),
+        (Kind::Scene | Kind::Silo | Kind::Spot, Some(_)) => {
             return Err(Failure::refused(
                 "a scene starts from no other; `--scene` goes with `phase new sweep`",
             ));
@@ -71,7 +77,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     store::write_atomic(&path, text.as_bytes()).map_err(Failure::failed)?;
     console.file(&path);
     let kind = match arguments.kind {
-        Kind::Scene | Kind::Silo => "scene",
+        Kind::Scene | Kind::Silo | Kind::Spot => "scene",
         Kind::Sweep => "sweep",
     };
     console.note(format_args!(

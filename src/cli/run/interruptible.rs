@@ -36,7 +36,8 @@ pub(super) fn run(
     run.use_threads(threads).map_err(Failure::failed)?;
     let resumed = begin(&mut run, checkpoints, resume, console)?;
     let resumed_from = resumed.then(|| run.time());
-    let work = run::model_of(scene).work_of(scene);
+    let model = run::model_of(scene);
+    let work = model.work_of(scene);
     let done = |now: &run::Progress| (now.share() * work as f64) as u64;
     let mut told = done(&run.progress());
     let progress = Progress::new(
@@ -46,18 +47,16 @@ pub(super) fn run(
             jobs_done: 0,
             steps: work,
             steps_done: told,
+            unit: model.work_unit(),
         },
     );
-    let steps_per_frame = scene.time.steps_per_frame();
+    let mut worked = run.work();
     let mut frame = 0;
     let mut control = |now: run::Progress| {
-        let inside = now.counts.map_or(scene.spheres.count, |counts| {
-            counts.released - counts.gone()
-        });
         let done = done(&now);
         let phase = now.counts.as_ref().map(phase_of).unwrap_or_default();
-        progress.advance_to(steps_per_frame * inside as u64, done - told, phase);
-        told = done;
+        progress.advance_to(now.work - worked, done - told, phase);
+        (told, worked) = (done, now.work);
         frame = now.frame;
         if stop.load(Ordering::Relaxed) {
             ControlFlow::Break(())

@@ -4,6 +4,7 @@ mod driven;
 mod neighbours;
 mod output;
 mod silo;
+mod spot;
 mod start;
 mod tank;
 mod time;
@@ -47,6 +48,7 @@ impl Scene {
         self.check_times(problems);
         self.check_silo(problems);
         self.check_driven(problems);
+        self.check_spot(problems);
         self.check_neighbours(problems);
         self.check_output(problems);
     }

@@ -2,7 +2,7 @@
 
 use super::rounded;
 use crate::document::{Problem, number};
-use crate::scene::{Friction, Geometry, Hopper, MOST_HOPPER_SPHERES, Scene, Shape, Start};
+use crate::scene::{Friction, Geometry, Hopper, MOST_HOPPER_SPHERES, Scene, Shape, Start, Tank};
 
 /// Shortest `rest.hold` (s): the spheres are looked at twice in this time.
 const LEAST_HOLD: f64 = 0.02;
@@ -25,6 +25,7 @@ impl Scene {
             || self.dem.door.is_some()
             || self.dem.rest.is_some()
             || self.dem.outlet.is_some()
+            || self.tank.as_ref().and_then(Tank::opening).is_some()
     }
 
     /// Refuses what would push discs out of their plane.
@@ -94,7 +95,7 @@ impl Scene {
                     refuse(format!("start.spheres[{index}]"), what, &place);
                 }
             }
-            Start::Random { .. } | Start::File { .. } => {}
+            Start::Random { .. } | Start::Packing {} | Start::File { .. } => {}
         }
         if let Some(Geometry::List { walls, door }) = &self.dem.geometry
             && let Some(index) = walls.iter().chain(door).position(|it| off(&it.position))
@@ -179,7 +180,7 @@ impl Scene {
             Start::Feed { position, .. } => Some(position[2]),
             Start::List { spheres } => spheres.iter().map(|it| it.position[2]).reduce(f64::min),
             Start::Random { z_min, .. } => Some(*z_min),
-            Start::File { .. } => None,
+            Start::Packing {} | Start::File { .. } => None,
         };
         if start.is_some_and(|start| start <= outlet.height) {
             refuse("where spheres start");

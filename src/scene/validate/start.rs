@@ -2,13 +2,14 @@
 
 use super::{plural, rounded};
 use crate::document::{Problem, number};
-use crate::scene::{Scene, Start, Tank};
+use crate::scene::{Scene, Shape, Start, Tank};
 
 impl Scene {
     pub(super) fn check_start(&self, problems: &mut Vec<Problem>) {
         match &self.start {
             Start::Random { z_min, z_max, .. } => self.check_random_start(*z_min, *z_max, problems),
             Start::List { .. } => self.check_listed_start(problems),
+            Start::Packing {} => self.check_packed_start(problems),
             Start::Feed { .. } | Start::File { .. } => {}
         }
     }
@@ -45,6 +46,30 @@ impl Scene {
             );
             let help = format!("use at least `z_min = {}`", rounded(floor + largest));
             problems.push(Problem::new("start.z_min", message).help(help));
+        }
+    }
+
+    fn check_packed_start(&self, problems: &mut Vec<Problem>) {
+        let tank = self.tank.clone().unwrap_or_default();
+        let sides = [
+            ("width", tank.width),
+            ("depth", tank.depth),
+            ("floor", tank.floor),
+        ];
+        for (key, _) in sides.iter().filter(|(_, side)| side.is_none()) {
+            let message = format!("a packing lies in a box, but there is no `tank.{key}`");
+            let help = format!("add `{key}` to [tank]");
+            problems.push(Problem::new("start.kind", message).help(help));
+        }
+        let (smallest, largest) = self.radius_range();
+        if smallest < largest {
+            let message = "the program makes packings of spheres of one size";
+            let help = "give `spheres.radius` as one number, or the places in a file";
+            problems.push(Problem::new("spheres.radius", message).help(help));
+        }
+        if self.spheres.shape != Shape::Sphere {
+            let message = "the program makes packings of spheres, not of discs";
+            problems.push(Problem::new("spheres.shape", message).help("remove it"));
         }
     }
 

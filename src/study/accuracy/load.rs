@@ -5,7 +5,7 @@ use super::file::{ACCURACY, AccuracyFile, Changes};
 use super::{AccuracyStudy, Subject, cases};
 use crate::document::{Document, LoadError, Problem, number};
 use crate::run;
-use crate::scene::{Accuracy, Change, FileKind, Scene, Start, StartSphere};
+use crate::scene::{Change, FileKind, Scene, Start, StartSphere, settings};
 use crate::simulation::{BuildError, Snapshot};
 use crate::study::StudyName;
 use crate::study::comparison::{AS_IT_IS, Base, Comparison, Measurement, Setting};
@@ -35,7 +35,7 @@ pub(crate) fn of_document(document: &Document) -> Result<AccuracyStudy, LoadErro
     FileKind::Study.expect(document)?;
     StudyName::Accuracy.expect(document)?;
     let mut tree = document.tree().clone();
-    let mut problems = Accuracy::choose_settings_of_file(&mut tree);
+    let mut problems = settings::complete_scene_of(&mut tree);
     ACCURACY.kind.check(&tree, "", &mut problems);
     document.accept(&problems)?;
     let file = AccuracyFile::deserialize(&tree)

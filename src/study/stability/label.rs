@@ -40,9 +40,7 @@ impl Label {
     pub fn of(guard: Option<Guard>, gain: f64, threshold: f64) -> Self {
         match guard {
             Some(Guard::NotANumber) => Self::NotANumber,
-            Some(Guard::OutOfBounds | Guard::Overlap | Guard::Displacement | Guard::WallPassed) => {
-                Self::LostSphere
-            }
+            Some(_) => Self::LostSphere,
             None if !gain.is_finite() => Self::NotANumber,
             None if gain <= threshold => Self::Stable,
             None => Self::EnergyGain,

@@ -3,7 +3,7 @@
 use super::{Study, fit_frames, output};
 use crate::document::{Document, LoadError, Problem, Schema, unit};
 use crate::run::Reading;
-use crate::scene::{Accuracy, FileKind, Integrator, Scene};
+use crate::scene::{FileKind, Integrator, Scene, settings};
 use crate::study::StudyName;
 use crate::sweep::{
     Axis, AxisEntry, base_scene, check_axes, check_jobs, check_points, check_steps, expand_axes,
@@ -118,7 +118,7 @@ pub(crate) fn of_document(document: &Document) -> Result<Study, LoadError> {
     FileKind::Study.expect(document)?;
     StudyName::Stability.expect(document)?;
     let mut tree = document.tree().clone();
-    let mut problems = Accuracy::choose_settings_of_file(&mut tree);
+    let mut problems = settings::complete_scene_of(&mut tree);
     STUDY.kind.check(&tree, "", &mut problems);
     document.accept(&problems)?;
     let file = StudyFile::deserialize(&tree)

@@ -127,6 +127,27 @@ fn a_silo_goes_on_with_the_same_bits_while_it_is_filled_and_drained() {
     }
 }
 
+/// Spots have a time of their own between frames, lists of neighbours that hold for a while, and
+/// random numbers that some draw and others do not.
+#[test]
+fn a_drainage_by_spots_goes_on_with_the_same_bits() {
+    for (schedule, method) in [
+        ("events", "every-move"),
+        ("events", "counted"),
+        ("steps-random", "at-random"),
+        ("steps-newest-first", "global"),
+    ] {
+        let text = format!(
+            "{}\nschedule = \"{schedule}\"\nrelaxation = {{ method = \"{method}\", ratio = 2 }}",
+            crate::support::drainage_file()
+        );
+        let scene = Scene::from_toml(&text, std::path::Path::new("scene.toml")).unwrap();
+        let record = assert_same_bits(scene, 1);
+        let left = record.observations.discharged.last().copied().unwrap();
+        assert!(left > 3.0, "{schedule}: {left}");
+    }
+}
+
 /// The springs of rolling resistance are a part of the state, in a tank and where spheres come and
 /// go.
 #[test]

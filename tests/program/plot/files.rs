@@ -74,9 +74,9 @@ fn png_shows_the_colours_of_the_cells() {
     let sweep = sweep("Fluid", axes, &[1]);
     let table = table(&sweep, |_, _| Some(verdict(Label::FLUID)));
     let bytes = png(&of_table("phase", &sweep, &table).unwrap());
-    let mut reader = png::Decoder::new(std::io::Cursor::new(&bytes))
-        .read_info()
-        .unwrap();
+    let mut decoder = png::Decoder::new(std::io::Cursor::new(&bytes));
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let mut reader = decoder.read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
     reader.next_frame(&mut pixels).unwrap();
     let share = |color: [u8; 3]| {

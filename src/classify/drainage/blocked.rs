@@ -1,0 +1,52 @@
+//! The sieve for openings that are blocked: spheres are over the opening, and none leaves.
+
+use super::run::Run;
+use crate::classify::measure::{evidence, measures};
+use crate::classify::{ClassifyError, Label, window};
+use crate::document::unit;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Threshold of the blocked sieve: an opening is blocked if no sphere left in the last window.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct BlockedSieve {
+    /// Window (s).
+    #[schemars(transform = unit("s").above(0.0))]
+    pub window: f64,
+}
+
+impl Default for BlockedSieve {
+    fn default() -> Self {
+        Self { window: 4.0 }
+    }
+}
+
+impl Label {
+    /// Spheres are over an opening, and none leaves.
+    pub const BLOCKED: Self = Self::new(12, "blocked", 0x3a_14_57);
+}
+
+measures! {
+    /// What the blocked sieve says.
+    struct BlockedEvidence {
+        /// Number of spheres that left in the last window.
+        blocked_count: evidence("spheres in the last window", ""),
+        /// 1/2 less that number: yes from 0 on.
+        blocked_margin: evidence("margin of the blocked sieve", "").signed(),
+    }
+}
+
+impl BlockedSieve {
+    pub(super) fn check(&self, interval: f64) -> Result<(), ClassifyError> {
+        window::check("blocked.window", self.window, interval)
+    }
+
+    pub(super) fn sift(&self, run: &Run<'_>) -> BlockedEvidence {
+        let count = run.left_in_last(self.window);
+        BlockedEvidence {
+            blocked_count: Some(count),
+            blocked_margin: Some(0.5 - count),
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! The sieve for boxes that are empty: (nearly) all spheres have left.
+
+use super::run::Run;
+use crate::classify::measure::{evidence, measures};
+use crate::classify::{ClassifyError, window};
+use crate::document::unit;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Threshold of the drained sieve: a box is empty if this share of its spheres has left, or if no
+/// sphere is over the opening.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct DrainedSieve {
+    /// Share of all spheres that must have left.
+    #[schemars(transform = unit("").above(0.0).at_most(1.0))]
+    pub share: f64,
+}
+
+impl Default for DrainedSieve {
+    fn default() -> Self {
+        Self { share: 0.95 }
+    }
+}
+
+measures! {
+    /// What the drained sieve says.
+    struct DrainedEvidence {
+        /// Share of the spheres that left, less the threshold.
+        drained_margin: evidence("margin of the drained sieve", "").signed(),
+    }
+}
+
+impl DrainedSieve {
+    pub(super) fn check(&self) -> Result<(), ClassifyError> {
+        window::check_share("drained.share", self.share)
+    }
+
+    pub(super) fn sift(&self, run: &Run<'_>) -> DrainedEvidence {
+        DrainedEvidence {
+            drained_margin: Some(run.left() / run.spheres - self.share),
+        }
+    }
+}

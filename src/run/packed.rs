@@ -1,0 +1,104 @@
+//! Scenes that start with a packing made by the program.
+
+use crate::forces::simplification::Simplification;
+use crate::scene::{Scene, Start, StartSphere};
+use crate::simulation::{BuildError, Model, PartOfStep, Simulation};
+use crate::spot::packing;
+use std::fs;
+use std::io::Write;
+use std::path::PathBuf;
+
+/// A model whose spheres start in a packing, which is made when a simulation is built.
+pub(super) struct Packed(pub(super) &'static dyn Model);
+
+impl Model for Packed {
+    fn work_unit(&self) -> &'static str {
+        self.0.work_unit()
+    }
+
+    fn work_of(&self, scene: &Scene) -> u64 {
+        self.0.work_of(scene)
+    }
+
+    fn parts_of(&self, scene: &Scene) -> Vec<PartOfStep> {
+        self.0.parts_of(scene)
+    }
+
+    fn simplifications(&self, scene: &Scene) -> Vec<Simplification> {
+        self.0.simplifications(scene)
+    }
+
+    fn build(&self, scene: &Scene) -> Result<Box<dyn Simulation>, BuildError> {
+        let spheres = places(scene)?.into_iter().map(StartSphere::at);
+        self.0.build(&Scene {
+            start: Start::list(spheres.collect()),
+            ..scene.clone()
+        })
+    }
+}
+
+/// The centres of the packing (m): made before, or made now and kept.
+fn places(scene: &Scene) -> Result<Vec<[f64; 3]>, BuildError> {
+    let kept = file_of(scene);
+    if let Some(places) = kept.as_ref().and_then(|it| read(it, scene.spheres.count)) {
+        return Ok(places);
+    }
+    let places = packing::make(scene, 1).map_err(BuildError::new)?;
+    if let Some(file) = kept {
+        // A packing that cannot be kept is made again the next time.
+        let _ = write(&file, &places);
+    }
+    Ok(places)
+}
+
+/// Where the packing of a scene is kept: in the folder for such things that the system or its user
+/// names. None if neither does.
+fn file_of(scene: &Scene) -> Option<PathBuf> {
+    let folder = |name: &str| std::env::var_os(name).filter(|it| !it.is_empty());
+    let cache = folder("XDG_CACHE_HOME").map(PathBuf::from);
+    let cache = cache.or_else(|| Some(PathBuf::from(folder("HOME")?).join(".cache")))?;
+    Some(
+        cache
+            .join("phase")
+            .join("packings")
+            .join(packing::name(scene)),
+    )
+}
+
+/// Number of bytes of the checksum in front of the places.
+const CHECKSUM: usize = blake3::OUT_LEN;
+
+/// The places that a file holds, if it is whole.
+fn read(file: &PathBuf, count: usize) -> Option<Vec<[f64; 3]>> {
+    let bytes = fs::read(file).ok()?;
+    let (checksum, data) = bytes.split_at_checked(CHECKSUM)?;
+    if blake3::hash(data).as_bytes() != checksum || data.len() != 24 * count {
+        return None;
+    }
+    let number = |bytes: &[u8]| bytes.try_into().map(f64::from_le_bytes).ok();
+    let numbers: Vec<f64> = data.chunks_exact(8).map(number).collect::<Option<_>>()?;
+    Some(
+        numbers
+            .chunks_exact(3)
+            .map(|it| [it[0], it[1], it[2]])
+            .collect(),
+    )
+}
+
+/// Writes a file in one go: another process that reads it finds all of it or none.
+fn write(file: &PathBuf, places: &[[f64; 3]]) -> std::io::Result<()> {
+    let folder = file.parent().ok_or(std::io::ErrorKind::NotFound)?;
+    fs::create_dir_all(folder)?;
+    let data: Vec<u8> = places
+        .iter()
+        .flatten()
+        .flat_map(|it| it.to_le_bytes())
+        .collect();
+    let mut temporary = tempfile::NamedTempFile::new_in(folder)?;
+    temporary.write_all(blake3::hash(&data).as_bytes())?;
+    temporary.write_all(&data)?;
+    temporary
+        .persist(file)
+        .map(drop)
+        .map_err(|error| error.error)
+}

@@ -1,0 +1,53 @@
+//! Keys of a scene file that follow from others, put into its tree of values before it is read.
+
+use super::Accuracy;
+use crate::document::Problem;
+use serde_json::Value;
+
+/// Puts in what the tree of a scene leaves open: the settings that a word for its accuracy stands
+/// for, and the step of a scene without steps.
+pub(crate) fn complete(tree: &mut Value) -> Vec<Problem> {
+    let problems = choose_step_of_spots(tree);
+    if !problems.is_empty() {
+        return problems;
+    }
+    Accuracy::choose_settings(tree)
+}
+
+/// The same for a scene in the table `scene` of a file, if it has one.
+pub(crate) fn complete_scene_of(tree: &mut Value) -> Vec<Problem> {
+    match tree.get_mut("scene") {
+        Some(scene) if scene.is_object() => {
+            let problems = complete(scene).into_iter();
+            problems.map(|problem| problem.within("scene")).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Spots have times of their own: frames are the only steps of their scenes.
+fn choose_step_of_spots(tree: &mut Value) -> Vec<Problem> {
+    if !tree["spot"].is_object() || !tree["time"].is_object() {
+        return Vec::new();
+    }
+    let refuse = |path: &str, message: &str| {
+        let help = "remove it: spots move at times of their own, `spot.schedule` says when";
+        Problem::new(path, message).help(help).at_key()
+    };
+    let mut problems = Vec::new();
+    for key in ["dt", "safety_factor", "integrator", "resolution"] {
+        if !tree["time"][key].is_null() {
+            let message = format!("`time.{key}` means nothing in a scene of spots");
+            problems.push(refuse(&format!("time.{key}"), &message));
+        }
+    }
+    if !tree["accuracy"].is_null() {
+        let message = "`accuracy` chooses integrators and steps, which a scene of spots has not";
+        problems.push(refuse("accuracy", message));
+    }
+    let interval = tree["time"]["frame_interval"].clone();
+    if problems.is_empty() && !interval.is_null() {
+        tree["time"]["dt"] = interval;
+    }
+    problems
+}

@@ -1,0 +1,315 @@
+//! Whether the tables of a scene go with the spot model, and spots with the box.
+
+use super::rounded;
+use crate::document::{Problem, number};
+use crate::scene::{Scene, Shape, Spot, Start, StartSphere};
+
+/// Largest displacement of a sphere at once, in diameters: beyond it spheres pass one another.
+const LONGEST_DISPLACEMENT: f64 = 0.5;
+
+/// Deepest overlap at the start, in diameters: packings of soft spheres overlap a little.
+const DEEPEST_OVERLAP: f64 = 0.05;
+
+/// The first pair of listed spheres that overlaps by more than a share of the diameter (m): the
+/// larger number first, and the distance (m).
+fn overlap(spheres: &[StartSphere], share: f64, diameter: f64) -> Option<(usize, usize, f64)> {
+    let least = diameter * (1.0 - share);
+    let mut by_height: Vec<usize> = (0..spheres.len()).collect();
+    let height = |it: &usize| spheres[*it].position[2];
+    by_height.sort_by(|one, other| height(one).total_cmp(&height(other)));
+    let mut found: Option<(usize, usize, f64)> = None;
+    for (place, one) in by_height.iter().enumerate() {
+        let above = by_height[place + 1..].iter();
+        for other in above.take_while(|it| height(it) - height(one) < least) {
+            let squares = (0..3).map(|axis| {
+                let apart = spheres[*one].position[axis] - spheres[*other].position[axis];
+                apart * apart
+            });
+            let distance = squares.sum::<f64>().sqrt();
+            let pair = (*one.max(other), *one.min(other), distance);
+            if distance < least && found.is_none_or(|it| (pair.0, pair.1) < (it.0, it.1)) {
+                found = Some(pair);
+            }
+        }
+    }
+    found
+}
+
+impl Scene {
+    pub(super) fn check_spot(&self, problems: &mut Vec<Problem>) {
+        self.check_opening(problems);
+        let Some(spot) = &self.spot else { return };
+        self.check_tables_beside_spots(problems);
+        self.check_spheres_of_spots(problems);
+        let before = problems.len();
+        self.check_box_of_spots(spot, problems);
+        if problems.len() == before {
+            self.check_sizes_of_spots(spot, problems);
+            self.check_listed_packing(problems);
+        }
+    }
+
+    /// Refuses spheres that start within each other: relaxation would throw them apart.
+    fn check_listed_packing(&self, problems: &mut Vec<Problem>) {
+        let Start::List { spheres } = &self.start else {
+            return;
+        };
+        let diameter = 2.0 * self.radius_range().1;
+        let Some((sphere, other, distance)) = overlap(spheres, DEEPEST_OVERLAP, diameter) else {
+            return;
+        };
+        let message = format!(
+            "spheres {other} and {sphere} are {} m apart, but {} m wide: they overlap by more than \
+             {} % of that",
+            rounded(distance),
+            number(diameter),
+            number(100.0 * DEEPEST_OVERLAP)
+        );
+        let help = "start from a packing without overlaps, such as `kind = \"packing\"`";
+        let path = format!("start.spheres[{sphere}]");
+        problems.push(Problem::new(path, message).help(help));
+    }
+
+    /// The opening in the floor of a tank.
+    fn check_opening(&self, problems: &mut Vec<Problem>) {
+        let Some(tank) = &self.tank else { return };
+        let Some((key, half_width)) = tank.opening() else {
+            return;
+        };
+        let mut refuse =
+            |message: &str, help: &str| problems.push(Problem::new(key, message).help(help));
+        if self.spot.is_none() {
+            let message = format!("`{key}` belongs to the spot model");
+            return refuse(
+                &message,
+                "add [spot], or remove it; [outlet] lets spheres leave",
+            );
+        }
+        if tank.orifice_radius.is_some() && tank.slit_width.is_some() {
+            return refuse(
+                "`tank.orifice_radius` and `tank.slit_width` exclude each other",
+                "remove one of the two",
+            );
+        }
+        if tank.floor.is_none() {
+            return refuse(
+                "the opening is in a floor, but there is none",
+                "add `floor` to [tank]",
+            );
+        }
+        let radius = self.radius_range().1;
+        if half_width < radius {
+            let message = format!(
+                "spheres of radius {} m do not fit through an opening {} m wide",
+                number(radius),
+                rounded(2.0 * half_width)
+            );
+            return refuse(&message, "make the opening wider or the spheres smaller");
+        }
+        let across = tank.orifice_radius.and(tank.depth);
+        let sides = [tank.width, across].into_iter().flatten();
+        let room = 0.5 * sides.fold(f64::INFINITY, f64::min);
+        if half_width > room {
+            let message = format!(
+                "the opening reaches {} m from the axis, but the walls stand at {} m",
+                rounded(half_width),
+                rounded(room)
+            );
+            refuse(&message, "make the opening narrower or the tank wider");
+        }
+    }
+
+    /// Nothing but spots moves the spheres.
+    fn check_tables_beside_spots(&self, problems: &mut Vec<Problem>) {
+        let dem = &self.dem;
+        let mut there: Vec<&str> = [
+            ("contact", dem.contact.is_some()),
+            ("friction", dem.friction.is_some()),
+            ("rolling", dem.rolling.is_some()),
+            ("geometry", dem.geometry.is_some()),
+            ("door", dem.door.is_some()),
+            ("rest", dem.rest.is_some()),
+            ("outlet", dem.outlet.is_some()),
+            ("driven", !dem.driven.is_empty()),
+        ]
+        .into_iter()
+        .filter_map(|(table, is_there)| is_there.then_some(table))
+        .collect();
+        there.extend(dem.effects.names());
+        for table in there {
+            let message = format!("[{table}] belongs to the discrete element model");
+            let help = format!("remove [{table}] or [spot]: spots alone move the spheres");
+            problems.push(Problem::new(table, message).help(help));
+        }
+    }
+
+    fn check_spheres_of_spots(&self, problems: &mut Vec<Problem>) {
+        let (smallest, largest) = self.radius_range();
+        if smallest < largest {
+            let message = "the spot model knows spheres of one size";
+            let help = "give `spheres.radius` as one number";
+            problems.push(Problem::new("spheres.radius", message).help(help));
+        }
+        if self.spheres.shape != Shape::Sphere {
+            let message = "the spot model knows no discs";
+            problems.push(Problem::new("spheres.shape", message).help("remove it"));
+        }
+        if matches!(self.start, Start::Feed { .. }) {
+            let message = "spots move a packing: spheres do not come in one after the other";
+            let help = "use `kind = \"packing\"`, or a list or file of places";
+            problems.push(Problem::new("start.kind", message).help(help));
+        }
+    }
+
+    fn check_box_of_spots(&self, spot: &Spot, problems: &mut Vec<Problem>) {
+        let tank = self.tank.clone().unwrap_or_default();
+        let mut need = |key: &str, help: &str| {
+            let message = format!("spots walk in a box, but there is no `{key}`");
+            problems.push(Problem::new("spot", message).help(help).at_key());
+        };
+        if tank.width.is_none() {
+            need("tank.width", "add `width` to [tank]");
+        }
+        if tank.depth.is_none() {
+            need("tank.depth", "add `depth` to [tank]");
+        }
+        if tank.floor.is_none() {
+            need("tank.floor", "add `floor` to [tank]");
+        }
+        if tank.opening().is_none() {
+            need(
+                "tank.orifice_radius",
+                "add `orifice_radius` or `slit_width` to [tank]",
+            );
+        }
+        let sides = [tank.width, tank.depth].into_iter().flatten();
+        let half = 0.5 * sides.fold(f64::INFINITY, f64::min);
+        let distance = self.wall_distance_of_spots(spot);
+        if distance.abs() >= half {
+            let message = format!(
+                "spots that keep {} m from the walls have no room between walls {} m apart",
+                rounded(distance),
+                rounded(2.0 * half)
+            );
+            let help = format!(
+                "use a `wall_distance` between {} and {}",
+                rounded(-half),
+                rounded(half)
+            );
+            problems.push(Problem::new("spot.wall_distance", message).help(help));
+        }
+        if spot.radius > half {
+            let message = format!(
+                "a spot of radius {} m is wider than the box, whose walls are {} m apart",
+                number(spot.radius),
+                rounded(2.0 * half)
+            );
+            let help = "make the spot smaller or the tank wider";
+            problems.push(Problem::new("spot.radius", message).help(help));
+        }
+    }
+
+    fn check_sizes_of_spots(&self, spot: &Spot, problems: &mut Vec<Problem>) {
+        let radius = self.radius_range().1;
+        if spot.radius <= radius {
+            let message = format!(
+                "a spot of radius {} m is no larger than a sphere of {} m",
+                number(spot.radius),
+                number(radius)
+            );
+            let help = "a spot covers several spheres: 2.6 diameters in the paper";
+            problems.push(Problem::new("spot.radius", message).help(help));
+        }
+        let farthest = spot.farthest_displacement();
+        let most = LONGEST_DISPLACEMENT * 2.0 * radius;
+        if farthest > most {
+            let message = format!(
+                "a spot could move spheres by {} m at once, more than half of their diameter",
+                rounded(farthest)
+            );
+            let (key, help) = match &spot.weighting {
+                Some(it) if it.volume_ratio / it.least_count > 1.0 / spot.displacement_ratio => (
+                    "spot.weighting.least_count",
+                    "make it larger, or `volume_ratio` smaller",
+                ),
+                _ => (
+                    "spot.displacement_ratio",
+                    "make it larger, or the steps of the spot shorter",
+                ),
+            };
+            problems.push(Problem::new(key, message).help(help));
+        }
+    }
+
+    /// Distance d_w (m) that spots keep from the walls.
+    pub fn wall_distance_of_spots(&self, spot: &Spot) -> f64 {
+        let diameter = 2.0 * self.radius_range().1;
+        spot.wall_distance.unwrap_or(diameter)
+    }
+}
+
+impl Spot {
+    /// Step of a spot along x and along y (m), either way: sqrt(2 b Δz).
+    pub fn horizontal_step(&self) -> f64 {
+        (2.0 * self.diffusion_length * self.vertical_step).sqrt()
+    }
+
+    /// Longest displacement of a sphere in one move (m).
+    fn farthest_displacement(&self) -> f64 {
+        let across = self.horizontal_step();
+        let step = (2.0 * across * across + self.vertical_step * self.vertical_step).sqrt();
+        let fixed = 1.0 / self.displacement_ratio;
+        let weighted = self.weighting.map(|it| it.volume_ratio / it.least_count);
+        // In a corner a sphere may be in the range of a spot and of three of its images.
+        let images = if self.reflection { 4.0 } else { 1.0 };
+        images * step * weighted.map_or(fixed, |it| it.max(fixed))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    fn scene(change: &str) -> Result<Scene, String> {
+        let text = format!(
+            "{change}
+            spheres = {{ count = 2, radius = 0.5, density = 1.91 }}
+            start = {{ kind = \"list\", spheres = [
+                {{ position = [0, 0, 0.5] }}, {{ position = [2, 0, 0.5] }},
+            ] }}
+            tank = {{ width = 20.0, depth = 8.0, floor = 0.0, orifice_radius = 4.0 }}
+            time = {{ duration = 4.0, frame_interval = 2.0 }}
+            output = {{ snapshot_interval = 2.0 }}
+            [spot]
+            radius = 2.6
+            displacement_ratio = 399.0
+            diffusion_length = 2.28
+            vertical_step = 0.1
+            insertion_rate = 375.0
+            move_rate = 28.0"
+        );
+        Scene::from_toml(&text, Path::new("scene.toml")).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn frames_are_the_only_steps() {
+        let scene = scene("").unwrap();
+        assert_eq!(scene.time.dt, 2.0);
+        let finer = scene.with_values([("time.frame_interval", 1.0)]).unwrap();
+        assert_eq!(finer.with_chosen_step().unwrap().time.dt, 1.0);
+        let step = scene.spot.unwrap().horizontal_step();
+        assert!((step * step - 0.456).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_else_moves_spheres_is_refused() {
+        let error = scene("gravity = { acceleration = 9.8 }").unwrap_err();
+        assert!(
+            error.contains("[gravity] belongs to the discrete element model"),
+            "{error}"
+        );
+        let error = scene("accuracy = \"draft\"").unwrap_err();
+        assert!(error.contains("which a scene of spots has not"), "{error}");
+    }
+}

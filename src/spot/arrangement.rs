@@ -1,0 +1,131 @@
+//! The order of the spheres in the arrays, and what stays valid until the next sorting.
+//!
+//! Spheres are sorted by cell, and lists of neighbours are made, when a sphere has moved so far
+//! that they could miss something. Until then no array but that of the positions changes.
+
+use super::cells::Cells;
+use super::guard::Fault;
+use super::neighbours::Neighbours;
+use super::parameters::{Parameters, Relaxation};
+use super::region::NOWHERE;
+use super::slack::Slack;
+use super::surface::Surface;
+use crate::particles::block::ROWS;
+use crate::particles::vector::Vector;
+use fearless_simd::Level;
+use std::ops::Range;
+
+/// What the sorting of spheres depends on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sorting<'a> {
+    pub(crate) level: Level,
+    pub(crate) parameters: &'a Parameters,
+    pub(crate) slack: Slack,
+}
+
+/// What sorting has made.
+#[derive(Clone, Debug)]
+pub(crate) struct Arrangement {
+    /// Number of spheres, those included that have left since.
+    pub(crate) spheres: usize,
+    /// Number of each sphere in the start packing.
+    pub(crate) id: Vec<u32>,
+    /// Centres at the time of sorting (m).
+    pub(crate) reference: Vec<Vector>,
+    pub(crate) neighbours: Neighbours,
+    /// Squares of distances from the references (m2). If one is exceeded, the spheres must be
+    /// sorted before the next move.
+    pub(crate) farthest_squared: Vec<f64>,
+    cells: Cells,
+    slack: Slack,
+    surface: Surface,
+    /// Height of the highest centre (m), 0 without spheres.
+    pub(crate) top: f64,
+}
+
+impl Arrangement {
+    /// Sorts spheres and finds their neighbours. `position` is filled up for vectors.
+    pub(crate) fn sorted(
+        sorting: Sorting<'_>,
+        (position, id): (&mut Vec<Vector>, Vec<u32>),
+        neighbours: Neighbours,
+    ) -> Result<Self, Fault> {
+        position.truncate(id.len());
+        let mut cells = cells_for(sorting.parameters, position);
+        let order = cells.sort(position);
+        let id = order.iter().map(|&sphere| id[sphere as usize]).collect();
+        let mut sorted: Vec<Vector> = order
+            .iter()
+            .map(|&sphere| position[sphere as usize])
+            .collect();
+        fill_up(&mut sorted);
+        position.clone_from(&sorted);
+        Self::of(sorting, (sorted, id), (cells, neighbours))
+    }
+
+    /// The arrangement that spheres had when they were sorted to these references.
+    pub(crate) fn restored(
+        sorting: Sorting<'_>,
+        (mut reference, id): (Vec<Vector>, Vec<u32>),
+    ) -> Result<Self, Fault> {
+        let mut cells = cells_for(sorting.parameters, &reference);
+        cells.sort(&reference);
+        fill_up(&mut reference);
+        let parts = (cells, Neighbours::new());
+        Self::of(sorting, (reference, id), parts)
+    }
+
+    fn of(
+        sorting: Sorting<'_>,
+        (reference, id): (Vec<Vector>, Vec<u32>),
+        (cells, mut neighbours): (Cells, Neighbours),
+    ) -> Result<Self, Fault> {
+        let Sorting {
+            level,
+            parameters,
+            slack,
+        } = sorting;
+        let spheres = &reference[..id.len()];
+        if parameters.relaxation != Relaxation::Off {
+            let reach: Vec<f64> = spheres.iter().map(|&it| slack.reach(it)).collect();
+            neighbours.find(level, &cells, &reference, &reach)?;
+        }
+        let farthest = spheres.iter().map(|&it| slack.before_a_move(slack.at(it)));
+        let farthest_squared = farthest.map(|it| it * it).collect();
+        let surface = Surface::of(spheres, parameters);
+        Ok(Self {
+            spheres: id.len(),
+            top: surface.top(),
+            surface,
+            id,
+            reference,
+            neighbours,
+            farthest_squared,
+            cells,
+            slack,
+        })
+    }
+
+    /// Ranges of slots that hold all spheres nearer than `radius` to a centre (m).
+    #[inline(always)]
+    pub(crate) fn cover(&self, centre: Vector, radius: f64, ranges: &mut Vec<Range<u32>>) {
+        let slack = self.slack.near_to(centre, 2.0 * radius);
+        self.cells.cover(centre, radius + slack, ranges);
+    }
+
+    /// The surface of the packing at the last sorting.
+    pub(crate) fn surface(&self) -> &Surface {
+        &self.surface
+    }
+}
+
+fn cells_for(parameters: &Parameters, position: &[Vector]) -> Cells {
+    let height = position.iter().fold(0.0, |most: f64, it| most.max(it.z));
+    let halves = [parameters.half_width, parameters.half_depth];
+    Cells::new(parameters.diameter, halves, height)
+}
+
+fn fill_up(position: &mut Vec<Vector>) {
+    let filled = position.len() + ROWS;
+    position.resize(filled, NOWHERE);
+}

@@ -1,0 +1,127 @@
+//! Relaxation of all spheres at once: method 3 of Rycroft, Wong and Bazant (2010), section 5.
+
+use super::arrangement::Arrangement;
+use super::guard::Fault;
+use super::model::Model;
+use super::region::NOWHERE;
+use super::relax::{Eight, Region, displacements};
+use super::simulation::Simulation;
+use super::threads::in_parallel;
+use crate::particles::block::ROWS;
+use crate::particles::vector::Vector;
+
+/// Spheres that one task relaxes.
+const TASK: usize = 2048;
+
+/// The spheres of one task: their first slot, centres, and displacements.
+struct Task<'a> {
+    first: usize,
+    position: &'a mut [Vector],
+    displacement: &'a mut [Eight],
+    result: Result<(), Fault>,
+    /// Whether the spheres must be sorted.
+    stale: bool,
+}
+
+impl Simulation {
+    /// Removes overlaps of all spheres at once.
+    pub(super) fn relax_all(&mut self) -> Result<(), Fault> {
+        self.sort_if_stale()?;
+        let Self {
+            model,
+            arrangement,
+            position,
+            scratch,
+            workers,
+            ..
+        } = self;
+        let displacement = &mut scratch.displacement;
+        workers.install(|| {
+            let longest = 0.5 * model.diameter;
+            model.displacements_of_all((arrangement, position), longest, displacement)?;
+            scratch.stale |= model.displace_all(arrangement, position, displacement);
+            Ok(())
+        })?;
+        let lowest = |slot: &u32| {
+            let z = position[*slot as usize].z;
+            model.silo.floor_is_within(0.0, z) && z > NOWHERE.z
+        };
+        let low: Vec<u32> = (0..arrangement.spheres as u32).filter(lowest).collect();
+        model.keep_above_floor(&low, position, &mut scratch.left);
+        self.counts.global_relaxations += 1;
+        self.count_left();
+        Ok(())
+    }
+}
+
+impl Model {
+    /// Computes the displacements that remove overlaps of all spheres.
+    pub(crate) fn displacements_of_all(
+        &self,
+        (arrangement, position): (&Arrangement, &[Vector]),
+        longest: f64,
+        displacement: &mut Vec<Eight>,
+    ) -> Result<(), Fault> {
+        let spheres = arrangement.spheres;
+        displacement.resize(spheres.div_ceil(ROWS), Eight::default());
+        let region = Region {
+            centre: Vector::ZERO,
+            radius: f64::INFINITY,
+            longest,
+        };
+        let chunks = displacement.chunks_mut(TASK / ROWS).enumerate();
+        let mut tasks: Vec<Task<'_>> = chunks
+            .map(|(task, displacement)| Task::new(task, &mut [], displacement))
+            .collect();
+        in_parallel(&mut tasks, &|task: &mut Task<'_>| {
+            let last = (task.first + TASK).min(spheres);
+            let mut slots: Vec<u32> = (task.first as u32..last as u32).collect();
+            slots.resize(slots.len().next_multiple_of(ROWS), spheres as u32);
+            let of = (&slots[..], &mut *task.displacement);
+            task.result = fearless_simd::dispatch!(self.level, simd => {
+                displacements(simd, (self, arrangement), position, region, of)
+            });
+        });
+        tasks.into_iter().try_for_each(|task| task.result)
+    }
+
+    /// Displaces all spheres. Returns whether they must be sorted.
+    fn displace_all(
+        &self,
+        arrangement: &Arrangement,
+        position: &mut [Vector],
+        displacement: &mut [Eight],
+    ) -> bool {
+        let position = position[..arrangement.spheres].chunks_mut(TASK);
+        let chunks = position
+            .zip(displacement.chunks_mut(TASK / ROWS))
+            .enumerate();
+        let mut tasks: Vec<Task<'_>> = chunks
+            .map(|(task, (position, by))| Task::new(task, position, by))
+            .collect();
+        in_parallel(&mut tasks, &|task: &mut Task<'_>| {
+            for (k, place) in task.position.iter_mut().enumerate() {
+                if place.z > NOWHERE.z {
+                    let displacement = task.displacement[k / ROWS].vector(k % ROWS);
+                    *place = self.silo.between_walls(*place + displacement);
+                    let slot = task.first + k;
+                    let distance = (*place - arrangement.reference[slot]).norm_squared();
+                    task.stale |= distance > arrangement.farthest_squared[slot];
+                }
+            }
+        });
+        tasks.iter().any(|task| task.stale)
+    }
+}
+
+impl<'a> Task<'a> {
+    fn new(task: usize, position: &'a mut [Vector], displacement: &'a mut [Eight]) -> Self {
+        Self {
+            first: task * TASK,
+            position,
+            displacement,
+            result: Ok(()),
+            stale: false,
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! One move of a spot.
+
+use super::arrangement::Arrangement;
+use super::guard::Fault;
+use super::model::{Model, Scratch};
+use super::parameters::Relaxation;
+use super::walk::Spot;
+use crate::particles::vector::Vector;
+
+impl Model {
+    /// Moves a spot and the spheres in its range, and relaxes these if it is time to. Random
+    /// numbers 0 <= u < 1 choose the way, and decide about the relaxation. Returns whether there
+    /// was one; None if the spot is to be removed instead.
+    pub(crate) fn make_move(
+        &self,
+        (arrangement, position): (&Arrangement, &mut [Vector]),
+        scratch: &mut Scratch,
+        spot: &mut Spot,
+        [way, chance]: [f64; 2],
+    ) -> Result<Option<bool>, Fault> {
+        scratch.moved.clear();
+        scratch.relaxed.clear();
+        let from = spot.position;
+        if from.z >= arrangement.top + self.parameters.removal_height {
+            return Ok(None);
+        }
+        let Some(step) = self.step(arrangement, position, scratch, (from, way)) else {
+            scratch.moved.clear();
+            return Ok(None);
+        };
+        let centre = from + step * 0.5;
+        self.spot(arrangement, position, scratch, (centre, step));
+        if scratch.moved.is_empty() {
+            self.check_empty(arrangement, centre)?;
+        }
+        spot.position = from + step;
+        spot.moves = spot.moves.saturating_add(1);
+        let relaxes = match self.parameters.relaxation {
+            Relaxation::EveryMove => true,
+            Relaxation::Off | Relaxation::Global { .. } => false,
+            Relaxation::AtRandom { ratio } => chance * f64::from(ratio) < 1.0,
+            Relaxation::Counted { ratio } => spot.moves.is_multiple_of(ratio),
+        };
+        if relaxes {
+            self.relax(arrangement, position, scratch, centre)?;
+        }
+        Ok(Some(relaxes))
+    }
+}

@@ -1,0 +1,69 @@
+//! The packing of a scene: which one it is, and how it is made.
+
+use super::{PackingError, random_packing};
+use crate::scene::Scene;
+use crate::spot::parameters::{Orifice, Parameters};
+
+/// What chooses a packing.
+struct Choice {
+    /// Of how packings are made: another one makes others.
+    version: u32,
+    spheres: usize,
+    radius: f64,
+    /// Width and depth of the tank (m).
+    sides: [f64; 2],
+    seed: u64,
+}
+
+/// Of how packings are made.
+const VERSION: u32 = 1;
+
+impl Choice {
+    fn of(scene: &Scene) -> Self {
+        let tank = scene.tank.clone().unwrap_or_default();
+        Self {
+            version: VERSION,
+            spheres: scene.spheres.count,
+            radius: scene.spheres.radius.mean(),
+            sides: [tank.width, tank.depth].map(|side| side.unwrap_or(0.0)),
+            seed: scene.seed,
+        }
+    }
+}
+
+/// The name of the packing that a scene starts with: scenes of one name start with the same. Where
+/// the floor is, and what else the scene has, does not matter.
+pub fn name(scene: &Scene) -> String {
+    let choice = Choice::of(scene);
+    let text = format!(
+        "{} {} {:?} {:?} {}",
+        choice.version, choice.spheres, choice.radius, choice.sides, choice.seed
+    );
+    blake3::hash(text.as_bytes()).to_hex()[..16].to_owned()
+}
+
+/// The centres (m) of the packing that a scene starts with.
+///
+/// # Errors
+/// If the spheres cannot be pushed apart.
+pub fn make(scene: &Scene, threads: usize) -> Result<Vec<[f64; 3]>, PackingError> {
+    let choice = Choice::of(scene);
+    let diameter = 2.0 * choice.radius;
+    let [half_width, half_depth] = choice.sides.map(|side| 0.5 * side);
+    let narrow = half_width.min(half_depth);
+    let parameters = Parameters {
+        half_width,
+        half_depth,
+        orifice: Orifice::Circle {
+            radius: (4.0 * diameter).min(narrow),
+        },
+        spot_radius: (2.6 * diameter).min(narrow),
+        wall_distance: 0.0,
+        ..Parameters::figure_2(diameter)
+    };
+    let floor = scene.tank.as_ref().and_then(|tank| tank.floor);
+    let floor = floor.unwrap_or(0.0);
+    let centres = random_packing(&parameters, choice.spheres, choice.seed, threads)?;
+    let centres = centres.into_iter();
+    Ok(centres.map(|it| [it.x, it.y, it.z + floor]).collect())
+}

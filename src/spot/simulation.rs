@@ -1,0 +1,283 @@
+//! A simulation of drainage by spots.
+
+use super::arrangement::Arrangement;
+use super::guard::{Failure, Fault};
+use super::model::{Model, Scratch};
+use super::neighbours::Neighbours;
+use super::parameters::{Parameters, Schedule};
+use super::random::Stream;
+use super::region::NOWHERE;
+use super::state::{Counts, StartError, State};
+use super::threads::Workers;
+use super::walk::Spot;
+use crate::particles::block::ROWS;
+use crate::particles::vector::Vector;
+use rayon::ThreadPoolBuildError;
+
+/// Names of the streams of random numbers: of spots, and of relaxations.
+pub(super) const STREAMS: [&str; 2] = ["spot walk", "spot relaxation"];
+
+/// A simulation of drainage by spots.
+///
+/// The same parameters, positions and seed give the same bits, whatever the number of threads,
+/// whatever the times at which it is looked at, and whether it was saved and restored in between.
+#[derive(Debug)]
+pub struct Simulation {
+    pub(super) model: Model,
+    pub(super) arrangement: Arrangement,
+    /// Centres in order of the arrangement (m), filled up for vectors.
+    pub(super) position: Vec<Vector>,
+    pub(super) spots: Vec<Spot>,
+    pub(super) scratch: Scratch,
+    pub(super) random: [Stream; 2],
+    pub(super) counts: Counts,
+    pub(super) next_event: f64,
+    pub(super) steps: u64,
+    pub(super) workers: Workers,
+    seed: u64,
+    time: f64,
+    left: Vec<Option<Vector>>,
+}
+
+impl Simulation {
+    /// A simulation that starts from these centres (m).
+    ///
+    /// # Errors
+    ///
+    /// If a parameter cannot be, or if spheres are outside of the box or crowded.
+    pub fn new(parameters: Parameters, position: &[Vector], seed: u64) -> Result<Self, StartError> {
+        parameters.check()?;
+        check_positions(&parameters, position)?;
+        let model = Model::new(parameters);
+        let mut random = STREAMS.map(|name| Stream::new(name, seed));
+        let next_event = random[0].exponential() / model.parameters.insertion_rate;
+        let mut sorted = position.to_vec();
+        let ids = (0..position.len() as u32).collect();
+        let spheres = (&mut sorted, ids);
+        let arrangement = Arrangement::sorted(model.sorting(), spheres, Neighbours::new());
+        let counts = Counts::default();
+        let arrangement = arrangement
+            .map_err(|fault| StartError::Failure(Box::new(failure(fault, None, &counts, 0.0))))?;
+        Ok(Self {
+            model,
+            arrangement,
+            position: sorted,
+            spots: Vec::new(),
+            scratch: Scratch::default(),
+            random,
+            counts,
+            next_event,
+            steps: 0,
+            workers: Workers::default(),
+            seed,
+            time: 0.0,
+            left: vec![None; position.len()],
+        })
+    }
+
+    /// Lets everything happen up to a time (s).
+    ///
+    /// # Errors
+    ///
+    /// If a guard breaks. The state is then that of no time, and of use to nothing but looking.
+    pub fn advance_to(&mut self, time: f64) -> Result<(), Failure> {
+        match self.model.parameters.schedule {
+            Schedule::Events => self.events_until(time)?,
+            Schedule::StepsInRandomOrder | Schedule::StepsNewestFirst => self.steps_until(time)?,
+        }
+        self.time = self.time.max(time);
+        Ok(())
+    }
+
+    /// Up to which time everything has happened (s).
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Parameters of this simulation.
+    pub fn parameters(&self) -> &Parameters {
+        &self.model.parameters
+    }
+
+    /// Centres of the spheres in order of their numbers (m); None for those that have left.
+    pub fn positions(&self) -> Vec<Option<Vector>> {
+        let mut positions = vec![None; self.left.len()];
+        for (id, &position) in self.arrangement.id.iter().zip(&self.position) {
+            if self.left[*id as usize].is_none() {
+                positions[*id as usize] = Some(position);
+            }
+        }
+        positions
+    }
+
+    /// Where spheres were when they left (m), in order of their numbers; None for those inside.
+    pub fn left(&self) -> &[Option<Vector>] {
+        &self.left
+    }
+
+    /// Number of spheres inside.
+    pub fn spheres_inside(&self) -> usize {
+        self.left.iter().filter(|it| it.is_none()).count()
+    }
+
+    /// Number of spheres that have left through the orifice.
+    pub fn spheres_left(&self) -> usize {
+        self.left.len() - self.spheres_inside()
+    }
+
+    /// The spots.
+    pub fn spots(&self) -> &[Spot] {
+        &self.spots
+    }
+
+    /// What has happened so far.
+    pub fn counts(&self) -> &Counts {
+        &self.counts
+    }
+
+    /// Lets steps, relaxations of all spheres and sorting use this number of threads.
+    ///
+    /// # Errors
+    ///
+    /// If the system starts no more threads.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub fn use_threads(&mut self, threads: usize) -> Result<(), ThreadPoolBuildError> {
+        self.workers = Workers::new(threads)?;
+        Ok(())
+    }
+
+    /// The complete state, for [`Self::restore`].
+    ///
+    /// # Errors
+    ///
+    /// If it cannot be written as bytes.
+    pub fn save(&self) -> Result<Vec<u8>, StartError> {
+        let spheres = self.arrangement.spheres;
+        let state = State {
+            seed: self.seed,
+            time: self.time,
+            next_event: self.next_event,
+            steps: self.steps,
+            spots: self.spots.clone(),
+            position: self.position[..spheres].to_vec(),
+            reference: self.arrangement.reference[..spheres].to_vec(),
+            id: self.arrangement.id.clone(),
+            left: self.left.clone(),
+            stale: self.scratch.stale,
+            counts: self.counts,
+            drawn: [self.random[0].drawn(), self.random[1].drawn()],
+        };
+        postcard::to_stdvec(&(&self.model.parameters, state))
+            .map_err(|error| StartError::Checkpoint(error.to_string()))
+    }
+
+    /// The simulation whose state was saved, with the same parameters.
+    ///
+    /// # Errors
+    ///
+    /// If the bytes are no such state, or one of other parameters.
+    pub fn restore(parameters: Parameters, bytes: &[u8]) -> Result<Self, StartError> {
+        let (saved, mut state): (Parameters, State) = postcard::from_bytes(bytes)
+            .map_err(|error| StartError::Checkpoint(error.to_string()))?;
+        if saved != parameters {
+            return Err(StartError::OtherParameters);
+        }
+        parameters.check()?;
+        state.check().map_err(StartError::Checkpoint)?;
+        let model = Model::new(parameters);
+        let spheres = (state.reference, state.id);
+        let arrangement = Arrangement::restored(model.sorting(), spheres)
+            .map_err(|fault| failure(fault, None, &state.counts, state.time))
+            .map_err(|failure| StartError::Failure(Box::new(failure)))?;
+        let filled = state.position.len() + ROWS;
+        state.position.resize(filled, NOWHERE);
+        let [walk, relaxation] = state.drawn;
+        let resumed = |name: &str, drawn| Stream::resumed(name, state.seed, drawn);
+        Ok(Self {
+            model,
+            arrangement,
+            position: state.position,
+            spots: state.spots,
+            scratch: Scratch {
+                stale: state.stale,
+                ..Scratch::default()
+            },
+            random: [resumed(STREAMS[0], walk), resumed(STREAMS[1], relaxation)],
+            counts: state.counts,
+            next_event: state.next_event,
+            steps: state.steps,
+            workers: Workers::default(),
+            seed: state.seed,
+            time: state.time,
+            left: state.left,
+        })
+    }
+
+    /// Sorts the spheres again if it is time to.
+    pub(super) fn sort_if_stale(&mut self) -> Result<(), Fault> {
+        if !self.scratch.stale {
+            return Ok(());
+        }
+        let kept = |id: &u32| self.left[*id as usize].is_none();
+        let spheres = self.arrangement.id.iter().zip(&self.position);
+        let (ids, mut position): (Vec<u32>, Vec<Vector>) =
+            spheres.filter(|(id, _)| kept(id)).unzip();
+        let neighbours = std::mem::replace(&mut self.arrangement.neighbours, Neighbours::new());
+        let (sorting, spheres) = (self.model.sorting(), (&mut position, ids));
+        self.arrangement = self
+            .workers
+            .install(|| Arrangement::sorted(sorting, spheres, neighbours))?;
+        self.position = position;
+        self.scratch.stale = false;
+        self.counts.sortings += 1;
+        Ok(())
+    }
+
+    /// Counts the spheres that have left.
+    pub(super) fn count_left(&mut self) {
+        for (slot, place) in self.scratch.left.drain(..) {
+            let id = self.arrangement.id[slot as usize];
+            self.left[id as usize] = Some(place);
+        }
+    }
+
+    /// What a broken guard is called outside.
+    pub(super) fn failure(&self, fault: Fault, time: f64) -> Failure {
+        failure(fault, Some(&self.arrangement.id), &self.counts, time)
+    }
+}
+
+fn failure(fault: Fault, ids: Option<&[u32]>, counts: &Counts, time: f64) -> Failure {
+    let id = |slot: u32| ids.and_then(|ids| ids.get(slot as usize).copied());
+    Failure {
+        guard: fault.guard,
+        moves: counts.moves,
+        time,
+        place: fault.place,
+        sphere: fault.slot.and_then(id),
+        detail: fault.detail,
+    }
+}
+
+/// Spheres may stick out of the box by this share of the diameter, as packings from elsewhere do;
+/// their first move puts them back.
+const TOLERANCE: f64 = 1e-3;
+
+fn check_positions(parameters: &Parameters, position: &[Vector]) -> Result<(), StartError> {
+    if position.len() > (u32::MAX / 64) as usize {
+        return Err(StartError::TooMany(position.len()));
+    }
+    let least = (0.5 - TOLERANCE) * parameters.diameter;
+    let [x, y] = [parameters.half_width, parameters.half_depth].map(|half| half - least);
+    let inside =
+        |it: &Vector| it.x.abs() <= x && it.y.abs() <= y && it.z >= least && it.z.is_finite();
+    match position.iter().position(|it| !inside(it)) {
+        Some(sphere) => Err(StartError::Outside {
+            sphere,
+            place: position[sphere],
+        }),
+        None => Ok(()),
+    }
+}

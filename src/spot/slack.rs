@@ -1,0 +1,81 @@
+//! How far spheres may move before they are sorted again.
+
+use super::parameters::{Parameters, Relaxation};
+use crate::particles::vector::Vector;
+
+/// Greatest slack, in diameters.
+const MOST: f64 = 0.4;
+
+/// The distance that a sphere may move before the next sorting, as a function of its place.
+///
+/// Flow to an orifice is fastest there and falls off with the distance, until the random motion of
+/// spheres is greater. With a slack that does the same, spheres everywhere use theirs up about
+/// equally fast.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slack {
+    /// Slack at a distance of one diameter from the orifice's centre (m).
+    near: f64,
+    /// Bounds (m).
+    least: f64,
+    most: f64,
+    diameter: f64,
+    /// Greatest displacement by one move of a spot (m).
+    step: f64,
+}
+
+impl Slack {
+    /// The slack for these parameters: short lists of neighbours where spheres are relaxed often,
+    /// rare sorting where they are not.
+    pub(crate) fn of(parameters: &Parameters) -> Self {
+        let (near, least) = match parameters.relaxation {
+            Relaxation::EveryMove => (1.2, 0.065),
+            Relaxation::Off => (3.0, 0.3),
+            _ => (1.8, 0.1),
+        };
+        let (diameter, step) = (parameters.diameter, parameters.greatest_displacement());
+        Self {
+            near: near * diameter,
+            least: (least * diameter).max(2.0 * step),
+            most: (MOST * diameter).max(2.0 * step),
+            diameter,
+            step,
+        }
+    }
+
+    /// The same slack at all places, without spots (m).
+    pub(crate) fn uniform(slack: f64, diameter: f64) -> Self {
+        Self {
+            near: 0.0,
+            least: slack,
+            most: slack,
+            diameter,
+            step: 0.0,
+        }
+    }
+
+    /// Slack of a sphere at a place (m).
+    pub(crate) fn at(&self, place: Vector) -> f64 {
+        self.near_to(place, 0.0)
+    }
+
+    /// The greatest slack of spheres nearer than a distance to a place (m).
+    #[inline(always)]
+    pub(crate) fn near_to(&self, place: Vector, distance: f64) -> f64 {
+        let from_orifice = (place.norm() - distance).max(self.diameter);
+        let slack = self.near * self.diameter / from_orifice;
+        slack.max(self.least).min(self.most)
+    }
+
+    /// How far a sphere of this slack may be from where it was sorted before the next move, which
+    /// may displace it, begins (m).
+    pub(crate) fn before_a_move(&self, slack: f64) -> f64 {
+        slack - self.step
+    }
+
+    /// Within which distance of a sphere all must be listed that may touch it before the next
+    /// sorting (m).
+    pub(crate) fn reach(&self, place: Vector) -> f64 {
+        let farthest = self.diameter + 2.0 * self.most;
+        self.diameter + self.at(place) + self.near_to(place, farthest)
+    }
+}

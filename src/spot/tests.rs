@@ -1,0 +1,258 @@
+//! What simulations as wholes promise.
+
+use super::parameters::{Influence, Parameters, Relaxation, Schedule, Walk};
+use super::samples::{badness, packing, parameters, simulation};
+use super::simulation::Simulation;
+use super::state::StartError;
+use super::{Guard, packing};
+use crate::particles::vector::Vector;
+
+const SCHEDULES: [Schedule; 3] = [
+    Schedule::Events,
+    Schedule::StepsInRandomOrder,
+    Schedule::StepsNewestFirst,
+];
+
+fn after(time: f64, change: impl FnOnce(&mut Parameters)) -> Simulation {
+    let mut simulation = simulation(change);
+    simulation.advance_to(time).expect("no guard breaks");
+    simulation
+}
+
+#[test]
+fn spots_rise_at_mu_dz_and_their_density_is_lambda_over_mu_dz() {
+    for schedule in SCHEDULES {
+        let simulation = after(4.0, |it| {
+            it.schedule = schedule;
+            it.relaxation = Relaxation::Off;
+        });
+        let heights = || simulation.spots().iter().map(|it| it.position.z);
+        let below = |limit: f64| heights().filter(|z| *z < limit).count() as f64;
+        let per_height = (below(9.0) - below(1.0)) / 8.0;
+        assert!(
+            (per_height / (375.0 / 2.8) - 1.0).abs() < 0.1,
+            "{per_height} per d"
+        );
+        let inserted = simulation.counts().inserted as f64;
+        assert!((inserted / 1500.0 - 1.0).abs() < 0.1, "{inserted} spots");
+        // The front is where the density is half of that below.
+        let (near, far) = (below(2.8 * 4.0 - 1.0), below(2.8 * 4.0));
+        let expected = inserted * (1.0 - 1.0 / 11.2);
+        assert!(
+            (near - expected).abs() < 0.12 * expected,
+            "{near} of {expected}"
+        );
+        assert!(
+            inserted - far < 0.12 * inserted,
+            "{far} of {inserted} below the front"
+        );
+    }
+}
+
+#[test]
+fn spheres_are_conserved_and_leave_through_the_orifice() {
+    let simulation = after(3.0, |_| {});
+    let (inside, left) = (simulation.spheres_inside(), simulation.spheres_left());
+    assert_eq!(inside + left, packing().len());
+    assert!(left > 50, "{left} have left");
+    let positions = simulation.positions();
+    assert_eq!(positions.iter().flatten().count(), inside);
+    for (position, left) in positions.iter().zip(simulation.left()) {
+        assert_ne!(position.is_some(), left.is_some());
+        if let Some(place) = left {
+            assert!(place.z < 0.0 && place.x * place.x + place.y * place.y < 9.0);
+        }
+        if let Some(place) = position {
+            assert!(place.x.abs() <= 6.5 && place.y.abs() <= 3.5 && place.z >= 0.0);
+        }
+    }
+    // Far from the orifice a sphere is hardly moved.
+    let start = packing();
+    let moved = positions
+        .iter()
+        .zip(start)
+        .filter_map(|(now, start)| Some((*now)? - *start));
+    let (mut inner, mut outer) = ([0.0, 0.0], [0.0, 0.0]);
+    for (by, start) in moved.zip(
+        positions
+            .iter()
+            .zip(start)
+            .filter_map(|(n, s)| n.map(|_| s)),
+    ) {
+        let sums = if start.x.abs() < 3.0 {
+            &mut inner
+        } else {
+            &mut outer
+        };
+        sums[0] -= by.z;
+        sums[1] += 1.0;
+    }
+    assert!(
+        inner[0] / inner[1] > 1.5 * outer[0] / outer[1],
+        "{inner:?} {outer:?}"
+    );
+}
+
+#[test]
+fn the_mean_flow_of_mirrored_starts_is_mirrored() {
+    let mirrored: Vec<Vector> = packing()
+        .iter()
+        .map(|it| Vector::new(-it.x, it.y, it.z))
+        .collect();
+    let mean_flow = |start: &[Vector], side: f64| {
+        let mut simulation = Simulation::new(parameters(), start, 1).expect("a start");
+        simulation.advance_to(2.0).expect("no guard breaks");
+        let (mut sum, mut count) = (0.0, 0.0);
+        for (now, start) in simulation.positions().into_iter().zip(start) {
+            if let Some(now) = now
+                && start.x * side > 0.0
+            {
+                sum += start.z - now.z;
+                count += 1.0;
+            }
+        }
+        sum / count
+    };
+    let (left, right) = (mean_flow(packing(), -1.0), mean_flow(&mirrored, 1.0));
+    assert!(left > 0.05, "{left}");
+    assert!((left / right - 1.0).abs() < 0.12, "{left} and {right}");
+}
+
+#[test]
+fn bits_do_not_depend_on_threads_resumes_or_output() {
+    for schedule in SCHEDULES {
+        for relaxation in [Relaxation::EveryMove, Relaxation::Global { ratio: 1 }] {
+            let change = |it: &mut Parameters| {
+                it.schedule = schedule;
+                it.relaxation = relaxation;
+            };
+            let whole = after(0.8, change);
+            let mut pieces = simulation(change);
+            pieces.use_threads(2).expect("threads");
+            for part in 1..=5 {
+                pieces
+                    .advance_to(f64::from(part) * 0.08)
+                    .expect("no guard breaks");
+            }
+            let saved = pieces.save().expect("saved");
+            let parameters = pieces.parameters().clone();
+            let mut resumed = Simulation::restore(parameters, &saved).expect("restored");
+            resumed.use_threads(3).expect("threads");
+            resumed.advance_to(0.8).expect("no guard breaks");
+            assert_eq!(
+                whole.positions(),
+                resumed.positions(),
+                "{schedule:?}, {relaxation:?}"
+            );
+            assert_eq!(whole.spots(), resumed.spots());
+            assert_eq!(whole.counts(), resumed.counts());
+            assert!(whole.counts().sortings > 0);
+        }
+    }
+}
+
+#[test]
+fn packings_are_worse_the_rarer_the_relaxation() {
+    let badness_of = |relaxation| badness(&after(2.5, |it| it.relaxation = relaxation));
+    let orders = [
+        vec![
+            Relaxation::EveryMove,
+            Relaxation::AtRandom { ratio: 10 },
+            Relaxation::AtRandom { ratio: 100 },
+            Relaxation::Off,
+        ],
+        vec![
+            Relaxation::Counted { ratio: 10 },
+            Relaxation::Global { ratio: 1 },
+            Relaxation::Global { ratio: 10 },
+            Relaxation::Off,
+        ],
+    ];
+    for order in orders {
+        let values: Vec<f64> = order.into_iter().map(badness_of).collect();
+        assert!(
+            values.is_sorted_by(|less, more| 1.3 * less < *more),
+            "{values:?}"
+        );
+    }
+}
+
+#[test]
+fn biased_spots_die_at_the_surface_and_weighted_ones_push_harder() {
+    let biased = Walk::Biased { exponent: 3.0 };
+    for influence in [Influence::Fixed, Parameters::weighting(0.1)] {
+        let simulation = after(7.0, |it| {
+            it.walk = biased;
+            it.influence = influence;
+            it.removal_height = 50.0;
+            it.relaxation = Relaxation::AtRandom { ratio: 10 };
+        });
+        let top = simulation
+            .positions()
+            .iter()
+            .flatten()
+            .fold(0.0, |most: f64, it| most.max(it.z));
+        let highest = simulation
+            .spots()
+            .iter()
+            .fold(0.0, |most: f64, it| most.max(it.position.z));
+        assert!(simulation.counts().removed > 0);
+        assert!(highest < top + 2.7, "{highest} above {top}");
+    }
+}
+
+#[test]
+fn guards_name_what_broke() {
+    let mut twice = packing().to_vec();
+    twice.push(packing()[700]);
+    let start = Simulation::new(parameters(), &twice, 1);
+    let failure = start
+        .expect("a start")
+        .advance_to(4.0)
+        .expect_err("a guard breaks");
+    assert_eq!(failure.guard, Guard::NotANumber);
+    assert!(failure.sphere.is_some() && failure.moves > 0);
+    let near = packing()[700] + Vector::new(0.01, 0.0, 0.0);
+    twice[2000] = near;
+    twice.push(near + Vector::new(0.0, 0.01, 0.0));
+    let start = Simulation::new(parameters(), &twice, 1);
+    let failure = start
+        .expect("a start")
+        .advance_to(4.0)
+        .expect_err("a guard breaks");
+    assert_eq!(failure.guard, Guard::Displacement);
+    let crowd = vec![Vector::new(0.0, 0.0, 2.0); 100];
+    let Err(StartError::Failure(failure)) = Simulation::new(parameters(), &crowd, 1) else {
+        panic!("a crowd is refused");
+    };
+    assert_eq!(failure.guard, Guard::Crowded);
+    let outside = [Vector::new(0.0, 3.6, 2.0)];
+    let outside = Simulation::new(parameters(), &outside, 1);
+    assert!(matches!(
+        outside,
+        Err(StartError::Outside { sphere: 0, .. })
+    ));
+}
+
+#[test]
+fn checkpoints_of_other_runs_and_broken_ones_are_refused() {
+    let saved = simulation(|_| {}).save().expect("saved");
+    let other = Parameters::figure_2(1.0);
+    let refused = Simulation::restore(other, &saved).expect_err("other parameters");
+    assert_eq!(refused, StartError::OtherParameters);
+    let broken = Simulation::restore(parameters(), &saved[..saved.len() / 2]);
+    assert!(matches!(broken, Err(StartError::Checkpoint(_))));
+}
+
+#[test]
+fn start_packings_are_dense_and_without_overlap() {
+    let packing = packing();
+    let fraction = packing::packing_fraction(&parameters(), packing);
+    assert!((0.62..0.66).contains(&fraction), "{fraction}");
+    for (second, centre) in packing.iter().enumerate() {
+        assert!(centre.x.abs() <= 6.5 && centre.y.abs() <= 3.5 && centre.z >= 0.5);
+        for other in &packing[..second] {
+            assert!((*centre - *other).norm() >= 1.0 - 1e-9);
+        }
+    }
+}
