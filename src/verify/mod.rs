@@ -27,6 +27,7 @@ mod oscillation;
 mod rolling;
 mod rolling_resistance;
 mod silbert;
+mod spot_flow;
 mod stack;
 mod step_limit;
 mod tangential_loop;
@@ -48,7 +49,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::AtomicBool;
 
 /// The tables of all families.
-const TABLES: [&str; 18] = [
+const TABLES: [&str; 19] = [
     include_str!("impact.toml"),
     include_str!("dashpot.toml"),
     include_str!("silbert.toml"),
@@ -67,6 +68,7 @@ const TABLES: [&str; 18] = [
     include_str!("critical_rotation.toml"),
     include_str!("step_limit.toml"),
     include_str!("convergence.toml"),
+    include_str!("spot_flow.toml"),
 ];
 
 /// A set-up whose outcome is known.
@@ -160,6 +162,8 @@ pub enum Setup {
     StepLimit(step_limit::StepLimit),
     /// A scene with ever smaller time steps.
     Convergence(convergence::Convergence),
+    /// Spots that rise through a packing.
+    SpotFlow(spot_flow::SpotFlow),
 }
 
 impl Setup {
@@ -183,6 +187,7 @@ impl Setup {
             Self::CriticalRotation(it) => it,
             Self::StepLimit(it) => it,
             Self::Convergence(it) => it,
+            Self::SpotFlow(it) => it,
         }
     }
 
@@ -270,6 +275,9 @@ pub enum VerifyError {
     /// A guard ended the simulation.
     #[error(transparent)]
     Unstable(#[from] Instability),
+    /// Spots cannot begin, or break a guard.
+    #[error("{0}")]
+    Spots(String),
     /// It was told to stop.
     #[error("stopped before its end")]
     Stopped,

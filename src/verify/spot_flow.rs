@@ -1,0 +1,94 @@
+//! Spots that rise through a packing.
+
+use super::bench::Bench;
+use super::{Family, Measured, VerifyError, named};
+use crate::spot::packing::random_packing;
+use crate::spot::{Orifice, Parameters, Relaxation, Schedule, Simulation};
+use serde::Deserialize;
+
+/// Spots enter a box at a constant rate and rise, until before the first is at the top. Spheres
+/// follow them, and their overlaps are removed all at once.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SpotFlow {
+    /// Number of spheres, of a diameter of 1 m.
+    spheres: usize,
+    /// Width and depth of the box (m).
+    sides: [f64; 2],
+    /// Steps of a spot along x and y, and along z (m).
+    step: [f64; 2],
+    /// Spots that enter per second, and steps of each (1/s).
+    rates: [f64; 2],
+    /// Whether spots move in steps of a time of their own, or all at once.
+    #[serde(default)]
+    all_at_once: bool,
+    /// When spots are looked at (s).
+    time: f64,
+    seed: u64,
+}
+
+/// Heights between which spots are counted (m): above the first step, and below the front.
+const LOWEST: f64 = 0.5;
+const BELOW_FRONT: f64 = 0.85;
+
+impl Family for SpotFlow {
+    fn name(&self) -> &'static str {
+        "spot-flow"
+    }
+
+    fn measure(&self, _: &mut Bench<'_>) -> Result<Measured, VerifyError> {
+        let spots = |error: &dyn std::fmt::Display| VerifyError::Spots(error.to_string());
+        let parameters = self.parameters();
+        let packing = random_packing(&parameters, self.spheres, self.seed, 1);
+        let packing = packing.map_err(|error| spots(&error))?;
+        let mut simulation =
+            Simulation::new(parameters, &packing, self.seed).map_err(|error| spots(&error))?;
+        simulation
+            .advance_to(self.time)
+            .map_err(|error| spots(&error))?;
+        let [across, up] = self.step;
+        let highest = BELOW_FRONT * self.rates[1] * up * self.time;
+        let places = simulation.spots().iter().map(|spot| spot.position);
+        let counted: Vec<_> = places
+            .filter(|place| (LOWEST..highest).contains(&place.z))
+            .collect();
+        let count = counted.len() as f64;
+        let per_height = count / (highest - LOWEST);
+        // x^2 over the variance of as many steps as lead to that height.
+        let variances = counted
+            .iter()
+            .map(|place| place.x * place.x / (across * across * place.z / up));
+        Ok(named([
+            ("spots_per_height", per_height),
+            (
+                "front_speed",
+                simulation.spots().len() as f64 / (per_height * self.time),
+            ),
+            ("spread_over_walk", variances.sum::<f64>() / count),
+            (
+                "spheres",
+                (simulation.spheres_inside() + simulation.spheres_left()) as f64,
+            ),
+        ]))
+    }
+}
+
+impl SpotFlow {
+    fn parameters(&self) -> Parameters {
+        let [across, up] = self.step;
+        Parameters {
+            half_width: 0.5 * self.sides[0],
+            half_depth: 0.5 * self.sides[1],
+            orifice: Orifice::Circle { radius: 4.0 },
+            step: [across, across, up],
+            insertion_rate: self.rates[0],
+            move_rate: self.rates[1],
+            schedule: match self.all_at_once {
+                false => Schedule::Events,
+                true => Schedule::StepsInRandomOrder,
+            },
+            relaxation: Relaxation::Global { ratio: 1 },
+            ..Parameters::figure_2(1.0)
+        }
+    }
+}
