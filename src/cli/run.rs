@@ -119,7 +119,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     folders::refuse_to_replace(&path, "a record", store::HDF5_SIGNATURE)?;
     let table = scene.has_flow().then(|| beside(&path));
     if let Some(table) = &table {
-        folders::refuse_to_replace(table, "a table of observables", b"time,kinetic,")?;
+        // The first columns of what is observed; spots have no energies.
+        let columns: &[u8] = match scene.spot {
+            Some(_) => b"time,height_mean,",
+            None => b"time,kinetic,",
+        };
+        folders::refuse_to_replace(table, "a table of observables", columns)?;
     }
     folders::make_for(&path)?;
     let _lock = lock(&path)?;

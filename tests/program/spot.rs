@@ -56,6 +56,26 @@ fn a_box_drains_with_the_same_bits_for_any_number_of_threads() {
     }
 }
 
+/// Symptom: a second run to the same record was refused. Cause: its table of observables has no
+/// energies, and counted as somebody else's.
+#[test]
+fn a_run_replaces_its_own_table() {
+    let place = Workplace::new();
+    let short = drainage_file().replace("duration = 4.0", "duration = 1.0");
+    place.write("scene.toml", &short);
+    for _ in 0..2 {
+        place
+            .phase(&["run", "scene.toml", "--out", "run.h5"])
+            .code(0)
+            .says("run-observations.csv");
+    }
+    place.write("run-observations.csv", "time,place\n");
+    place
+        .phase(&["run", "scene.toml", "--out", "run.h5"])
+        .code(2)
+        .complains("not a table of observables");
+}
+
 /// The start packing is dense and without overlap, is kept, and serves both models.
 #[test]
 fn both_models_start_with_the_same_packing() {
