@@ -3,8 +3,7 @@
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::folders;
-use phase::classify::LabelTable;
-use phase::classify::{FAMILIES, Family};
+use phase::classify::{DRAINAGE, FAMILIES, Family, LabelTable};
 use phase::plot::{self, PlotError, Svg};
 use phase::record::{Program, RunRecord};
 use phase::store;
@@ -64,7 +63,7 @@ struct RecordFigure {
 }
 
 /// The figures of a single run.
-const OF_RECORD: [RecordFigure; 5] = [
+const OF_RECORD: [RecordFigure; 7] = [
     RecordFigure {
         name: "tracks",
         description: "paths of the spheres, from the record of one run with its trajectory",
@@ -90,10 +89,23 @@ const OF_RECORD: [RecordFigure; 5] = [
         description: "the spheres at the end of one run",
         draw: |record| plot::draw_single("states", record),
     },
+    RecordFigure {
+        name: "surface-angle",
+        description: "angle of the free surface of one drainage over time",
+        draw: |record| plot::draw_single("surface-angle", record),
+    },
+    RecordFigure {
+        name: "radial-distribution",
+        description: "radial distribution function of one drainage",
+        draw: |record| plot::draw_single("radial-distribution", record),
+    },
 ];
 
 /// Those of them that are drawn if none is asked for, as far as the record holds them.
 const DEFAULT_OF_RECORD: [&str; 2] = ["tracks", "ledger"];
+
+/// The same for a drainage.
+const DEFAULT_OF_DRAINAGE: [&str; 2] = ["surface-angle", "radial-distribution"];
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let (mut figures, mut fits) = (Vec::new(), Vec::new());
@@ -376,11 +388,15 @@ fn draw_record(path: &Path, arguments: &Arguments, console: &Console) -> Result<
     }
     let record = store::read_record(path).map_err(Failure::refused)?;
     let refused = |error| Failure::failed(format_args!("{}: {error}", path.display()));
+    let defaults = match Family::of(&record.scene) == &DRAINAGE {
+        true => DEFAULT_OF_DRAINAGE,
+        false => DEFAULT_OF_RECORD,
+    };
     let mut missing = None;
     let mut drawn = 0;
     for figure in &OF_RECORD {
         let is_wanted = match names {
-            [] => DEFAULT_OF_RECORD.contains(&figure.name),
+            [] => defaults.contains(&figure.name),
             names => names.iter().any(|name| name == figure.name),
         };
         if !is_wanted {

@@ -69,6 +69,11 @@ fn a_run_replaces_its_own_table() {
             .code(0)
             .says("run-observations.csv");
     }
+    place
+        .phase(&["plot", "run.h5"])
+        .code(0)
+        .says("run-surface-angle.png")
+        .says("run-radial-distribution.png");
     place.write("run-observations.csv", "time,place\n");
     place
         .phase(&["run", "scene.toml", "--out", "run.h5"])
