@@ -1,0 +1,60 @@
+//! A box filled with spheres, and its parts in which drainages are measured.
+
+use super::Region;
+use crate::simulation::Snapshot;
+
+/// A box filled with spheres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilledBox {
+    /// From the axis to the side walls along x (m).
+    pub half_width: f64,
+    /// From the axis to the walls along y (m).
+    pub half_depth: f64,
+    /// Height of the floor (m).
+    pub floor: f64,
+    /// Height of the highest centre at the start above the floor (m).
+    pub filled: f64,
+    /// Diameter of the spheres (m).
+    pub diameter: f64,
+}
+
+impl FilledBox {
+    /// A box with spheres of this diameter in it as in a first snapshot.
+    ///
+    /// * `reach`: from the axis to the walls along x and along y (m)
+    pub fn new(reach: [f64; 2], floor: f64, diameter: f64, start: &Snapshot) -> Self {
+        let heights = start.position.column(2).into_iter();
+        let heights = heights.filter(|it| it.is_finite());
+        let top = heights.copied().fold(floor, f64::max);
+        Self {
+            half_width: reach[0],
+            half_depth: reach[1],
+            floor,
+            filled: top - floor,
+            diameter,
+        }
+    }
+
+    /// A part of the box about its axis: as wide as `across` of its width, over all of its depth,
+    /// between two shares of the height to which it was filled.
+    pub fn part(&self, across: f64, heights: [f64; 2]) -> Region {
+        let [low, high] = heights.map(|share| self.floor + share * self.filled);
+        let [x, y] = [across * self.half_width, self.half_depth];
+        Region {
+            low: [-x, -y, low],
+            high: [x, y, high],
+        }
+    }
+
+    /// Where packings are measured, the middle of the lower half: -15 d < x < 15 d and
+    /// 15 d < z < 45 d in Rycroft, Wong and Bazant (2010), over the half width of their box and the
+    /// height of its packing.
+    pub fn middle(&self) -> Region {
+        self.part(0.6, [0.14, 0.41])
+    }
+
+    /// Where mixing is measured: the lower half.
+    pub fn lower_half(&self) -> Region {
+        self.part(1.0, [0.0, 0.5])
+    }
+}
