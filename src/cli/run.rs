@@ -33,6 +33,9 @@ const MOST_THREADS: usize = 256;
 Example: one scene with another seed
   phase run sweeps/scenes/theoretical.toml --seed 7 --out tank-7.h5
 
+Example: the same with other keys
+  phase run sweeps/scenes/theoretical.toml --set swirl.omega=12 --without updraught --out slow.h5
+
 Example: one job of a sweep, this time with all spheres at every frame
   phase run --from results/quick --point radius=0.003,omega=6 --trajectory --out spout.h5
 
@@ -61,6 +64,14 @@ pub(crate) struct Arguments {
     /// Seed in place of the scene's.
     #[arg(short, long, conflicts_with = "from", value_parser = super::seed)]
     seed: Option<u64>,
+    /// A key of the scene with another value, such as `spot.walk.bias=3`; may be given several
+    /// times.
+    #[arg(long, value_name = "KEY=VALUE", conflicts_with = "from", value_parser = setting)]
+    set: Vec<String>,
+    /// A table or key to leave out of the scene, such as `spot.weighting`; may be given several
+    /// times.
+    #[arg(long, value_name = "KEY", conflicts_with = "from")]
+    without: Vec<String>,
     /// Store position, velocity and spin of every sphere at every frame.
     #[arg(short, long)]
     trajectory: bool,
@@ -95,10 +106,21 @@ fn threads(text: &str) -> Result<usize, String> {
     }
 }
 
+/// Parses a setting as far as it needs an equals sign.
+fn setting(text: &str) -> Result<String, String> {
+    match text.split_once('=') {
+        Some((key, value)) if !key.trim().is_empty() && !value.trim().is_empty() => {
+            Ok(text.to_owned())
+        }
+        _ => Err("give a key and its value, such as `time.duration=10`".to_owned()),
+    }
+}
+
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let (mut scene, default_path, original) = match (&arguments.scene, &arguments.from) {
         (Some(file), _) => {
-            let mut scene = Scene::load(file).map_err(Failure::refused)?;
+            let scene = Scene::load_with(file, &arguments.set, &arguments.without);
+            let mut scene = scene.map_err(Failure::refused)?;
             scene.seed = arguments.seed.unwrap_or(scene.seed);
             (scene, default_record(file), None)
         }

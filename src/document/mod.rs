@@ -103,6 +103,19 @@ impl Document {
         &self.tree
     }
 
+    /// The keys and tables that are not within others, with their values.
+    pub(crate) fn entries(&self) -> Vec<(String, Value)> {
+        let table = self.tree.as_object().into_iter().flatten();
+        table
+            .map(|(key, value)| (key.clone(), value.clone()))
+            .collect()
+    }
+
+    /// Whether the file has a key or table of this path.
+    pub(crate) fn holds(&self, path: &str) -> bool {
+        self.places.contains_key(path)
+    }
+
     /// The file.
     pub(crate) fn path(&self) -> &Path {
         &self.path

@@ -2,7 +2,7 @@
 
 use crate::dem::SAFETY_FACTOR;
 use crate::document::{Document, LoadError, Problem};
-use crate::scene::{AUTO, FileKind, SCENE, Scene, settings};
+use crate::scene::{AUTO, Change, FileKind, SCENE, Scene, settings};
 use serde_json::Value;
 use std::path::Path;
 
@@ -27,6 +27,41 @@ impl Scene {
         load_base_with(path, Reading::RUN)
     }
 
+    /// Like [`load`](Self::load), with keys set or left out that a command line names.
+    ///
+    /// * `set`: settings such as `spot.walk.bias=3`; a value that is no TOML is a text
+    /// * `remove`: paths of tables or keys, such as `spot.weighting`
+    ///
+    /// # Errors
+    /// Those of [`load`](Self::load), where problems of a setting point to it.
+    pub fn load_with(path: &Path, set: &[String], remove: &[String]) -> Result<Self, LoadError> {
+        let document = Document::read(path)?;
+        FileKind::Scene.expect(&document)?;
+        let settings = set.iter().map(|text| setting(text));
+        let settings: Vec<Document> = settings.collect::<Result<_, _>>()?;
+        let mut tree = document.tree().clone();
+        let refuse = |problems: Vec<Problem>| refuse(&document, &settings, &problems);
+        let absent = remove
+            .iter()
+            .filter(|path| !document.holds(path))
+            .map(|path| Problem::new("", format!("--without {path}: the scene has no such key")));
+        let mut problems: Vec<Problem> = absent.collect();
+        let change = Change {
+            set: settings.iter().flat_map(Document::entries).collect(),
+            remove: remove.to_vec(),
+            ..Change::default()
+        };
+        if let Err(path) = change.apply(&mut tree) {
+            problems.push(Problem::new("", format!("--set {path}: not in a table")));
+        }
+        if !problems.is_empty() {
+            return Err(refuse(problems));
+        }
+        let mut scene = base_of_tree(&tree, document.folder(), Reading::RUN).map_err(refuse)?;
+        scene.time.safety_factor = None;
+        Ok(scene)
+    }
+
     /// Like [`load`](Self::load), with `text` for the content of the file `path`.
     ///
     /// # Errors
@@ -34,6 +69,36 @@ impl Scene {
     pub fn from_toml(text: &str, path: &Path) -> Result<Self, LoadError> {
         of_document(&Document::parse(text.to_owned(), path)?)
     }
+}
+
+/// A setting of a command line as a file of one line.
+fn setting(text: &str) -> Result<Document, LoadError> {
+    let path = Path::new("--set");
+    let parsed = Document::parse(text.to_owned(), path);
+    match text.split_once('=') {
+        // Texts need no quotes, which the shell would take away.
+        Some((key, value)) if parsed.is_err() => {
+            let quoted = format!("{key}={}", Value::from(value.trim()));
+            Document::parse(quoted, path).or(parsed)
+        }
+        _ => parsed,
+    }
+}
+
+/// An error that points to the places of problems in a file, or in the settings beside it.
+fn refuse(document: &Document, settings: &[Document], problems: &[Problem]) -> LoadError {
+    let mut findings = Vec::new();
+    for problem in problems {
+        let holder = settings.iter().find(|it| it.holds(&problem.path));
+        let refused = holder
+            .unwrap_or(document)
+            .refuse(std::slice::from_ref(problem));
+        match refused {
+            LoadError::Invalid(found) => findings.extend(found),
+            read @ LoadError::Read { .. } => return read,
+        }
+    }
+    LoadError::Invalid(findings)
 }
 
 /// Like [`Scene::load_base`], for another purpose.
