@@ -29,6 +29,10 @@ Example: the run at five times, then at two of one's own
 Example: two silos at rest beside each other
   phase view silo.h5 silo-mixture.h5 --time at-rest --color radius --out silos.png
 
+Example: layers of a drainage in a cut through the middle, and what is near the orifice
+  phase view drainage.h5 --time 60 --color layer --cut --out layers.png
+  phase view drainage.h5 --time 60 --color packing-fraction --cut --window -15,15,0,40
+
 Example: an animation in real time; APNG (.png) keeps smaller files, GIF is shown by every program
   phase run --from results/quick --point radius=0.003,omega=6 --snapshot-interval 0.05 \\
     --out spout.h5
@@ -65,6 +69,13 @@ pub(crate) struct Arguments {
     /// What the colours stand for.
     #[arg(long, value_name = "WHAT", default_value = "speed")]
     color: Color,
+    /// Show a cut through the middle, from the side: only spheres behind the axis.
+    #[arg(long)]
+    cut: bool,
+    /// What is seen, from the side (m): least and largest x, least and largest z.
+    #[arg(long, value_name = "X,X,Z,Z", value_delimiter = ',', num_args = 1,
+          allow_hyphen_values = true, value_parser = number)]
+    window: Vec<f64>,
     /// Width of a panel (pixels).
     #[arg(long, value_name = "PIXELS", default_value_t = 320,
           value_parser = clap::value_parser!(u32).range(40..=4000))]
@@ -85,8 +96,19 @@ enum Color {
     Radius,
     /// The sphere: neighbours in the list differ.
     Index,
+    /// The layer in which a sphere started, of ten diameters each: two colours by turns.
+    Layer,
+    /// Packing fraction, of Voronoi cells.
+    PackingFraction,
     /// Nothing; grains of a silo are blue.
     None,
+}
+
+/// Parses a number.
+fn number(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse().ok();
+    let finite = number.filter(|number: &f64| number.is_finite());
+    finite.ok_or_else(|| "give a number".to_owned())
 }
 
 /// Panels if no times are asked for.

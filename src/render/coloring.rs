@@ -1,13 +1,15 @@
 //! What the colours of the spheres stand for.
 
 use crate::color::ColorMap;
+use crate::measure::{Centres, Layers, Walls, voronoi_cells};
 use crate::observe::Snapshot;
+use std::f64::consts::PI;
 
 /// Red, green and blue.
 pub type Rgb = [u8; 3];
 
 /// What the colours of the spheres stand for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum ColorBy {
     /// Nothing: all have one colour.
     Nothing,
@@ -32,7 +34,25 @@ pub enum ColorBy {
     },
     /// Index of the sphere: neighbours in the list differ, so that single spheres can be followed.
     Index,
+    /// The layer in which a sphere started, two colours by turns.
+    Layer {
+        /// Thickness of a layer (m).
+        thickness: f64,
+        /// The layer of every sphere that was there at the start.
+        of: Vec<Option<usize>>,
+    },
+    /// Packing fraction: volume of the sphere over that of its Voronoi cell, from
+    /// [`LOOSEST`](Self::LOOSEST) to [`DENSEST`](Self::DENSEST).
+    PackingFraction {
+        /// Where cells end.
+        walls: Walls,
+    },
 }
+
+/// Colours of layers, by turns (those of Okabe and Ito, 2008).
+const LAYERS: [Rgb; 2] = [[0xf0, 0xe4, 0x42], [0x56, 0xb4, 0xe9]];
+/// How far cells reach from centres at a free surface, in diameters.
+const FARTHEST: f64 = 0.75;
 
 /// Colour of spheres whose colour stands for nothing.
 const PLAIN: Rgb = [0xd8, 0xb4, 0x6a];
@@ -41,6 +61,30 @@ const PLAIN: Rgb = [0xd8, 0xb4, 0x6a];
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 impl ColorBy {
+    /// Packing fractions of the first and of the last colour.
+    pub const LOOSEST: f64 = 0.45;
+    /// See [`LOOSEST`](Self::LOOSEST).
+    pub const DENSEST: f64 = 0.75;
+
+    /// By layers of this thickness (m) above a floor at this height (m), of the state at the start.
+    pub fn layers_of(start: &Snapshot, floor: f64, thickness: f64) -> Self {
+        let of = Layers { floor, thickness }.of(start);
+        Self::Layer { thickness, of }
+    }
+
+    /// By packing fraction, of spheres of this diameter (m) between walls at x = -reach\[0\] and
+    /// reach\[0\], and the same of y, above a floor (m); where there are none cells end near the
+    /// spheres.
+    pub fn packing_fraction(reach: [Option<f64>; 2], floor: Option<f64>, diameter: f64) -> Self {
+        let [x, y] = reach.map(|it| it.unwrap_or(f64::MAX));
+        let walls = Walls {
+            low: [-x, -y, floor.unwrap_or(-f64::MAX)],
+            high: [x, y, f64::MAX],
+            farthest: FARTHEST * diameter,
+        };
+        Self::PackingFraction { walls }
+    }
+
     /// By speed, up to the highest of these snapshots.
     pub fn speed_of<'a>(snapshots: impl IntoIterator<Item = &'a Snapshot>) -> Self {
         let fastest = snapshots
@@ -67,17 +111,37 @@ impl ColorBy {
     }
 
     /// The colour of every sphere of a snapshot; `radius` holds the radius of each (m).
-    pub fn colors(self, snapshot: &Snapshot, radius: &[f64]) -> Vec<Rgb> {
+    pub fn colors(&self, snapshot: &Snapshot, radius: &[f64]) -> Vec<Rgb> {
+        if let Self::PackingFraction { walls } = self {
+            return by_packing_fraction(snapshot, radius, walls);
+        }
         (0..snapshot.position.nrows())
-            .map(|sphere| match self {
+            .map(|sphere| match *self {
                 Self::Nothing => PLAIN,
                 Self::Speed { fastest } => mapped(speed(snapshot, sphere), 0.0, fastest),
                 Self::Height { low, high } => mapped(snapshot.position[[sphere, 2]], low, high),
                 Self::Radius { low, high } => mapped(radius[sphere], low, high),
                 Self::Index => ColorMap::Sequential.at((GOLDEN * sphere as f64) % 1.0),
+                Self::Layer { ref of, .. } => {
+                    let layer = of.get(sphere).copied().flatten();
+                    layer.map_or(PLAIN, |layer| LAYERS[Layers::color(layer)])
+                }
+                Self::PackingFraction { .. } => PLAIN,
             })
             .collect()
     }
+}
+
+fn by_packing_fraction(snapshot: &Snapshot, radius: &[f64], walls: &Walls) -> Vec<Rgb> {
+    let centres = Centres::of(snapshot);
+    let cells = voronoi_cells(&centres, walls);
+    let mut colors = vec![PLAIN; snapshot.position.nrows()];
+    for (sphere, cell) in centres.number.iter().zip(cells) {
+        let radius = radius[*sphere];
+        let fraction = 4.0 / 3.0 * PI * radius * radius * radius / cell.volume;
+        colors[*sphere] = mapped(fraction, ColorBy::LOOSEST, ColorBy::DENSEST);
+    }
+    colors
 }
 
 /// The least and the largest of these values.

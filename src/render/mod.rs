@@ -24,8 +24,8 @@ pub use coloring::{ColorBy, Rgb};
 pub use flat::Scenery;
 pub use image::Image;
 pub use panel::strip;
-pub use sheet::Sheet;
 pub(crate) use sheet::round_down;
+pub use sheet::{Sheet, Sides};
 pub use stage::Stage;
 
 use crate::observe::Snapshot;

@@ -12,7 +12,7 @@ const LETTERS: [f64; 2] = [0.7, 0.55];
 /// Space between pictures over the width of a panel.
 const GAP: f64 = 0.03;
 
-/// The view from the side, and that from above, at one scale.
+/// Views of cameras, at one scale.
 ///
 /// Units of `radius` and meaning of `color` are those of [`picture`].
 pub(super) fn views(
@@ -20,13 +20,14 @@ pub(super) fn views(
     radius: &[f64],
     color: &[Rgb],
     stage: &Stage,
+    cameras: &[Camera],
     width: usize,
 ) -> Vec<Image> {
-    let views = [Camera::side(stage), Camera::top(stage)].map(|camera| {
+    let views = cameras.iter().map(|camera| {
         let height = share(1.0 / camera.aspect(), width);
-        picture(snapshot, radius, color, stage, &camera, width, height)
+        picture(snapshot, radius, color, stage, camera, width, height)
     });
-    let mut views = Vec::from(views);
+    let mut views: Vec<Image> = views.collect();
     if stage.radius.is_none() {
         // No wall shows where the picture ends.
         views.iter_mut().for_each(Image::outline);
@@ -92,12 +93,12 @@ fn share(share: f64, width: usize) -> usize {
     (share * width as f64).round().max(1.0) as usize
 }
 
-/// Height of a panel of that width (pixels), with that many lines of a caption.
-pub(super) fn height(stage: &Stage, is_flat: bool, lines: usize, width: usize) -> usize {
-    let cameras = [Camera::side(stage), Camera::top(stage)];
+/// Height of a panel of that width (pixels), with these views and that many lines of a caption.
+pub(super) fn height(cameras: &[Camera], lines: usize, width: usize) -> usize {
     let gap = share(GAP, width);
-    let views = cameras[..if is_flat { 1 } else { 2 }].iter();
-    let views = views.map(|camera| gap + share(1.0 / camera.aspect(), width));
+    let views = cameras
+        .iter()
+        .map(|camera| gap + share(1.0 / camera.aspect(), width));
     lines * share(CAPTION, width) + views.sum::<usize>()
 }
 

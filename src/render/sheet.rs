@@ -16,6 +16,18 @@ const BAR: f64 = 5.0;
 /// From this number of panels on, legend and length stand beside each other.
 const WIDE: usize = 2;
 
+/// Which sides of the spheres are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Sides {
+    /// The view from the side, and that from above.
+    #[default]
+    Both,
+    /// The view from the side.
+    Side,
+    /// The view from the side of the half behind the axis: a cut through the middle.
+    Cut,
+}
+
 /// What the pictures of a run have in common.
 #[derive(Clone, Debug)]
 pub struct Sheet {
@@ -27,6 +39,8 @@ pub struct Sheet {
     pub stage: Stage,
     /// What the colours stand for.
     pub color: ColorBy,
+    /// Which sides are shown of a view that is not flat.
+    pub sides: Sides,
     /// What a flat view shows besides the spheres. Without it, panels show the view from the side
     /// and that from above.
     pub flat: Option<Scenery>,
@@ -43,16 +57,31 @@ impl Sheet {
                 let view = panel::flat_view(snapshot, radius, colors, scenery, stage, width);
                 vec![view]
             }
-            None => panel::views(snapshot, radius, &colors, stage, width),
+            None => {
+                let shown = match self.sides {
+                    Sides::Cut => &without_front(snapshot),
+                    Sides::Both | Sides::Side => snapshot,
+                };
+                panel::views(shown, radius, &colors, stage, &self.cameras(), width)
+            }
         };
         panel::panel(&views, width, caption)
+    }
+
+    /// The views of a panel, from above.
+    fn cameras(&self) -> Vec<Camera> {
+        let mut cameras = vec![Camera::side(&self.stage)];
+        if self.flat.is_none() && self.sides == Sides::Both {
+            cameras.push(Camera::top(&self.stage));
+        }
+        cameras
     }
 
     /// Height of a picture of `count` panels of that width (pixels), with so many lines of a
     /// caption.
     pub fn height(&self, count: usize, lines: usize, width: usize) -> usize {
         let words = Words::new(self, count, width);
-        let panel = panel::height(&self.stage, self.flat.is_some(), lines, width);
+        let panel = panel::height(&self.cameras(), lines, width);
         words.head + panel + words.foot
     }
 
@@ -70,6 +99,17 @@ impl Sheet {
         picture.paste(&foot, 0, words.head + strip.height);
         picture
     }
+}
+
+/// The state without the spheres in front of the axis.
+fn without_front(snapshot: &Snapshot) -> Snapshot {
+    let mut behind = snapshot.clone();
+    for mut centre in behind.position.rows_mut() {
+        if centre[1] < 0.0 {
+            centre.fill(f64::NAN);
+        }
+    }
+    behind
 }
 
 /// The words of a sheet, and the room for them (pixels).
@@ -132,22 +172,29 @@ impl Words {
     }
 
     fn draw_foot(&self, sheet: &Sheet, panel: usize) -> Image {
-        let legend = self.legend(sheet.color);
+        let legend = self.legend(&sheet.color);
         let row = usize::from(!legend.is_empty() && !self.is_wide);
         let elements = legend + &self.length(&sheet.stage, panel, row);
         vector::drawing(&elements, self.width, self.foot)
     }
 
     /// Which colour stands for what, as elements.
-    fn legend(&self, color: ColorBy) -> String {
+    fn legend(&self, color: &ColorBy) -> String {
         let (size, base) = (self.size, self.base(0) + self.gap());
         let words = |words: &str| vector::text(words, (size, base), size, Anchor::Start);
-        let (label, low, high) = match color {
+        let (label, low, high) = match *color {
             ColorBy::Nothing => return String::new(),
             ColorBy::Index => return words("colours tell spheres apart"),
             ColorBy::Speed { fastest } => ("speed (m/s)", 0.0, fastest),
             ColorBy::Height { low, high } => ("height (m)", low, high),
             ColorBy::Radius { low, high } => ("radius (mm)", 1e3 * low, 1e3 * high),
+            ColorBy::Layer { thickness, .. } => {
+                let thickness = number(thickness);
+                return words(&format!("colours: layers of {thickness} m at the start"));
+            }
+            ColorBy::PackingFraction { .. } => {
+                ("packing fraction", ColorBy::LOOSEST, ColorBy::DENSEST)
+            }
         };
         if low >= high {
             return words(&format!("{label}: {} everywhere", number(low)));

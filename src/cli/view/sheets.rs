@@ -5,7 +5,7 @@ use crate::cli::console::Console;
 use crate::cli::exit::Failure;
 use phase::observe::Snapshot;
 use phase::record::RunRecord;
-use phase::render::{ColorBy, Image, Scenery, Sheet, Stage};
+use phase::render::{ColorBy, Image, Scenery, Sheet, Sides, Stage};
 use phase::sweep::work;
 
 /// Greatest height of the view from the side, over its width.
@@ -29,18 +29,34 @@ impl<'a> Sheets<'a> {
     /// # Errors
     /// If some runs are drawn flat and others are not.
     pub(super) fn new(runs: &'a [Run<'a>], arguments: &Arguments) -> Result<Self, Failure> {
+        let window = window(&arguments.window)?;
+        let sides = match (arguments.cut, window) {
+            (true, _) => Sides::Cut,
+            (false, Some(_)) => Sides::Side,
+            (false, None) => Sides::Both,
+        };
         let all = || runs.iter().flat_map(|run| run.shown.iter().copied());
         let color = match arguments.color {
             Color::Speed => ColorBy::speed_of(all()),
             Color::Height => ColorBy::height_of(all()),
             Color::Radius => ColorBy::radius_of(runs.iter().flat_map(|run| &run.record.radius)),
             Color::Index => ColorBy::Index,
-            Color::None => ColorBy::Nothing,
+            // Those of each run.
+            Color::Layer | Color::PackingFraction | Color::None => ColorBy::Nothing,
         };
-        let mut sheets: Vec<Sheet> = runs.iter().map(|run| sheet(run, color)).collect();
+        let color = |run| own_color(run, arguments.color).unwrap_or_else(|| color.clone());
+        let mut sheets: Vec<Sheet> = runs.iter().map(|run| sheet(run, color(run))).collect();
         if sheets.iter().any(|it| it.flat.is_some()) && sheets.iter().any(|it| it.flat.is_none()) {
             return Err(Failure::refused(
                 "scenes of discs are drawn flat, others from two sides: draw them apart",
+            ));
+        }
+        if sheets.iter().any(|it| it.flat.is_some())
+            && (sides != Sides::Both || arguments.color == Color::PackingFraction)
+        {
+            return Err(Failure::refused(
+                "scenes of discs are drawn flat: they have neither --cut nor --window, nor packing \
+                 fractions",
             ));
         }
         if runs.len() == 1 {
@@ -49,9 +65,15 @@ impl<'a> Sheets<'a> {
             sheets[0].title = title.chain([words::place(record)]).collect();
         }
         let stages = sheets.iter().map(|sheet| sheet.stage.seen);
-        let seen = stages.reduce(union).unwrap_or_default();
+        let mut seen = stages.reduce(union).unwrap_or_default();
+        if let Some([x, z]) = window {
+            for (corner, (x, z)) in seen.iter_mut().zip(x.into_iter().zip(z)) {
+                [corner[0], corner[2]] = [x, z];
+            }
+        }
         for sheet in &mut sheets {
             sheet.stage.seen = seen;
+            sheet.sides = sides;
         }
         Ok(Self { runs, sheets })
     }
@@ -147,6 +169,42 @@ pub(super) fn on_all_cores<T: Sync, U: Send + Sync>(
     work::map(work::default_workers(), items, draw).map_err(Failure::failed)
 }
 
+/// Ends of what is seen along x and z (m), if the command line says them.
+fn window(numbers: &[f64]) -> Result<Option<[[f64; 2]; 2]>, Failure> {
+    match *numbers {
+        [] => Ok(None),
+        [left, right, low, high] if left < right && low < high => {
+            Ok(Some([[left, right], [low, high]]))
+        }
+        _ => Err(Failure::refused(
+            "--window takes four numbers: the least and the largest x, then the same of z, such as \
+             -15,15,0,40",
+        )),
+    }
+}
+
+/// Thickness of a layer, in diameters.
+const LAYER: f64 = 10.0;
+
+/// Colours that differ from run to run.
+fn own_color(run: &Run<'_>, color: Color) -> Option<ColorBy> {
+    let scene = &run.record.scene;
+    let diameter = 2.0 * scene.spheres.radius.mean();
+    let tank = scene.tank.clone().unwrap_or_default();
+    match color {
+        Color::Layer => {
+            let start = run.record.sound_states().first()?;
+            let floor = tank.floor.unwrap_or(0.0);
+            Some(ColorBy::layers_of(start, floor, LAYER * diameter))
+        }
+        Color::PackingFraction => {
+            let reach = tank.reach();
+            Some(ColorBy::packing_fraction(reach, tank.floor, diameter))
+        }
+        _ => None,
+    }
+}
+
 /// The sheet of a run, without a title.
 fn sheet(run: &Run<'_>, color: ColorBy) -> Sheet {
     let record = run.record;
@@ -160,6 +218,7 @@ fn sheet(run: &Run<'_>, color: ColorBy) -> Sheet {
             None => stage,
         },
         color,
+        sides: Sides::default(),
         flat,
     }
 }
