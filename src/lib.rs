@@ -84,6 +84,7 @@
 pub mod beverloo;
 pub mod classify;
 mod color;
+pub mod compare;
 pub mod cost;
 mod cpu_time;
 pub mod dem;

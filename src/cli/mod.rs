@@ -5,6 +5,7 @@ mod accuracy;
 mod builds;
 mod check;
 mod classify;
+mod compare;
 mod completions;
 mod console;
 mod cost;
@@ -88,6 +89,7 @@ enum Command {
     Check(check::Arguments),
     Cost(cost::Arguments),
     Neighbours(neighbours::Arguments),
+    Compare(compare::Arguments),
     Stability(stability::Arguments),
     Accuracy(accuracy::Arguments),
     Ablate(ablate::Arguments),
@@ -113,6 +115,7 @@ impl Command {
             Self::Check(arguments) => arguments.json,
             Self::Cost(arguments) => arguments.json,
             Self::Neighbours(arguments) => arguments.json,
+            Self::Compare(arguments) => arguments.json,
             Self::Stability(arguments) => arguments.options.json,
             Self::Accuracy(arguments) => arguments.options.json,
             Self::Ablate(arguments) => arguments.options.json,
@@ -136,6 +139,15 @@ fn seed(text: &str) -> Result<u64, String> {
     match text.parse() {
         Ok(seed) if seed <= LARGEST_SEED => Ok(seed),
         _ => Err(format!("must be a whole number from 0 to {LARGEST_SEED}")),
+    }
+}
+
+/// Parses two times (s), the earlier first.
+fn times(text: &str) -> Result<[f64; 2], String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|it| it.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[from, to]) if 0.0 <= from && from < to && to.is_finite() => Ok([from, to]),
+        _ => Err("give two times in seconds, the earlier first, such as 40,200".to_owned()),
     }
 }
 
@@ -163,6 +175,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Check(arguments) => check::main(&arguments, &console),
         Command::Cost(arguments) => cost::main(&arguments, &console),
         Command::Neighbours(arguments) => neighbours::main(&arguments, &console),
+        Command::Compare(arguments) => compare::main(&arguments, &console),
         Command::Stability(arguments) => stability::main(&arguments, &console),
         Command::Accuracy(arguments) => accuracy::main(&arguments, &console),
         Command::Ablate(arguments) => ablate::main(&arguments, &console),

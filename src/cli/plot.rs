@@ -1,18 +1,20 @@
-//! `phase plot`: draws the figures of a results folder or of the record of a single run.
+//! `phase plot`: draws the figures of a results folder or of the records of single runs.
+
+mod records;
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::folders;
-use phase::classify::{DRAINAGE, FAMILIES, Family, LabelTable};
+use phase::classify::{FAMILIES, Family, LabelTable};
 use phase::plot::{self, PlotError, Svg};
-use phase::record::{Program, RunRecord};
+use phase::record::Program;
 use phase::store;
 use phase::sweep::{Folder, FolderError, Sweep, parse_point};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 /// Draw the figures of a results folder, as SVG and PNG, from its labels.csv and records, or those
-/// of the record of one run: the tracks of its spheres, the ledger of its energy.
+/// of the record of one run or several: the tracks of its spheres, the ledger of its energy.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: what can be drawn of a folder, and one of it
@@ -23,11 +25,14 @@ Example: the speeds in two runs
 Example: the paths of the spheres in one record, which needs `trajectory = true` in its scene
   phase plot results/collisions/cradle.h5
 Example: where the energy went, in a record of `phase run --ledger`; energies and speeds of any
-  phase plot tank.h5 --figure ledger,energies,speeds --out figures")]
+  phase plot tank.h5 --figure ledger,energies,speeds --out figures
+Example: two drainages in one figure, from when the flow has developed
+  phase plot full.h5 coarse.h5 --figure radial-distribution --times 40,200 --out figures")]
 pub(crate) struct Arguments {
-    /// A results folder of `phase sweep`, a folder that holds several, or a record (.h5).
-    #[arg(required_unless_present = "list")]
-    dir: Option<PathBuf>,
+    /// A results folder of `phase sweep`, a folder that holds several, or a record (.h5); or
+    /// several records, for figures that show them beside each other.
+    #[arg(required_unless_present = "list", value_name = "DIR|RECORD")]
+    paths: Vec<PathBuf>,
     /// A figure to draw; may be given several times [default: phase and settle-time of a tank's
     /// folder, phase and discharge-rate of a silo's, of a record what it holds of tracks and
     /// ledger].
@@ -37,9 +42,17 @@ pub(crate) struct Arguments {
     /// of single runs; may be given several times.
     #[arg(short, long = "point", value_name = "POINT", requires = "figure")]
     points: Vec<String>,
+    /// First and last time (s) of the states that figures of drainages measure [default: from a
+    /// fifth of the run to its end], or the two that `packing-fraction` shows.
+    #[arg(long, value_name = "FROM,TO", value_parser = super::times)]
+    times: Option<[f64; 2]>,
     /// Folder for the figures [default: the results folder, or that of the record].
     #[arg(short, long, value_name = "DIR", conflicts_with = "list")]
     out: Option<PathBuf>,
+    /// What the names of the files begin with, of records [default: the name of the record; of
+    /// several nothing].
+    #[arg(long, value_name = "NAME", conflicts_with = "list")]
+    name: Option<String>,
     /// Print the names of all figures, or of those that can be drawn of DIR, and what they show;
     /// draw nothing.
     #[arg(short, long)]
@@ -55,65 +68,13 @@ type Point = Vec<(String, f64)>;
 /// The figure whose fits are printed.
 const BEVERLOO: &str = "beverloo";
 
-/// A figure of a single run.
-struct RecordFigure {
-    name: &'static str,
-    description: &'static str,
-    draw: fn(&RunRecord) -> Result<Svg, PlotError>,
-}
-
-/// The figures of a single run.
-const OF_RECORD: [RecordFigure; 7] = [
-    RecordFigure {
-        name: "tracks",
-        description: "paths of the spheres, from the record of one run with its trajectory",
-        draw: plot::draw_tracks,
-    },
-    RecordFigure {
-        name: "ledger",
-        description: "where the energy went, from the record of one run with its ledger",
-        draw: plot::draw_ledger,
-    },
-    RecordFigure {
-        name: "energies",
-        description: "energies over time, of one run",
-        draw: |record| plot::draw_single("energies", record),
-    },
-    RecordFigure {
-        name: "speeds",
-        description: "speeds of spheres and air over time, of one run",
-        draw: |record| plot::draw_single("speeds", record),
-    },
-    RecordFigure {
-        name: "states",
-        description: "the spheres at the end of one run",
-        draw: |record| plot::draw_single("states", record),
-    },
-    RecordFigure {
-        name: "surface-angle",
-        description: "angle of the free surface of one drainage over time",
-        draw: |record| plot::draw_single("surface-angle", record),
-    },
-    RecordFigure {
-        name: "radial-distribution",
-        description: "radial distribution function of one drainage",
-        draw: |record| plot::draw_single("radial-distribution", record),
-    },
-];
-
-/// Those of them that are drawn if none is asked for, as far as the record holds them.
-const DEFAULT_OF_RECORD: [&str; 2] = ["tracks", "ledger"];
-
-/// The same for a drainage.
-const DEFAULT_OF_DRAINAGE: [&str; 2] = ["surface-angle", "radial-distribution"];
-
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
+    arguments.check()?;
     let (mut figures, mut fits) = (Vec::new(), Vec::new());
-    match &arguments.dir {
-        dir if arguments.list => figures = list(dir.as_deref(), console)?,
-        Some(path) if path.is_file() => draw_record(path, arguments, console)?,
-        Some(dir) => fits = draw_folders(dir, arguments, console)?,
-        None => {}
+    match &arguments.paths[..] {
+        paths if arguments.list => figures = list(paths.first().map(PathBuf::as_path), console)?,
+        [dir] if !dir.is_file() => fits = draw_folders(dir, arguments, console)?,
+        paths => records::draw(paths, arguments, console)?,
     }
     console.answer(&Answer {
         figures,
@@ -121,6 +82,32 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         files: console.files(),
     });
     Ok(Exit::Done)
+}
+
+impl Arguments {
+    /// Refuses what does not go together.
+    fn check(&self) -> Result<(), Failure> {
+        let is_one_folder = matches!(&self.paths[..], [dir] if !dir.is_file());
+        if self.list && self.paths.len() > 1 {
+            return Err(Failure::refused("--list takes one folder or record"));
+        }
+        if let Some(folder) = self
+            .paths
+            .iter()
+            .find(|path| self.paths.len() > 1 && !path.is_file())
+        {
+            return Err(Failure::refused(format_args!(
+                "{}: several are drawn beside each other only if all are records (.h5)",
+                folder.display()
+            )));
+        }
+        if self.name.is_some() && is_one_folder {
+            return Err(Failure::refused(
+                "--name is for figures of records: those of a folder have their own names",
+            ));
+        }
+        Ok(())
+    }
 }
 
 /// What `--json` prints.
@@ -168,14 +155,14 @@ struct FitEntry {
 
 /// Prints name and description of every figure, or of those that can be drawn of what is at `dir`.
 fn list(dir: Option<&Path>, console: &Console) -> Result<Vec<Entry>, Failure> {
-    let (families, record) = match dir {
-        None => (FAMILIES.to_vec(), true),
-        Some(path) if path.is_file() => (Vec::new(), true),
+    let (families, of_record) = match dir {
+        None => (FAMILIES.to_vec(), records::of_one()),
+        Some(path) if path.is_file() => (Vec::new(), records::list(path)?),
         Some(dir) => {
             let folders = Folder::find(dir).map_err(Failure::refused)?.into_iter();
             let family = |folder: Folder| Ok(Family::of(&folder.read_sweep()?.scene));
             let families = folders.map(family).collect::<Result<_, FolderError>>();
-            (families.map_err(Failure::failed)?, false)
+            (families.map_err(Failure::failed)?, Vec::new())
         }
     };
     let mut entries: Vec<Entry> = plot::figures()
@@ -188,14 +175,7 @@ fn list(dir: Option<&Path>, console: &Console) -> Result<Vec<Entry>, Failure> {
             family: figure.family.map(|family| family.name),
         })
         .collect();
-    if record {
-        entries.extend(OF_RECORD.map(|figure| Entry {
-            name: figure.name,
-            description: figure.description.to_owned(),
-            default_runs: None,
-            family: None,
-        }));
-    }
+    entries.extend(of_record);
     for entry in &entries {
         // What is listed for a folder applies to it.
         let family = entry.family.filter(|_| dir.is_none());
@@ -222,7 +202,7 @@ fn draw_folders(
 ) -> Result<Vec<FitEntry>, Failure> {
     let is_known = |name: &String| plot::figures().iter().any(|known| known.name == name);
     if let Some(name) = arguments.figure.iter().find(|name| !is_known(name)) {
-        if OF_RECORD.iter().any(|known| known.name == *name) {
+        if records::OF_ONE.iter().any(|known| known.name == *name) {
             return Err(Failure::refused(format_args!(
                 "`{name}` is drawn from the record of one run; name its .h5 file instead of {}",
                 dir.display()
@@ -263,7 +243,14 @@ fn draw_folders(
             draw_default_figures(&folder, &place, &sweep, &table, console)?;
         }
         for name in &arguments.figure {
-            draw(name, &folder, &place, &sweep, &table, &points, console)?;
+            draw(
+                name,
+                &folder,
+                &place,
+                (&sweep, &table),
+                (&points, arguments.times),
+                console,
+            )?;
             if name == BEVERLOO {
                 fits.extend(print_fits(&folder, &sweep, &table, console)?);
             }
@@ -285,6 +272,8 @@ fn print_fits(
         table,
         record: &|id| folder.read_record(id),
         points: &[],
+        times: None,
+        captions: &[],
         program: &program,
     });
     let entries = lines
@@ -338,17 +327,17 @@ pub(super) fn draw_default_figures(
         .family
         .default_figures
         .iter()
-        .try_for_each(|name| draw(name, folder, place, sweep, table, &[], console))
+        .try_for_each(|name| draw(name, folder, place, (sweep, table), (&[], None), console))
 }
 
-/// Draws a figure, writes it to the folder `place` as SVG and PNG and prints their paths.
+/// Draws a figure, of points and times if they are asked for, writes it to the folder `place` as
+/// SVG and PNG and prints their paths.
 fn draw(
     name: &str,
     folder: &Folder,
     place: &Path,
-    sweep: &Sweep,
-    table: &LabelTable,
-    points: &[Point],
+    (sweep, table): (&Sweep, &LabelTable),
+    (points, times): (&[Point], Option<[f64; 2]>),
     console: &Console,
 ) -> Result<(), Failure> {
     let program = Program::current();
@@ -359,6 +348,8 @@ fn draw(
             table,
             record: &|id| folder.read_record(id),
             points,
+            times,
+            captions: &[],
             program: &program,
         },
     );
@@ -372,55 +363,6 @@ fn refused_or_failed(error: PlotError) -> Failure {
         Failure::refused(error)
     } else {
         Failure::failed(error)
-    }
-}
-
-/// Draws figures of a record beside it, or to the folder that is asked for: NAME.h5 gives
-/// NAME-tracks.svg and .png.
-fn draw_record(path: &Path, arguments: &Arguments, console: &Console) -> Result<(), Failure> {
-    let names = &arguments.figure[..];
-    let known = |name: &String| OF_RECORD.iter().find(|figure| figure.name == name);
-    if let Some(name) = names.iter().find(|name| known(name).is_none()) {
-        let known = OF_RECORD.map(|figure| figure.name).join("`, `");
-        return Err(Failure::refused(format_args!(
-            "`{name}` is not a figure of a single record; available: `{known}`"
-        )));
-    }
-    let record = store::read_record(path).map_err(Failure::refused)?;
-    let refused = |error| Failure::failed(format_args!("{}: {error}", path.display()));
-    let defaults = match Family::of(&record.scene) == &DRAINAGE {
-        true => DEFAULT_OF_DRAINAGE,
-        false => DEFAULT_OF_RECORD,
-    };
-    let mut missing = None;
-    let mut drawn = 0;
-    for figure in &OF_RECORD {
-        let is_wanted = match names {
-            [] => defaults.contains(&figure.name),
-            names => names.iter().any(|name| name == figure.name),
-        };
-        if !is_wanted {
-            continue;
-        }
-        match (figure.draw)(&record) {
-            Err(error @ (PlotError::NoTrajectory | PlotError::NoLedger)) if names.is_empty() => {
-                missing.get_or_insert(error);
-            }
-            image => {
-                let mut stem = path.file_stem().unwrap_or_default().to_owned();
-                stem.push(format!("-{}", figure.name));
-                let beside = path.parent().unwrap_or(Path::new(""));
-                let folder = arguments.out.as_deref().unwrap_or(beside);
-                folders::make(folder)?;
-                let place = |extension: &str| folder.join(&stem).with_added_extension(extension);
-                write(&image.map_err(refused)?, place, console)?;
-                drawn += 1;
-            }
-        }
-    }
-    match missing {
-        Some(error) if drawn == 0 => Err(refused(error)),
-        _ => Ok(()),
     }
 }
 

@@ -66,6 +66,8 @@ pub(super) struct Panel {
     pub(super) lines: Vec<Line>,
     /// Drawn over the lines.
     pub(super) bars: Vec<Bar>,
+    /// Whether the vertical axis is one of powers of ten.
+    pub(super) logarithmic: bool,
 }
 
 impl Panel {
@@ -79,6 +81,32 @@ impl Panel {
             y,
             lines,
             bars: Vec::new(),
+            logarithmic: false,
+        }
+    }
+
+    /// The same with intervals, which are in sight too.
+    pub(super) fn with_bars(self, bars: Vec<Bar>) -> Self {
+        let points = self.lines.iter().flat_map(|line| &line.points);
+        let values = points.map(|point| point.1);
+        let values = values.chain(bars.iter().flat_map(|bar| bar.ends));
+        let y = range(values).unwrap_or(self.y);
+        Self { y, bars, ..self }
+    }
+
+    /// The same over powers of ten; all values must be above zero.
+    pub(super) fn logarithmic(self) -> Self {
+        let points = self.lines.iter().flat_map(|line| &line.points);
+        let (low, high) = ends(points.map(|point| point.1));
+        let y = if low <= high {
+            (0.8 * low, 1.25 * high)
+        } else {
+            (0.1, 1.0)
+        };
+        Self {
+            y,
+            logarithmic: true,
+            ..self
         }
     }
 
@@ -122,7 +150,10 @@ impl Chart {
         let frame = |panel: &Panel| Frame {
             head: panel.head.clone(),
             x: Span::linear(panel.x),
-            y: Span::linear(panel.y),
+            y: Span {
+                logarithmic: panel.logarithmic,
+                ..Span::linear(panel.y)
+            },
         };
         let legend = self.legend.iter();
         let page = Page::new(Plan {

@@ -11,6 +11,8 @@ use std::cmp::Ordering;
 pub(super) struct Run<'a> {
     source: &'a Source<'a>,
     pub(super) row: &'a LabelRow,
+    /// What names it, if its place in the sweep does not.
+    caption: Option<&'a [String]>,
 }
 
 /// The name that stands for the seed in a point.
@@ -22,7 +24,9 @@ pub(super) fn runs<'a>(
     choice: impl FnOnce(&Source<'_>) -> Result<Vec<usize>, PlotError>,
 ) -> Result<Vec<Run<'a>>, PlotError> {
     grid::check(source.sweep, source.table)?;
-    let rows = if source.points.is_empty() {
+    let rows = if !source.captions.is_empty() {
+        (0..source.table.rows.len()).collect()
+    } else if source.points.is_empty() {
         choice(source)?
     } else {
         let points = source.points.iter();
@@ -33,6 +37,7 @@ pub(super) fn runs<'a>(
     let run = |row: usize| Run {
         source,
         row: &source.table.rows[row],
+        caption: source.captions.get(row).map(Vec::as_slice),
     };
     Ok(rows.into_iter().map(run).collect())
 }
@@ -190,6 +195,9 @@ impl Run<'_> {
     /// Its place in the sweep, with markup: `$r$ = 4 mm` and `$Ω$ = 8 rad/s`. The seed is named
     /// only if a point asks for one.
     fn place(&self) -> Vec<String> {
+        if let Some(caption) = self.caption {
+            return caption.to_vec();
+        }
         let axes = self.source.sweep.axes.iter().zip(&self.row.values);
         let mut parts: Vec<String> = axes
             .map(|(axis, &value)| quantity(self.source, &axis.key, &axis.name, value))

@@ -174,6 +174,8 @@ mod tests {
             table: &table,
             record: &|id| panic!("the grid read the record {id}"),
             points: &[],
+            times: None,
+            captions: &[],
             program: &Program::current(),
         })
         .unwrap();

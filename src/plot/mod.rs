@@ -12,6 +12,7 @@ pub mod accuracy;
 mod axes;
 mod beverloo;
 mod canvas;
+mod captions;
 mod chart;
 mod choice;
 mod color_bar;
@@ -19,6 +20,7 @@ mod contour;
 mod critical;
 mod critical_rotation;
 mod diagram;
+mod drainage;
 mod energies;
 mod grid;
 mod ledger;
@@ -30,16 +32,14 @@ mod page;
 mod palette;
 mod phase;
 mod png;
-mod radial_distribution;
+mod records;
 mod scale;
 mod series;
-mod single;
 mod speeds;
 pub mod stability;
 mod states;
 pub mod step_time;
 mod style;
-mod surface_angle;
 mod svg;
 mod text;
 mod tracks;
@@ -48,7 +48,7 @@ mod words;
 
 pub use beverloo::{FittedLine, fitted_lines};
 pub use ledger::draw as draw_ledger;
-pub use single::draw_single;
+pub use records::{captions, draw_records};
 pub use svg::Svg;
 pub use tracks::draw as draw_tracks;
 
@@ -69,6 +69,12 @@ pub struct Source<'a> {
     /// Points to show in figures of single runs: values by name of an axis, and `seed`. None for
     /// the choice of the figure.
     pub points: &'a [Vec<(String, f64)>],
+    /// First and last time (s) of the states that figures of drainages show or measure. None for
+    /// the choice of the figure.
+    pub times: Option<[f64; 2]>,
+    /// What names each run of the table in figures of single runs, all of which are shown then.
+    /// Empty for runs that their places in the sweep name.
+    pub captions: &'a [Vec<String>],
     /// What goes into the file's metadata.
     pub program: &'a Program,
 }
@@ -108,9 +114,8 @@ fn all() -> Vec<&'static dyn Figure> {
         &net_force::NetForce,
         &beverloo::Beverloo,
         &measures::MeasuresFigure,
-        &surface_angle::SurfaceAngle,
-        &radial_distribution::RadialDistributionFigure,
     ];
+    figures.extend(drainage::FIGURES);
     figures.extend(map::MAPS.iter().map(|map| map as &dyn Figure));
     figures
 }
@@ -274,6 +279,14 @@ pub enum PlotError {
         /// What is wrong with the record.
         source: StoreError,
     },
+    /// Records of one figure are of several families of scenes.
+    #[error("one record is of a {first}, another of a {other}: give those of one family")]
+    Families {
+        /// The family of the first record.
+        first: &'static str,
+        /// The family of the other.
+        other: &'static str,
+    },
     /// The scene lacks what a figure shows.
     #[error("the figure `{figure}` needs a scene with {needs}")]
     Scene {
@@ -289,7 +302,7 @@ pub enum PlotError {
     )]
     EmptyTable,
     /// No run has what the figure shows.
-    #[error("no run of this sweep has a measure that the figure shows")]
+    #[error("no run has a measure that the figure shows")]
     NoMeasures,
     /// The table was not made of this sweep.
     #[error("the table has the axes {table}, but the sweep has {sweep}; classify it again")]

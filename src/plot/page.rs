@@ -265,6 +265,11 @@ impl Page {
         Axes::new(sheet, place.corner, self.panel, place.ticks, scales)
     }
 
+    /// Upper left corner of a panel.
+    pub(super) fn corner(&self, index: usize) -> (i32, i32) {
+        self.places[index].corner
+    }
+
     /// Scales of a panel.
     pub(super) fn scales(&self, index: usize) -> &(Scale, Scale) {
         &self.places[index].scales

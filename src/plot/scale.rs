@@ -251,6 +251,12 @@ pub(super) fn number(value: f64) -> String {
     minus(rounded.to_string())
 }
 
+/// A number with so many significant digits, the rest of them zeros.
+pub(super) fn rounded(value: f64, digits: usize) -> String {
+    let rounded = format!("{value:.*e}", digits.saturating_sub(1)).parse();
+    number(rounded.unwrap_or(value))
+}
+
 fn scientific(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();

@@ -118,6 +118,8 @@ fn source<'a>(sweep: &'a Sweep, table: &'a LabelTable, program: &'a Program) -> 
         table,
         record: &|id| panic!("a figure of a table read the record {id}"),
         points: &[],
+        times: None,
+        captions: &[],
         program,
     }
 }

@@ -72,7 +72,6 @@ fn a_run_replaces_its_own_table() {
     place
         .phase(&["plot", "run.h5"])
         .code(0)
-        .says("run-surface-angle.png")
         .says("run-radial-distribution.png");
     place.write("run-observations.csv", "time,place\n");
     place
@@ -144,12 +143,7 @@ fn a_sweep_over_the_orifice_is_labelled_and_drawn() {
     assert!(row(0).contains("outflow_rate") && row(0).contains("surface_angle"));
     assert!(row(1).contains("blocked"), "{labels}");
     assert!(!row(2).contains("blocked"), "{labels}");
-    for figure in [
-        "phase",
-        "outflow-rate",
-        "surface-angle",
-        "radial-distribution",
-    ] {
+    for figure in ["phase", "outflow-rate", "radial-distribution"] {
         let arguments = ["plot", "results", "--figure", figure, "--out", "figures"];
         place.phase(&arguments).code(0);
         let svg = place.read(&format!("figures/{figure}.svg"));
@@ -162,4 +156,192 @@ fn what_new_writes_runs() {
     let place = Workplace::new();
     place.phase(&["new", "spot", "mine"]).code(0);
     place.phase(&["check", "mine.toml"]).code(0).says("spots");
+}
+
+/// Two runs of a box that differ in one table.
+fn two_runs() -> Workplace {
+    let place = Workplace::new();
+    let scene = drainage_file().replace("duration = 4.0", "duration = 8.0");
+    place.write("scene.toml", &scene);
+    place
+        .phase(&["run", "scene.toml", "--out", "full.h5"])
+        .code(0);
+    let off = ["--set", "spot.relaxation.method=off", "--out", "off.h5"];
+    place
+        .phase(&[&["run", "scene.toml"], &off[..]].concat())
+        .code(0);
+    place
+}
+
+/// Several records share a figure, in which what differs names them.
+#[test]
+fn records_are_drawn_beside_each_other() {
+    let place = two_runs();
+    for figure in [
+        "outflow",
+        "velocity-profile",
+        "cross-profile",
+        "packing-fraction",
+        "radial-distribution",
+        "bond-angles",
+        "diffusion",
+        "retention",
+        "residence",
+    ] {
+        let arguments = [
+            "plot", "full.h5", "off.h5", "--figure", figure, "--times", "1,8",
+        ];
+        place
+            .phase(&arguments)
+            .code(0)
+            .says(&format!("{figure}.png"));
+        let svg = place.read(&format!("{figure}.svg"));
+        assert!(svg.contains("no relaxation"), "{figure}: {svg}");
+        assert!(svg.contains("off"), "{figure}");
+    }
+    place
+        .phase(&[
+            "plot", "full.h5", "off.h5", "--figure", "outflow", "--name", "both",
+        ])
+        .code(0)
+        .says("both-outflow.svg");
+    // Too narrow for columns of the surface, too low for two layers.
+    for figure in ["surface-angle", "mixing"] {
+        place
+            .phase(&["plot", "full.h5", "--figure", figure])
+            .code(1)
+            .complains("no run has a measure");
+    }
+    place
+        .phase(&["plot", "full.h5", "off.h5", "--figure", "tracks"])
+        .code(2)
+        .complains("one by one");
+    place
+        .phase(&["plot", "full.h5", ".", "--figure", "mixing"])
+        .code(2)
+        .complains("only if all are records");
+    place
+        .phase(&["plot", "full.h5", "--figure", "mixing", "--times", "3,1"])
+        .code(2)
+        .complains("the earlier first");
+    place
+        .phase(&["plot", "full.h5", "--figure", "outflw"])
+        .code(2)
+        .complains("is not a figure of a record of a drainage; available: `tracks`");
+    place
+        .phase(&["plot", "--list", "full.h5"])
+        .code(0)
+        .says("packing-fraction");
+}
+
+/// A record compared with itself differs by nothing, and without relaxation spheres overlap more.
+#[test]
+fn records_are_compared() {
+    let place = two_runs();
+    let answer = |other: &str| {
+        let arguments = ["compare", "full.h5", other, "--times", "2,8", "--json"];
+        let answer = place.phase(&arguments).code(0);
+        serde_json::from_str::<serde_json::Value>(&answer.stdout).unwrap()
+    };
+    let same = answer("full.h5");
+    let rows = same["rows"].as_array().unwrap();
+    let named = |rows: &[serde_json::Value], name: &str| {
+        let row = rows.iter().find(|row| row["quantity"] == name);
+        row.unwrap_or_else(|| panic!("{name}")).clone()
+    };
+    for row in rows {
+        let difference = &row["difference"];
+        assert!(difference.is_null() || *difference == 0.0, "{row}");
+    }
+    let outflow = named(rows, "outflow");
+    assert!(outflow["half_widths"][0].as_f64().unwrap() > 0.0);
+    let other = answer("off.h5");
+    let badness = named(
+        other["rows"].as_array().unwrap(),
+        "packing badness, of pairs",
+    );
+    let value = |index: usize| badness["values"][index].as_f64().unwrap();
+    assert!(value(1) > 10.0 * value(0), "{badness}");
+
+    place
+        .phase(&["compare", "full.h5", "off.h5", "--out", "table.csv"])
+        .code(0)
+        .says("B - A");
+    assert!(
+        place
+            .read("table.csv")
+            .starts_with("quantity,unit,record,value,half_width")
+    );
+    place.write("mine.csv", "my own table\n");
+    place
+        .phase(&["compare", "full.h5", "--out", "mine.csv"])
+        .code(2)
+        .complains("not a table of this command");
+    place
+        .phase(&["compare", "nowhere.h5"])
+        .code(2)
+        .complains("nowhere.h5");
+}
+
+/// Layers and packing fractions are shown in a cut through the middle.
+#[test]
+fn layers_and_packing_fractions_are_viewed() {
+    let place = two_runs();
+    for color in ["layer", "packing-fraction"] {
+        let arguments = [
+            "view", "full.h5", "off.h5", "--time", "8", "--color", color, "--cut",
+        ];
+        let out = format!("{color}.png");
+        let more = ["--window=-4,4,0,5", "--width", "100", "--out", &out];
+        place.phase(&[&arguments[..], &more].concat()).code(0);
+        assert!(place.path(&out).exists());
+    }
+    place
+        .phase(&["view", "full.h5", "--window", "1,0,0,1"])
+        .code(2)
+        .complains("--window takes four numbers");
+}
+
+/// A key of the command line does what one of the file does, and is checked like it.
+#[test]
+fn keys_are_set_on_the_command_line() {
+    let place = Workplace::new();
+    place.write("scene.toml", &drainage_file());
+    let edited = drainage_file().replace("duration = 4.0", "duration = 1.0")
+        + "schedule = \"steps-random\"\nwalk = { bias = 2 }\n";
+    place.write("edited.toml", &edited);
+    place
+        .phase(&["run", "edited.toml", "--out", "edited.h5"])
+        .code(0);
+    let set = |setting| ["--set", setting];
+    let settings = [
+        set("time.duration=1.0"),
+        set("spot.schedule=steps-random"),
+        set("spot.walk={ bias = 2.0 }"),
+    ];
+    let arguments = [
+        &["run", "scene.toml", "--out", "set.h5"],
+        &settings.concat()[..],
+    ];
+    place.phase(&arguments.concat()).code(0);
+    let [edited, set] = ["edited.h5", "set.h5"].map(|name| record(&place, name));
+    assert_eq!(
+        content_digest(&edited).unwrap(),
+        content_digest(&set).unwrap()
+    );
+    for (option, setting, complaint) in [
+        ("--set", "spot.walk.bias=-1", "--set:1:16"),
+        ("--set", "time.duraton=1", "did you mean `duration`?"),
+        ("--set", "time=1", "`time` must be a table"),
+        ("--set", "seed.of=1", "`seed`"),
+        ("--set", "duration", "give a key and its value"),
+        ("--without", "spot.weighting", "the scene has no such key"),
+        ("--without", "spot.radius", "radius"),
+    ] {
+        place
+            .phase(&["run", "scene.toml", option, setting, "--out", "no.h5"])
+            .code(2)
+            .complains(complaint);
+        assert!(!place.path("no.h5").exists());
+    }
 }

@@ -2,7 +2,9 @@
 
 use super::run::Run;
 use crate::classify::measure::{measured, measures};
+use crate::compare::{Drainage, badness_of, mixing};
 use crate::measure::{Centres, surface_angle};
+use crate::record::RunRecord;
 
 /// Shares of the spheres that left until the end between which the rate is measured: not while the
 /// flow begins.
@@ -20,17 +22,26 @@ measures! {
         stagnant_height: measured("height of the stagnant zone", "m"),
         /// Slope of the free surface at the end, positive if it rises to the walls (rad).
         surface_angle: measured("angle of the free surface", "rad"),
+        /// Lacey's index of mixing of layers of ten diameters at the end.
+        mixing: measured("index of mixing of layers", "").share(),
+        /// Overlaps over diameters of the pairs in the middle, per sphere.
+        badness: measured("packing badness", ""),
     }
 }
 
 impl DrainageOrder {
-    pub(super) fn measure(run: &Run<'_>) -> Self {
+    pub(super) fn measure(record: &RunRecord, run: &Run<'_>) -> Self {
+        let drainage = Drainage::new(record, None).ok();
         let end = run.snapshots.last().map(Centres::of);
         Self {
             outflow_rate: outflow_rate(run),
             left_share: Some(run.left() / run.spheres),
             stagnant_height: run.stagnant_height(),
             surface_angle: end.and_then(|it| surface_angle(&it, run.diameter, run.half_width)),
+            mixing: drainage
+                .as_ref()
+                .and_then(|it| mixing(it, it.states().last()?)),
+            badness: drainage.as_ref().and_then(badness_of).map(|it| it.value),
         }
     }
 }

@@ -143,6 +143,8 @@ impl Tank {
             table: &self.table,
             record: &record,
             points: &points,
+            times: None,
+            captions: &[],
             program: &Program::current(),
         };
         plot::draw(name, &source)

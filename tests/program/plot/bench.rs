@@ -161,6 +161,8 @@ pub(crate) fn of_table(name: &str, sweep: &Sweep, table: &LabelTable) -> Result<
         table,
         record: &|id| panic!("a figure of a table read the record {id}"),
         points: &[],
+        times: None,
+        captions: &[],
         program: &program(),
     };
     plot::draw(name, &source)

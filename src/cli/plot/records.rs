@@ -1,0 +1,155 @@
+//! Figures of the records of single runs.
+
+use super::{Arguments, Entry, write};
+use crate::cli::console::Console;
+use crate::cli::exit::Failure;
+use crate::cli::folders;
+use phase::classify::{DRAINAGE, Family};
+use phase::plot::{self, About, PlotError, Svg};
+use phase::record::RunRecord;
+use phase::store;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+/// A figure that one record alone has.
+pub(super) struct RecordFigure {
+    pub(super) name: &'static str,
+    description: &'static str,
+    draw: fn(&RunRecord) -> Result<Svg, PlotError>,
+}
+
+/// The figures that one record alone has: those of what only some records hold.
+pub(super) const OF_ONE: [RecordFigure; 2] = [
+    RecordFigure {
+        name: "tracks",
+        description: "paths of the spheres, from the record of one run with its trajectory",
+        draw: plot::draw_tracks,
+    },
+    RecordFigure {
+        name: "ledger",
+        description: "where the energy went, from the record of one run with its ledger",
+        draw: plot::draw_ledger,
+    },
+];
+
+/// Those that are drawn of a drainage if none is asked for; of other runs those of [`OF_ONE`].
+const DEFAULT_OF_DRAINAGE: [&str; 2] = ["surface-angle", "radial-distribution"];
+
+/// The figures of single runs that folders have too, of records of a family.
+fn of_runs(family: &'static Family) -> impl Iterator<Item = About> {
+    let figures = plot::figures().into_iter();
+    figures.filter(move |figure| figure.default_runs.is_some() && figure.applies_to(family))
+}
+
+/// What can be drawn of a record.
+pub(super) fn list(path: &Path) -> Result<Vec<Entry>, Failure> {
+    let record = store::read_record(path).map_err(Failure::refused)?;
+    let of_runs = of_runs(Family::of(&record.scene)).map(|figure| Entry {
+        name: figure.name,
+        description: figure.description,
+        default_runs: None,
+        family: None,
+    });
+    Ok(of_one().into_iter().chain(of_runs).collect())
+}
+
+/// The entries of what one record alone has.
+pub(super) fn of_one() -> Vec<Entry> {
+    let entry = |figure: RecordFigure| Entry {
+        name: figure.name,
+        description: figure.description.to_owned(),
+        default_runs: None,
+        family: None,
+    };
+    OF_ONE.map(entry).into()
+}
+
+/// Draws figures of one record, or of several beside each other: NAME.h5 gives NAME-tracks.svg and
+/// .png; several give tracks.svg and .png, in the folder of the first or that which is asked for.
+pub(super) fn draw(
+    paths: &[PathBuf],
+    arguments: &Arguments,
+    console: &Console,
+) -> Result<(), Failure> {
+    let read = |path: &PathBuf| store::read_record(path).map_err(Failure::refused);
+    let records: Vec<RunRecord> = paths.iter().map(read).collect::<Result<_, _>>()?;
+    let (Some(first), Some(record)) = (paths.first(), records.first()) else {
+        return Ok(());
+    };
+    let family = Family::of(&record.scene);
+    let names = names(family, arguments)?;
+    let beside = first.parent().unwrap_or(Path::new(""));
+    let folder = arguments.out.as_deref().unwrap_or(beside);
+    let prefix = match (&arguments.name, &paths) {
+        (Some(name), _) => Some(OsString::from(name)),
+        (None, [path]) => path.file_stem().map(ToOwned::to_owned),
+        (None, _) => None,
+    };
+    let failed = |error: PlotError| {
+        let text = format_args!("{}: {error}", first.display()).to_string();
+        match error.is_of_request() {
+            true => Failure::refused(text),
+            false => Failure::failed(text),
+        }
+    };
+    let mut missing = None;
+    let mut drawn = 0;
+    for name in &names {
+        let of_one = OF_ONE.iter().find(|figure| figure.name == *name);
+        let image = match (of_one, &records[..]) {
+            (Some(figure), [record]) => (figure.draw)(record),
+            (Some(figure), _) => return Err(takes_one(figure.name)),
+            (None, _) => plot::draw_records(name, &records, arguments.times),
+        };
+        match image {
+            Err(
+                error @ (PlotError::NoTrajectory | PlotError::NoLedger | PlotError::NoMeasures),
+            ) if arguments.figure.is_empty() => {
+                missing.get_or_insert(error);
+            }
+            image => {
+                let image = image.map_err(failed)?;
+                folders::make(folder)?;
+                let mut stem = prefix.clone().unwrap_or_default();
+                stem.push(if stem.is_empty() { "" } else { "-" });
+                stem.push(name);
+                let place = |extension: &str| folder.join(&stem).with_added_extension(extension);
+                write(&image, place, console)?;
+                drawn += 1;
+            }
+        }
+    }
+    match missing {
+        Some(error) if drawn == 0 => Err(failed(error)),
+        _ => Ok(()),
+    }
+}
+
+/// The figures asked for, or the default ones.
+fn names(family: &'static Family, arguments: &Arguments) -> Result<Vec<String>, Failure> {
+    let of_runs: Vec<&str> = of_runs(family).map(|figure| figure.name).collect();
+    let known = OF_ONE.iter().map(|figure| figure.name).chain(of_runs);
+    let known: Vec<&str> = known.collect();
+    let names = &arguments.figure;
+    if let Some(name) = names.iter().find(|name| !known.contains(&name.as_str())) {
+        return Err(Failure::refused(format_args!(
+            "`{name}` is not a figure of a record of a {}; available: `{}`",
+            family.name,
+            known.join("`, `")
+        )));
+    }
+    if !names.is_empty() {
+        return Ok(names.clone());
+    }
+    let defaults = match family == &DRAINAGE {
+        true => DEFAULT_OF_DRAINAGE,
+        false => OF_ONE.map(|figure| figure.name),
+    };
+    Ok(defaults.map(str::to_owned).into())
+}
+
+fn takes_one(name: &str) -> Failure {
+    Failure::refused(format_args!(
+        "the figure `{name}` is of one record: give them one by one"
+    ))
+}

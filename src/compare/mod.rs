@@ -1,0 +1,15 @@
+//! Drainages beside each other: what is measured of their records, and how it differs.
+//!
+//! Records of the discrete element model and of the spot model go through the same measures.
+
+mod drainage;
+mod profiles;
+mod quantities;
+mod spreading;
+mod table;
+
+pub use drainage::Drainage;
+pub use profiles::{DRAWN_HEIGHTS, cross_profile, flow_spread_of, profile_at};
+pub use quantities::{QUANTITIES, Quantity, badness_of, mixing};
+pub use spreading::{Spreading, spreading};
+pub use table::{Comparison, Row};

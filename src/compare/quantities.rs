@@ -1,0 +1,248 @@
+//! The numbers of a drainage, each with its interval.
+
+use super::{Drainage, flow_spread_of, spreading};
+use crate::measure::{
+    Badness, Centres, Layers, RadialDistribution, Walls, lacey_index, outflow_rate,
+    stagnant_height, surface_angle, voronoi_cells,
+};
+use crate::observe::Snapshot;
+use crate::statistics::Estimate;
+use std::f64::consts::PI;
+
+/// A number that is measured of a drainage.
+pub struct Quantity {
+    /// Name.
+    pub name: &'static str,
+    /// Unit; lengths are over the diameter of the spheres, and have none.
+    pub unit: &'static str,
+    /// Measures it, with its interval of 95 % over blocks of time, infinite where nothing tells its
+    /// scatter. None where it is undefined.
+    pub measure: fn(&Drainage<'_>) -> Option<Estimate>,
+}
+
+/// All of them.
+pub static QUANTITIES: [Quantity; 14] = [
+    Quantity {
+        name: "outflow",
+        unit: "1/s",
+        measure: outflow,
+    },
+    Quantity {
+        name: "diffusion length of the flow b / d",
+        unit: "",
+        measure: diffusion_length,
+    },
+    Quantity {
+        name: "height z0 / d from which the flow widens",
+        unit: "",
+        measure: origin,
+    },
+    Quantity {
+        name: "packing fraction at the start",
+        unit: "",
+        measure: |drainage| exact(packing_fraction(drainage, drainage.start())),
+    },
+    Quantity {
+        name: "packing fraction in the flow",
+        unit: "",
+        measure: |drainage| over_blocks(drainage, |state| packing_fraction(drainage, state)),
+    },
+    Quantity {
+        name: "packing badness, of pairs",
+        unit: "",
+        measure: badness_of,
+    },
+    Quantity {
+        name: "packing badness, as printed",
+        unit: "",
+        measure: |drainage| {
+            over_blocks(drainage, |state| {
+                Some(badness(drainage, state).as_printed())
+            })
+        },
+    },
+    Quantity {
+        name: "least distance / d",
+        unit: "",
+        measure: least_distance,
+    },
+    Quantity {
+        name: "Peclet number across the flow",
+        unit: "",
+        measure: |drainage| spreading(drainage).peclet.map(|it| it[0]),
+    },
+    Quantity {
+        name: "Peclet number along the flow",
+        unit: "",
+        measure: |drainage| spreading(drainage).peclet.map(|it| it[1]),
+    },
+    Quantity {
+        name: "index of mixing at the end",
+        unit: "",
+        measure: |drainage| exact(mixing(drainage, last(drainage))),
+    },
+    Quantity {
+        name: "angle of the surface at the end",
+        unit: "°",
+        measure: angle,
+    },
+    Quantity {
+        name: "height of the stagnant zone / d",
+        unit: "",
+        measure: stagnant,
+    },
+    Quantity {
+        name: "processor time",
+        unit: "s",
+        measure: |drainage| exact(Some(drainage.record.cpu_seconds)),
+    },
+];
+
+/// Most states of which the packing is measured: more tell little more, as neighbours in time are
+/// alike.
+const STATES: usize = 10;
+/// Distances of the radial distribution function: farthest, in diameters, and bins.
+const DISTANCES: (f64, usize) = (1.2, 480);
+/// Thickness of coloured layers and width of the cells of mixing, in diameters.
+const LAYER: f64 = 10.0;
+const CELL: f64 = 2.5;
+
+/// A number without an interval: another seed would tell its scatter.
+fn exact(value: Option<f64>) -> Option<Estimate> {
+    let half_width = f64::INFINITY;
+    value.map(|value| Estimate { value, half_width })
+}
+
+/// Mean over at most ten states, evenly over the times that count.
+fn over_blocks(
+    drainage: &Drainage<'_>,
+    value: impl Fn(&Snapshot) -> Option<f64>,
+) -> Option<Estimate> {
+    let states = drainage.flow();
+    let count = states.len().min(STATES);
+    let chosen = (0..count).map(|index| &states[(2 * index + 1) * states.len() / (2 * count)]);
+    let values: Option<Vec<f64>> = chosen.map(value).collect();
+    Estimate::of_mean(&values?)
+}
+
+fn last<'a>(drainage: &Drainage<'a>) -> &'a Snapshot {
+    drainage.flow().last().unwrap_or(drainage.start())
+}
+
+fn outflow(drainage: &Drainage<'_>) -> Option<Estimate> {
+    let observations = &drainage.record.observations;
+    let left = observations.discharged.iter().map(|&it| f64::from(it));
+    let left: Vec<f64> = left.collect();
+    outflow_rate(&observations.time, &left, drainage.times)
+}
+
+fn diffusion_length(drainage: &Drainage<'_>) -> Option<Estimate> {
+    let spread = flow_spread_of(drainage)?;
+    Some(over_diameter(drainage, spread.diffusion_length))
+}
+
+fn origin(drainage: &Drainage<'_>) -> Option<Estimate> {
+    let spread = flow_spread_of(drainage)?;
+    let floor = drainage.filled_box.floor;
+    let above = Estimate {
+        value: spread.origin.value - floor,
+        ..spread.origin
+    };
+    Some(over_diameter(drainage, above))
+}
+
+fn over_diameter(drainage: &Drainage<'_>, length: Estimate) -> Estimate {
+    let diameter = drainage.filled_box.diameter;
+    Estimate {
+        value: length.value / diameter,
+        half_width: length.half_width / diameter,
+    }
+}
+
+/// Volume of the spheres in the middle over that of their Voronoi cells.
+fn packing_fraction(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
+    let filled_box = &drainage.filled_box;
+    let [x, y] = [filled_box.half_width, filled_box.half_depth];
+    let walls = Walls {
+        low: [-x, -y, filled_box.floor],
+        high: [x, y, f64::MAX],
+        farthest: filled_box.diameter,
+    };
+    let centres = Centres::of(state);
+    let region = filled_box.middle();
+    let cells = voronoi_cells(&centres, &walls)
+        .into_iter()
+        .zip(&centres.place);
+    let inside = cells.filter(|(_, place)| region.contains(**place));
+    let volumes: Vec<f64> = inside.map(|(cell, _)| cell.volume).collect();
+    let diameter = filled_box.diameter;
+    let spheres = volumes.len() as f64 * PI / 6.0 * diameter * diameter * diameter;
+    (!volumes.is_empty()).then(|| spheres / volumes.iter().sum::<f64>())
+}
+
+/// Overlaps over diameters of the pairs in the middle, per sphere.
+pub fn badness_of(drainage: &Drainage<'_>) -> Option<Estimate> {
+    over_blocks(drainage, |state| Some(badness(drainage, state).of_pairs()))
+}
+
+fn badness(drainage: &Drainage<'_>, state: &Snapshot) -> Badness {
+    let filled_box = &drainage.filled_box;
+    let mut badness = Badness::default();
+    badness.add(
+        &Centres::of(state),
+        filled_box.diameter,
+        &filled_box.middle(),
+    );
+    badness
+}
+
+fn least_distance(drainage: &Drainage<'_>) -> Option<Estimate> {
+    let filled_box = &drainage.filled_box;
+    let (farthest, bins) = DISTANCES;
+    let mut distances = RadialDistribution::new(farthest * filled_box.diameter, bins);
+    for state in drainage.flow() {
+        distances.add(&Centres::of(state), &filled_box.middle());
+    }
+    exact(
+        distances
+            .least_distance()
+            .map(|it| it / filled_box.diameter),
+    )
+}
+
+/// Lacey's index of mixing of layers of ten diameters in the lower half, in cells that span the
+/// depth.
+pub fn mixing(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
+    let filled_box = &drainage.filled_box;
+    let layers = Layers {
+        floor: filled_box.floor,
+        thickness: LAYER * filled_box.diameter,
+    };
+    let region = filled_box.lower_half();
+    let cells = |axis: usize| {
+        let width = region.high[axis] - region.low[axis];
+        (width / (CELL * filled_box.diameter)).round().max(1.0) as usize
+    };
+    let cells = [cells(0), 1, cells(2)];
+    lacey_index(
+        &Centres::of(state),
+        &layers.of(drainage.start()),
+        &region,
+        cells,
+    )
+}
+
+fn angle(drainage: &Drainage<'_>) -> Option<Estimate> {
+    let filled_box = &drainage.filled_box;
+    let centres = Centres::of(last(drainage));
+    let angle = surface_angle(&centres, filled_box.diameter, filled_box.half_width);
+    exact(angle.map(f64::to_degrees))
+}
+
+fn stagnant(drainage: &Drainage<'_>) -> Option<Estimate> {
+    let filled_box = &drainage.filled_box;
+    let [diameter, floor] = [filled_box.diameter, filled_box.floor];
+    let (start, end) = (drainage.start(), last(drainage));
+    let height = stagnant_height(start, end, diameter, filled_box.half_width, floor);
+    exact(Some(height / diameter))
+}

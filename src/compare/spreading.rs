@@ -1,0 +1,50 @@
+//! How far spheres stray from the mean flow.
+
+use super::Drainage;
+use crate::measure::{Axis, Diffusion};
+use crate::statistics::Estimate;
+
+/// How far spheres stray from the mean flow while they drop.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Spreading {
+    /// Mean distance dropped (m), and mean square displacement (m2) along x and along z.
+    pub points: Vec<[f64; 3]>,
+    /// Peclet numbers V d / D along x and along z, of the longest way of which there are enough.
+    pub peclet: Option<[Estimate; 2]>,
+}
+
+/// Intervals between snapshots, of which each gives a point.
+const LAGS: [usize; 8] = [1, 2, 3, 5, 8, 12, 18, 27];
+/// Fewest pairs of snapshots of a point, and of a Peclet number.
+const FEWEST: [usize; 2] = [3, 8];
+/// Width of the cells in which the mean flow is linear, in diameters.
+const CELL: f64 = 2.0;
+
+/// Of the spheres that start in the middle 40 % of the width, at 30 to 80 % of the height.
+pub fn spreading(drainage: &Drainage<'_>) -> Spreading {
+    let diameter = drainage.filled_box.diameter;
+    let region = drainage.filled_box.part(0.4, [0.3, 0.8]);
+    let states = drainage.flow();
+    let mut spreading = Spreading::default();
+    for lag in LAGS {
+        let pairs = states.iter().zip(states.iter().skip(lag)).step_by(lag);
+        let count = pairs.len();
+        if count < FEWEST[0] {
+            break;
+        }
+        let mut diffusion = Diffusion::new(region, CELL * diameter);
+        for (before, after) in pairs {
+            diffusion.add(before, after);
+        }
+        let mean_square = |axis| diffusion.mean_square(axis).map(|it| it.value);
+        let drop = diffusion.drop().map(|it| it.value);
+        if let (Some(drop), Some(x), Some(z)) = (drop, mean_square(Axis::X), mean_square(Axis::Z)) {
+            spreading.points.push([drop, x, z]);
+        }
+        let peclet = |axis| diffusion.peclet(axis, diameter);
+        if let (true, Some(x), Some(z)) = (count >= FEWEST[1], peclet(Axis::X), peclet(Axis::Z)) {
+            spreading.peclet = Some([x, z]);
+        }
+    }
+    spreading
+}

@@ -1,0 +1,60 @@
+//! The numbers of several drainages, one row per number.
+
+use super::{Drainage, QUANTITIES};
+use crate::record::RunRecord;
+use crate::statistics::Estimate;
+
+/// A number of several drainages.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Name of the quantity.
+    pub name: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Its values, in the order of the records; none where it is undefined.
+    pub values: Vec<Option<Estimate>>,
+}
+
+impl Row {
+    /// The second value less the first, of two; the interval is infinite if that of one is.
+    pub fn difference(&self) -> Option<Estimate> {
+        let [Some(first), Some(second)] = self.values[..] else {
+            return None;
+        };
+        Some(Estimate {
+            value: second.value - first.value,
+            half_width: libm::hypot(first.half_width, second.half_width),
+        })
+    }
+}
+
+/// The numbers of several drainages.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// One row per quantity.
+    pub rows: Vec<Row>,
+}
+
+impl Comparison {
+    /// Measures records, one or more; `times` as of [`Drainage::new`].
+    ///
+    /// # Errors
+    /// What a record lacks, and its place among them.
+    pub fn new(
+        records: &[RunRecord],
+        times: Option<[f64; 2]>,
+    ) -> Result<Self, (usize, &'static str)> {
+        let drainages = records.iter().enumerate();
+        let drainages = drainages
+            .map(|(place, record)| Drainage::new(record, times).map_err(|lacks| (place, lacks)))
+            .collect::<Result<Vec<Drainage<'_>>, _>>()?;
+        let row = |quantity: &super::Quantity| Row {
+            name: quantity.name,
+            unit: quantity.unit,
+            values: drainages.iter().map(quantity.measure).collect(),
+        };
+        Ok(Self {
+            rows: QUANTITIES.iter().map(row).collect(),
+        })
+    }
+}

@@ -1,0 +1,135 @@
+//! What names runs that are no points of a sweep: the keys in which their scenes differ.
+
+use super::scale;
+use crate::document::differing_keys;
+use crate::scene::{Scene, leaf};
+use serde_json::Value;
+
+/// Keys that name no run.
+const UNNAMED: [&str; 2] = ["output", "title"];
+
+/// What names each run, with markup: its values of the keys in which the scenes differ, or the
+/// titles where all scenes have different ones. Nothing where they do not differ.
+pub(super) fn of(scenes: &[&Scene]) -> Vec<Vec<String>> {
+    let mut titles: Vec<&str> = scenes.iter().filter_map(|it| it.title.as_deref()).collect();
+    titles.sort_unstable();
+    titles.dedup();
+    if scenes.len() > 1 && titles.len() == scenes.len() {
+        let title = |scene: &&Scene| vec![scene.title.clone().unwrap_or_default()];
+        return scenes.iter().map(title).collect();
+    }
+    let mut keys: Vec<String> = Vec::new();
+    for other in scenes.iter().skip(1) {
+        keys.extend(differing_keys(scenes[0], other));
+    }
+    keys.retain(|key| {
+        !UNNAMED
+            .iter()
+            .any(|table| key.split('.').next() == Some(table))
+    });
+    keys.sort();
+    keys.dedup();
+    // A table that one scene lacks is one key, whatever else differs in it.
+    let tables = keys.clone();
+    let is_outermost = |key: &String| {
+        let is_in = |table: &String| {
+            key.strip_prefix(table.as_str())
+                .is_some_and(|it| it.starts_with('.'))
+        };
+        !tables.iter().any(is_in)
+    };
+    keys.retain(is_outermost);
+    let name = |scene: &&Scene| keys.iter().map(|key| part(scene, key)).collect();
+    scenes.iter().map(name).collect()
+}
+
+/// The value of a key of a scene, in words.
+fn part(scene: &Scene, key: &str) -> String {
+    let tree = serde_json::to_value(scene).unwrap_or_default();
+    match key
+        .split('.')
+        .try_fold(&tree, |table, name| table.get(name))
+    {
+        None | Some(Value::Null) => format!("no {}", words(key)),
+        Some(Value::Object(table)) if table.is_empty() => words(key),
+        Some(Value::Object(table)) => {
+            let parts = table
+                .keys()
+                .map(|name| part(scene, &format!("{key}.{name}")));
+            format!("{}: {}", words(key), parts.collect::<Vec<_>>().join(", "))
+        }
+        Some(Value::String(text)) => text.replace('-', " "),
+        Some(Value::Number(number)) => {
+            let value = scale::number(number.as_f64().unwrap_or(f64::NAN));
+            match scene.notation(key) {
+                Some(it) => format!("${}$ = {value} {}", it.symbol, it.unit)
+                    .trim_end()
+                    .to_owned(),
+                None => format!("{} = {value}", words(key)),
+            }
+        }
+        Some(Value::Bool(true)) => words(key),
+        Some(Value::Bool(false)) => format!("no {}", words(key)),
+        Some(other) => format!("{} = {other}", words(key)),
+    }
+}
+
+fn words(key: &str) -> String {
+    leaf(key).replace('_', " ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Gravity, Integrator};
+    use crate::scene::{Radii, Shape, Spheres, Start, StartSphere, Time};
+
+    fn falling(acceleration: Option<f64>, density: f64) -> Scene {
+        let mut scene = Scene::new(
+            Spheres {
+                count: 1,
+                radius: Radii::One(0.004),
+                density,
+                shape: Shape::Sphere,
+            },
+            Start::list(vec![StartSphere::at([0.0, 0.0, 1.0])]),
+            Time {
+                dt: 1e-4,
+                safety_factor: None,
+                resolution: None,
+                duration: 0.1,
+                frame_interval: 1e-2,
+                integrator: Integrator::VelocityVerlet,
+            },
+        );
+        let gravity = |acceleration| Gravity {
+            acceleration,
+            tilt: 0.0,
+        };
+        scene.dem.effects.gravity = acceleration.map(gravity);
+        scene
+    }
+
+    #[test]
+    fn runs_are_named_by_what_differs() {
+        let scenes = [
+            falling(Some(9.8), 2500.0),
+            falling(None, 2500.0),
+            falling(Some(1.6), 3e3),
+        ];
+        let names = of(&[&scenes[0], &scenes[1], &scenes[2]]);
+        assert_eq!(names[0], ["gravity: $g$ = 9.8 m/s²", "$ρ$ = 2500 kg/m³"]);
+        assert_eq!(names[1], ["no gravity", "$ρ$ = 2500 kg/m³"]);
+        assert_eq!(names[2], ["gravity: $g$ = 1.6 m/s²", "$ρ$ = 3000 kg/m³"]);
+        assert_eq!(of(&[&scenes[0], &scenes[0]]), [[""; 0]; 2]);
+    }
+
+    #[test]
+    fn titles_that_differ_are_the_names() {
+        let mut scenes = [falling(Some(9.8), 2500.0), falling(None, 2500.0)];
+        scenes[0].title = Some("one".to_owned());
+        scenes[1].title = Some("other".to_owned());
+        assert_eq!(of(&[&scenes[0], &scenes[1]]), [["one"], ["other"]]);
+        assert_eq!(of(&[&scenes[0]]), [[""; 0]; 1]);
+    }
+}

@@ -1,0 +1,40 @@
+//! The distribution of angles between bonds.
+
+use super::overlay::{Frame, Scale};
+use super::{Curve, Drainage, Lines, Overlay};
+use crate::measure::{BondAngles, Centres};
+use std::f64::consts::PI;
+
+/// The distribution of angles between bonds.
+pub(super) static BOND_ANGLES: Overlay = Overlay {
+    name: "bond-angles",
+    description: "distribution of the angles between neighbours in the middle",
+    labels: ["angle $θ$ (°)", "$g_3$($θ$) (1/rad)"],
+    panels: &[Frame {
+        head: "",
+        x: Some((0.0, 180.0)),
+        y: Scale::FromZero,
+    }],
+    note: "Angles at a sphere between two neighbours nearer than 1.3 diameters. Region as of the \
+           radial distribution.",
+    lines,
+};
+
+/// Largest distance of a neighbour, in diameters.
+const CUTOFF: f64 = 1.3;
+/// Bins of two degrees.
+const BINS: usize = 90;
+
+fn lines(drainage: &Drainage<'_>) -> Lines {
+    let region = drainage.filled_box.middle();
+    let mut angles = BondAngles::new(CUTOFF * drainage.filled_box.diameter, BINS);
+    for state in drainage.flow() {
+        angles.add(&Centres::of(state), &region);
+    }
+    let values = angles.values().into_iter();
+    let points = values.map(|[angle, density]| (angle * 180.0 / PI, density));
+    Lines {
+        curves: vec![Curve::through(points.collect())],
+        word: None,
+    }
+}

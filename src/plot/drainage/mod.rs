@@ -1,0 +1,46 @@
+//! Figures of drainages: what is measured of snapshots, of one run or of several beside each other.
+//!
+//! Lengths are over the diameter of the spheres, so that runs of any size compare.
+
+mod bond_angles;
+mod cross_profile;
+mod diffusion;
+mod mixing;
+mod outflow;
+mod overlay;
+mod packing_fraction;
+mod radial_distribution;
+mod residence;
+mod retention;
+mod surface_angle;
+mod velocity_profile;
+
+use super::{Figure, PlotError, Source};
+use crate::compare::Drainage;
+use crate::record::RunRecord;
+use overlay::{Curve, Lines, Overlay};
+
+/// All of them.
+pub(super) static FIGURES: [&dyn Figure; 11] = [
+    &outflow::OUTFLOW,
+    &velocity_profile::VelocityProfiles,
+    &cross_profile::CROSS_PROFILE,
+    &packing_fraction::PackingFraction,
+    &surface_angle::SURFACE_ANGLE,
+    &radial_distribution::RADIAL_DISTRIBUTION,
+    &bond_angles::BOND_ANGLES,
+    &mixing::MIXING,
+    &diffusion::DIFFUSION,
+    &retention::RETENTION,
+    &residence::RESIDENCE,
+];
+
+/// A record as a figure reads it.
+fn drainage<'a>(
+    record: &'a RunRecord,
+    source: &Source<'_>,
+    figure: &'static str,
+) -> Result<Drainage<'a>, PlotError> {
+    let drainage = Drainage::new(record, source.times);
+    drainage.map_err(|needs| PlotError::Scene { figure, needs })
+}

@@ -1,0 +1,36 @@
+//! How many spheres have left, over time.
+
+use super::overlay::{Frame, Scale};
+use super::{Curve, Drainage, Lines, Overlay};
+use crate::measure::outflow_rate;
+use crate::plot::scale;
+
+/// How many spheres have left.
+pub(super) static OUTFLOW: Overlay = Overlay {
+    name: "outflow",
+    description: "spheres that have left over time, and their rate",
+    labels: ["time (s)", "spheres that have left"],
+    panels: &[Frame {
+        head: "",
+        x: None,
+        y: Scale::FromZero,
+    }],
+    note: "Rates with 95 % intervals (jackknife over blocks of time).",
+    lines,
+};
+
+fn lines(drainage: &Drainage<'_>) -> Lines {
+    let observations = &drainage.record.observations;
+    let left = observations.discharged.iter().map(|&it| f64::from(it));
+    let left: Vec<f64> = left.collect();
+    let rate = outflow_rate(&observations.time, &left, drainage.times);
+    let word = rate.map(|rate| {
+        let [value, half] = [rate.value, rate.half_width].map(|it| scale::rounded(it, 3));
+        format!("{value} ± {half} per s")
+    });
+    let points = observations.time.iter().copied().zip(left);
+    Lines {
+        curves: vec![Curve::through(points.collect())],
+        word,
+    }
+}

@@ -1,0 +1,202 @@
+//! Figures in which each run is a line.
+
+use super::{Drainage, drainage};
+use crate::classify::{DRAINAGE, Family};
+use crate::color::ColorMap;
+use crate::plot::chart::{self, Bar, Chart, Line, Panel};
+use crate::plot::page::columns;
+use crate::plot::style::px;
+use crate::plot::svg::Svg;
+use crate::plot::{Figure, PlotError, Source, choice, palette};
+use plotters::style::RGBColor;
+
+/// A figure in which each run is a line in one panel or several.
+pub(super) struct Overlay {
+    pub(super) name: &'static str,
+    pub(super) description: &'static str,
+    /// Labels of the axes, with markup.
+    pub(super) labels: [&'static str; 2],
+    pub(super) panels: &'static [Frame],
+    pub(super) note: &'static str,
+    /// What a run shows.
+    pub(super) lines: fn(&Drainage<'_>) -> Lines,
+}
+
+/// A panel.
+pub(super) struct Frame {
+    /// What stands above it.
+    pub(super) head: &'static str,
+    /// Ends of the horizontal axis; those of the lines where there are none.
+    pub(super) x: Option<(f64, f64)>,
+    pub(super) y: Scale,
+}
+
+/// What the vertical axis of a panel is like.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Scale {
+    /// As far as the lines go.
+    Free,
+    /// From zero up.
+    FromZero,
+    /// Of powers of ten.
+    Logarithmic,
+}
+
+/// What a run shows.
+pub(super) struct Lines {
+    /// A line for each panel.
+    pub(super) curves: Vec<Curve>,
+    /// What the legend says of it besides its name, with markup.
+    pub(super) word: Option<String>,
+}
+
+/// A line of a run.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Curve {
+    pub(super) points: Vec<(f64, f64)>,
+    /// Half widths of the intervals of all points; none if there are none.
+    pub(super) half_widths: Vec<f64>,
+}
+
+impl Curve {
+    /// A line without intervals.
+    pub(super) fn through(points: Vec<(f64, f64)>) -> Self {
+        Self {
+            points,
+            half_widths: Vec::new(),
+        }
+    }
+}
+
+impl Figure for Overlay {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn description(&self) -> String {
+        self.description.to_owned()
+    }
+
+    fn default_runs(&self) -> Option<&'static str> {
+        Some("a typical run of every state")
+    }
+
+    fn family(&self) -> Option<&'static Family> {
+        Some(&DRAINAGE)
+    }
+
+    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
+        let runs = choice::runs(source, choice::states)?;
+        let (common, places) = choice::places(&runs);
+        let shown = runs
+            .iter()
+            .map(|run| {
+                let record = run.record()?;
+                Ok((self.lines)(&drainage(&record, source, self.name)?))
+            })
+            .collect::<Result<Vec<Lines>, PlotError>>()?;
+        let panels = self.panels.iter().enumerate();
+        let mut panels: Vec<Panel> = panels
+            .map(|(index, frame)| frame.panel(shown.iter().map(|it| &it.curves[index])))
+            .collect();
+        self.align(&mut panels);
+        if panels
+            .iter()
+            .all(|panel| panel.lines.iter().all(|it| it.points.is_empty()))
+        {
+            return Err(PlotError::NoMeasures);
+        }
+        let words = shown.iter().map(|lines| lines.word.clone());
+        let named = places.into_iter().zip(words).enumerate();
+        let legend = named.filter_map(|(index, (mut name, word))| {
+            name.extend(word);
+            let color = color(index, runs.len());
+            (!name.is_empty()).then(|| (color, name.join(", ")))
+        });
+        let [x_label, y_label] = self.labels.map(str::to_owned);
+        Chart {
+            name: self.name,
+            common,
+            columns: columns(panels.len()),
+            height: px(300),
+            legend: legend.collect(),
+            panels,
+            x_label,
+            y_label,
+            notes: Vec::from_iter((!self.note.is_empty()).then(|| self.note.to_owned())),
+        }
+        .draw(source)
+    }
+}
+
+impl Overlay {
+    /// Gives panels of one kind the same axes, as far as the lines of all of them go.
+    fn align(&self, panels: &mut [Panel]) {
+        let frames = self.panels.iter().zip(panels.iter());
+        let filled = frames.filter(|(_, panel)| !panel.lines.iter().all(|it| it.points.is_empty()));
+        let axes: Vec<_> = filled
+            .map(|(frame, panel)| (frame, panel.x, panel.y))
+            .collect();
+        for (frame, panel) in self.panels.iter().zip(panels) {
+            let mut alike = axes
+                .iter()
+                .filter(|it| it.0.x == frame.x && it.0.y == frame.y);
+            if let Some(&(_, mut x, mut y)) = alike.next() {
+                for (_, other_x, other_y) in alike {
+                    x = (x.0.min(other_x.0), x.1.max(other_x.1));
+                    y = (y.0.min(other_y.0), y.1.max(other_y.1));
+                }
+                [panel.x, panel.y] = [x, y];
+            }
+        }
+    }
+}
+
+/// Colour of a run by its number: of few they are as different as can be, of many in order.
+pub(super) fn color(index: usize, count: usize) -> RGBColor {
+    match palette::DISTINCT.get(index) {
+        Some(color) if count <= palette::DISTINCT.len() => *color,
+        _ => palette::mapped(
+            ColorMap::Sequential,
+            index as f64 / (count - 1).max(1) as f64,
+        ),
+    }
+}
+
+impl Frame {
+    /// The panel of the curves of all runs.
+    fn panel<'c>(&self, curves: impl ExactSizeIterator<Item = &'c Curve>) -> Panel {
+        let count = curves.len();
+        let (mut lines, mut bars) = (Vec::new(), Vec::new());
+        for (index, curve) in curves.enumerate() {
+            let color = color(index, count);
+            let points = curve.points.iter().copied();
+            let drawable = |point: &(f64, f64)| {
+                point.1.is_finite() && (self.y != Scale::Logarithmic || point.1 > 0.0)
+            };
+            lines.push(Line {
+                points: points.clone().filter(drawable).collect(),
+                color,
+            });
+            let intervals = points.zip(&curve.half_widths);
+            bars.extend(intervals.map(|(at, half)| Bar::about(at, *half, color)));
+        }
+        let places = lines.iter().flat_map(|line| &line.points);
+        let (low, high) = chart::ends(places.map(|point| point.0));
+        let x = self
+            .x
+            .unwrap_or(if low < high { (low, high) } else { (0.0, 1.0) });
+        let is_inside = |point: &(f64, f64)| (x.0..=x.1).contains(&point.0);
+        for line in &mut lines {
+            line.points.retain(is_inside);
+        }
+        bars.retain(|bar| is_inside(&bar.at));
+        let head = Vec::from_iter((!self.head.is_empty()).then(|| self.head.to_owned()));
+        let panel = Panel::new(head, x, lines).with_bars(bars);
+        match self.y {
+            Scale::Free => panel,
+            Scale::FromZero => panel.down_to_zero(),
+            Scale::Logarithmic => panel.logarithmic(),
+        }
+    }
+}

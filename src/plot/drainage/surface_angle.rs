@@ -1,0 +1,32 @@
+//! The angle of the free surface over time (Rycroft, Wong and Bazant, 2010, figure 7).
+
+use super::overlay::{Frame, Scale};
+use super::{Curve, Drainage, Lines, Overlay};
+use crate::measure::{Centres, surface_angle};
+
+/// The angle of the free surface over time.
+pub(super) static SURFACE_ANGLE: Overlay = Overlay {
+    name: "surface-angle",
+    description: "angle of the free surface over time, of snapshots",
+    labels: ["time (s)", "angle of the free surface (°)"],
+    panels: &[Frame {
+        head: "",
+        x: None,
+        y: Scale::Free,
+    }],
+    note: "Regression of the highest centres in columns of 2.5 diameters (Rycroft, Wong and \
+           Bazant, 2010); positive if the surface rises to the walls.",
+    lines,
+};
+
+fn lines(drainage: &Drainage<'_>) -> Lines {
+    let (diameter, half_width) = (drainage.filled_box.diameter, drainage.filled_box.half_width);
+    let points = drainage.states().iter().filter_map(|state| {
+        let angle = surface_angle(&Centres::of(state), diameter, half_width)?;
+        Some((state.time, angle.to_degrees()))
+    });
+    Lines {
+        curves: vec![Curve::through(points.collect())],
+        word: None,
+    }
+}

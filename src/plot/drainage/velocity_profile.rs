@@ -1,0 +1,104 @@
+//! The downward velocity across a box at several heights, and how fast the flow widens upwards.
+
+use super::{Drainage, drainage};
+use crate::classify::{DRAINAGE, Family};
+use crate::compare::{DRAWN_HEIGHTS, flow_spread_of, profile_at};
+use crate::measure::flow_width;
+use crate::plot::chart::{self, Bar, Chart, Line, Panel};
+use crate::plot::page::columns;
+use crate::plot::style::px;
+use crate::plot::svg::Svg;
+use crate::plot::{Figure, PlotError, Source, choice, palette};
+use plotters::style::RGBColor;
+
+/// The downward velocity across a box at several heights.
+pub(super) struct VelocityProfiles;
+
+const COLORS: [RGBColor; 3] = [palette::LINES[0], palette::LINES[1], palette::LINES[2]];
+
+impl Figure for VelocityProfiles {
+    fn name(&self) -> &'static str {
+        "velocity-profile"
+    }
+
+    fn description(&self) -> String {
+        "downward velocity across the box at three heights, and the diffusion length of the flow"
+            .to_owned()
+    }
+
+    fn default_runs(&self) -> Option<&'static str> {
+        Some("a typical run of every state")
+    }
+
+    fn family(&self) -> Option<&'static Family> {
+        Some(&DRAINAGE)
+    }
+
+    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
+        let runs = choice::runs(source, choice::states)?;
+        let (common, places) = choice::places(&runs);
+        let panels = runs
+            .iter()
+            .zip(places)
+            .map(|(run, place)| {
+                let record = run.record()?;
+                Ok(panel(place, &drainage(&record, source, self.name())?))
+            })
+            .collect::<Result<Vec<_>, PlotError>>()?;
+        let legend = COLORS.into_iter().zip(DRAWN_HEIGHTS);
+        let legend = legend
+            .map(|(color, share)| (color, format!("at {:.0} % of the height", 100.0 * share)));
+        Chart {
+            name: self.name(),
+            common,
+            columns: columns(panels.len()),
+            height: if panels.len() == 1 { px(340) } else { px(220) },
+            panels,
+            x_label: "place along the width $x$ / $d$".to_owned(),
+            y_label: "downward velocity $v_z$ (diameters/s)".to_owned(),
+            legend: legend.collect(),
+            notes: vec![
+                "Bars: 95 % of what was measured in layers of four diameters. Lines: Gaussians \
+                 with images in the side walls. The diffusion length $b$ is fitted to the widths \
+                 of six layers, $σ$² = 2 $b$ ($z$ − $z_0$), with its 95 % interval."
+                    .to_owned(),
+            ],
+        }
+        .draw(source)
+    }
+}
+
+fn panel(mut head: Vec<String>, drainage: &Drainage<'_>) -> Panel {
+    let diameter = drainage.filled_box.diameter;
+    let walls = Some(drainage.filled_box.half_width);
+    if let Some(spread) = flow_spread_of(drainage) {
+        let b = spread.diffusion_length;
+        head.push(format!(
+            "$b$ = ({:.2} ± {:.2}) $d$",
+            b.value / diameter,
+            b.half_width / diameter
+        ));
+    }
+    let end = drainage.filled_box.half_width / diameter;
+    let (mut lines, mut bars) = (Vec::new(), Vec::new());
+    for (share, color) in DRAWN_HEIGHTS.into_iter().zip(COLORS) {
+        let profile = profile_at(drainage, share);
+        for point in profile.values() {
+            let at = (point.place / diameter, point.value.value / diameter);
+            bars.push(Bar::about(at, point.value.half_width / diameter, color));
+        }
+        let points = flow_width(&profile, walls).map(|fit| {
+            let places = chart::samples(-end, end);
+            places
+                .map(|x| (x, fit.velocity(x * diameter, walls) / diameter))
+                .collect()
+        });
+        lines.push(Line {
+            points: points.unwrap_or_default(),
+            color,
+        });
+    }
+    Panel::new(head, (-end, end), lines)
+        .with_bars(bars)
+        .down_to_zero()
+}

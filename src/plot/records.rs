@@ -1,0 +1,91 @@
+//! Figures of single runs, drawn of records without a sweep.
+
+use super::{PlotError, Source, Svg, all, captions as names, text};
+use crate::classify::{Family, Label, Sieves, Verdict, classify};
+use crate::classify::{LabelRow, LabelTable};
+use crate::record::RunRecord;
+use crate::scene::Scene;
+use crate::sweep::{PlotSettings, Sweep};
+
+/// Draws the figure `name`, one of those that take points, of records of one family, one or more.
+/// Several are named by the keys in which their scenes differ.
+///
+/// * `times`: first and last time (s) of the states that count, as of [`Source::times`]
+///
+/// # Errors
+/// Those of [`draw`](super::draw); [`PlotError::Families`] for records of several families.
+pub fn draw_records(
+    name: &str,
+    records: &[RunRecord],
+    times: Option<[f64; 2]>,
+) -> Result<Svg, PlotError> {
+    let Some(first) = records.first() else {
+        return Err(PlotError::EmptyTable);
+    };
+    let family = Family::of(&first.scene);
+    if let Some(other) = records.iter().find(|it| Family::of(&it.scene) != family) {
+        return Err(PlotError::Families {
+            first: family.name,
+            other: Family::of(&other.scene).name,
+        });
+    }
+    let sieves = Sieves::default();
+    let row = |(index, record): (usize, &RunRecord)| LabelRow {
+        id: index.to_string(),
+        values: Vec::new(),
+        seed: record.scene.seed,
+        // A figure of energies needs no label; a scene that no sieve can judge has none.
+        verdict: classify(record, &sieves)
+            .unwrap_or_else(|_| Verdict::unmeasured(family, Label::UNSETTLED)),
+    };
+    let table = LabelTable {
+        family,
+        axes: Vec::new(),
+        rows: records.iter().enumerate().map(row).collect(),
+    };
+    let scenes: Vec<&Scene> = records.iter().map(|it| &it.scene).collect();
+    let captions = names::of(&scenes);
+    let is_common = |scene: &&Scene| scene.title == first.scene.title;
+    let sweep = Sweep {
+        title: first
+            .scene
+            .title
+            .clone()
+            .filter(|_| scenes.iter().all(is_common)),
+        axes: Vec::new(),
+        seeds: table.rows.iter().map(|row| row.seed).collect(),
+        scene: first.scene.clone(),
+        sieves,
+        plot: PlotSettings::default(),
+    };
+    let record = |id: &str| {
+        let index = id
+            .parse()
+            .ok()
+            .filter(|index: &usize| *index < records.len());
+        Ok(records[index.unwrap_or(0)].clone())
+    };
+    let source = Source {
+        sweep: &sweep,
+        table: &table,
+        record: &record,
+        points: &[],
+        times,
+        captions: &captions,
+        program: &first.program,
+    };
+    let figures = all().into_iter();
+    let mut figures = figures.filter(|figure| figure.default_runs().is_some());
+    match figures.find(|figure| figure.name() == name) {
+        Some(figure) => figure.draw(&source),
+        None => Err(PlotError::NoPoints(name.to_owned())),
+    }
+}
+
+/// What names each of several records, without markup: the keys in which their scenes differ.
+pub fn captions(records: &[RunRecord]) -> Vec<Vec<String>> {
+    let scenes: Vec<&Scene> = records.iter().map(|it| &it.scene).collect();
+    let captions = names::of(&scenes).into_iter();
+    let plainly = |parts: Vec<String>| parts.iter().map(|it| text::plain(it)).collect();
+    captions.map(plainly).collect()
+}
