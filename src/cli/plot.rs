@@ -43,7 +43,7 @@ pub(crate) struct Arguments {
     #[arg(short, long = "point", value_name = "POINT", requires = "figure")]
     points: Vec<String>,
     /// First and last time (s) of the states that figures of drainages measure [default: from a
-    /// fifth of the run to its end], or the two that `packing-fraction` shows.
+    /// fifth of the run to its end], or the two that `packing-map` shows.
     #[arg(long, value_name = "FROM,TO", value_parser = super::times)]
     times: Option<[f64; 2]>,
     /// Folder for the figures [default: the results folder, or that of the record].

@@ -36,7 +36,7 @@ pub(crate) struct Arrangement {
     /// Squares of distances from the references (m2). If one is exceeded, the spheres must be
     /// sorted before the next move.
     pub(crate) farthest_squared: Vec<f64>,
-    cells: Cells,
+    pub(crate) cells: Cells,
     slack: Slack,
     surface: Surface,
     /// Height of the highest centre (m), 0 without spheres.
@@ -54,10 +54,8 @@ impl Arrangement {
         let mut cells = cells_for(sorting.parameters, position);
         let order = cells.sort(position);
         let id = order.iter().map(|&sphere| id[sphere as usize]).collect();
-        let mut sorted: Vec<Vector> = order
-            .iter()
-            .map(|&sphere| position[sphere as usize])
-            .collect();
+        let mut sorted = Vec::with_capacity(order.len() + ROWS);
+        sorted.extend(order.iter().map(|&sphere| position[sphere as usize]));
         fill_up(&mut sorted);
         position.clone_from(&sorted);
         Self::of(sorting, (sorted, id), (cells, neighbours))

@@ -65,6 +65,17 @@ impl Cells {
         order
     }
 
+    /// Number of layers of cells along z, and their height (m).
+    pub(crate) fn layers(&self) -> (usize, f64) {
+        (self.count[2], self.length[2])
+    }
+
+    /// Index of the first sphere of a layer, or of one above all.
+    pub(crate) fn first_of_layer(&self, layer: usize) -> usize {
+        let cells = self.count[0] * self.count[1];
+        self.first[layer.min(self.count[2]) * cells] as usize
+    }
+
     fn cell(&self, centre: Vector) -> usize {
         let [x, y, z] = [centre.x, centre.y, centre.z];
         let index = |axis: usize, value: f64| self.along(axis, value);

@@ -1,47 +1,31 @@
-//! The moves of a step on several threads.
+//! The moves of a batch on several threads, with the bits of one.
 //!
-//! Each thread has its own copy of the positions. In each wave it makes its share of the moves and
-//! logs which spheres they have moved where; after the wave it brings its copy up to date with the
-//! logs of the others.
+//! If the spheres must be sorted after a move, or a guard breaks, other threads may have made later
+//! moves already. All is then made again up to that move.
 
-use super::guard::Fault;
+use super::batch::{Batch, Made};
+use super::board::{Board, lock};
 use super::model::Scratch;
-use super::steps::{Done, Step};
+use super::parameters::Schedule;
+use super::strips::{Plan, Planner};
+use super::worker::{Task, Worker};
 use crate::particles::vector::Vector;
 use rayon::ThreadPool;
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError, RwLock};
+use std::sync::Mutex;
+use std::sync::atomic::AtomicUsize;
 
-/// Least and most looks at a barrier before a thread sleeps: about 1 and 20 microseconds.
-const LOOKS: [usize; 2] = [64, 1024];
+/// Share of the last batch in the costs of a move.
+const SHARE_OF_LAST: f64 = 0.2;
 
 /// Threads and what they work with.
 #[derive(Debug)]
 pub(crate) struct Crew {
     pool: ThreadPool,
     workers: Vec<Mutex<Worker>>,
-    /// For each worker the logs of even and of odd waves: one is written while the other is read.
-    logs: Vec<[RwLock<Log>; 2]>,
-}
-
-/// What one thread works with.
-#[derive(Debug, Default)]
-struct Worker {
-    position: Vec<Vector>,
-    scratch: Scratch,
-    done: Vec<Done>,
-    next: usize,
-}
-
-/// What one thread did in one wave.
-#[derive(Debug, Default)]
-struct Log {
-    /// Slots of the spheres that were moved, and their new centres (m).
-    moved: Vec<(u32, Vector)>,
-    /// Whether the spheres must be sorted.
-    stale: bool,
-    /// The first broken guard, and the number of its move.
-    fault: Option<(u32, Fault)>,
+    boards: Vec<Board>,
+    plan: Plan,
+    /// Time that a move takes in each strip (s). The bits do not depend on it.
+    costs: Vec<f64>,
 }
 
 impl Crew {
@@ -50,9 +34,9 @@ impl Crew {
         Self {
             pool,
             workers: (0..threads).map(|_| Mutex::default()).collect(),
-            logs: (0..threads)
-                .map(|_| <[RwLock<Log>; 2]>::default())
-                .collect(),
+            boards: (0..threads).map(|_| Board::default()).collect(),
+            plan: Plan::default(),
+            costs: Vec::new(),
         }
     }
 
@@ -61,172 +45,135 @@ impl Crew {
         &self.pool
     }
 
-    /// Makes the moves of waves until the spheres must be sorted. Returns the next wave, and what
-    /// was done.
-    pub(super) fn make_waves(
-        &self,
-        step: &Step<'_>,
-        first: usize,
-        position: &mut Vec<Vector>,
-        scratch: &mut Scratch,
-    ) -> Result<(usize, Vec<Done>), Fault> {
-        for worker in &self.workers {
-            let mut worker = lock(worker);
-            worker.position.clone_from(position);
-            worker.scratch.stale = false;
-            worker.done.clear();
-        }
-        let barrier = Barrier::new(self.workers.len());
-        self.pool
-            .broadcast(|context| self.work(context.index(), step, first, &barrier));
-        let mut done = Vec::new();
-        let mut next = first;
-        for worker in &self.workers {
-            let worker = &mut *lock(worker);
-            done.append(&mut worker.done);
-            scratch.left.append(&mut worker.scratch.left);
-            next = worker.next;
-        }
-        if let Some(last) = next.checked_sub(1) {
-            let logs = self.logs.iter().map(|logs| read(&logs[last % 2]));
-            let mut first_fault: Option<(u32, Fault)> = None;
-            for log in logs {
-                scratch.stale |= log.stale;
-                if let Some((number, fault)) = &log.fault
-                    && first_fault.as_ref().is_none_or(|(first, _)| number < first)
-                {
-                    first_fault = Some((*number, fault.clone()));
-                }
-            }
-            if let Some((_, fault)) = first_fault {
-                return Err(fault);
-            }
-        }
-        if let Some(worker) = self.workers.first() {
-            std::mem::swap(position, &mut lock(worker).position);
-        }
-        Ok((next, done))
-    }
-
-    /// The work of one thread.
-    fn work(&self, own: usize, step: &Step<'_>, first: usize, barrier: &Barrier) {
-        let worker = &mut *lock(&self.workers[own]);
-        worker.next = first;
-        let mut patience = LOOKS[1];
-        for wave in step.waves_from(first) {
-            let mut log = self.logs[own][wave % 2]
-                .write()
-                .unwrap_or_else(PoisonError::into_inner);
-            let shares = step
-                .waves
-                .wave(wave)
-                .iter()
-                .skip(own)
-                .step_by(self.workers.len());
-            worker.make_moves(step, shares, &mut log);
-            let mut ends = log.stale || log.fault.is_some();
-            drop(log);
-            barrier.wait(&mut patience);
-            for (other, logs) in self.logs.iter().enumerate() {
-                if other != own {
-                    let log = read(&logs[wave % 2]);
-                    for &(slot, centre) in &log.moved {
-                        worker.position[slot as usize] = centre;
-                    }
-                    ends |= log.stale || log.fault.is_some();
-                }
-            }
-            worker.next = wave + 1;
-            if ends {
-                return;
-            }
-        }
-    }
-}
-
-impl Worker {
-    fn make_moves<'a>(
+    /// Makes moves until the spheres must be sorted.
+    pub(super) fn make_moves(
         &mut self,
-        step: &Step<'_>,
-        numbers: impl Iterator<Item = &'a u32>,
-        log: &mut Log,
-    ) {
-        log.moved.clear();
-        log.fault = None;
-        for &number in numbers {
-            match step.make(number, &mut self.position, &mut self.scratch) {
-                Ok(done) => self.done.push(done),
-                Err(fault) => {
-                    log.fault = Some((number, fault));
-                    break;
+        batch: &Batch<'_>,
+        position: &mut [Vector],
+        scratch: &mut Scratch,
+    ) -> Made {
+        let planner = Planner::new(&batch.model.parameters, batch.model.slack);
+        let moves = (batch.moves.len(), |number| batch.expected_centre(number));
+        // Where the newest spots move first, the strips are to be the parts of the steps.
+        let costs = match batch.model.parameters.schedule {
+            Schedule::StepsInRandomOrder => &self.costs[..],
+            _ => &[],
+        };
+        let strips = (self.workers.len(), costs);
+        planner.divide(&mut self.plan, batch.arrangement, moves, strips);
+        if self.plan.strips.len() < 2 {
+            return batch.make_in_order(position, scratch);
+        }
+        let mut most = batch.moves.len();
+        loop {
+            let end = AtomicUsize::new(most);
+            self.boards.iter().for_each(Board::clear);
+            self.pool.broadcast(|context| {
+                let task = Task {
+                    batch,
+                    planner: &planner,
+                    plan: &self.plan,
+                    boards: &self.boards,
+                    end: &end,
+                    wear: scratch.wear.unused(),
+                    own: context.index(),
+                };
+                if task.own < self.plan.strips.len() {
+                    lock(&self.workers[task.own]).make_moves(&task, position);
                 }
+            });
+            let end = end.into_inner();
+            if end == most {
+                return self.merged(most, position, scratch);
             }
-            let slots = self.scratch.moved.iter().chain(&self.scratch.relaxed);
-            log.moved
-                .extend(slots.map(|&slot| (slot, self.position[slot as usize])));
-        }
-        log.stale = self.scratch.stale;
-    }
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-fn read(log: &RwLock<Log>) -> std::sync::RwLockReadGuard<'_, Log> {
-    log.read().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// A place where threads wait for each other. They look again and again at first, because most
-/// waves are shorter than it takes to wake a thread; where other work keeps a thread waiting, it
-/// sleeps.
-struct Barrier {
-    threads: usize,
-    arrived: AtomicUsize,
-    /// Number of threads that sleep.
-    sleeping: Mutex<usize>,
-    wake: Condvar,
-}
-
-impl Barrier {
-    fn new(threads: usize) -> Self {
-        Self {
-            threads,
-            arrived: AtomicUsize::new(0),
-            sleeping: Mutex::new(0),
-            wake: Condvar::new(),
+            most = end;
         }
     }
 
-    /// Waits for all. Where looking was in vain, the other threads may be waiting for this one's
-    /// processor: `patience`, the number of looks, is halved, else doubled.
-    fn wait(&self, patience: &mut usize) {
-        let arrived = self.arrived.fetch_add(1, Ordering::AcqRel) + 1;
-        let all = arrived.next_multiple_of(self.threads);
-        let waits = || self.arrived.load(Ordering::Acquire) < all;
-        if arrived == all {
-            // The lock makes sure that a thread either sees the count or is woken.
-            if *lock(&self.sleeping) > 0 {
-                self.wake.notify_all();
-            }
-            return;
+    /// Puts together what the threads have done.
+    fn merged(&mut self, moves: usize, position: &mut [Vector], scratch: &mut Scratch) -> Made {
+        let mut made = Made {
+            moves,
+            done: Vec::with_capacity(moves),
+            fault: None,
+        };
+        self.costs.resize(self.plan.strips.len(), 0.0);
+        for (own, strip) in self.plan.strips.iter().enumerate() {
+            let worker = &mut *lock(&self.workers[own]);
+            worker.take_over_rest(&self.boards, own);
+            let slots = strip.own.clone();
+            position[slots.clone()].copy_from_slice(&worker.position[slots]);
+            let cost = worker.busy / worker.done.len().max(1) as f64;
+            made.done.append(&mut worker.done);
+            made.fault = made.fault.or(worker.fault.take());
+            scratch.left.append(&mut worker.scratch.left);
+            scratch.wear.note_all(worker.wear);
+            self.costs[own] = match self.costs[own] > 0.0 {
+                true => self.costs[own] + SHARE_OF_LAST * (cost - self.costs[own]),
+                false => cost,
+            };
         }
-        for _ in 0..*patience {
-            if !waits() {
-                *patience = (*patience * 2).min(LOOKS[1]);
-                return;
-            }
-            std::hint::spin_loop();
+        made
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spot::batch::Move;
+    use crate::spot::parameters::{Parameters, Relaxation};
+    use crate::spot::samples;
+    use crate::spot::simulation::Simulation;
+
+    /// Small spots, so that a small box has several strips.
+    fn flowing(change: impl Fn(&mut Parameters)) -> Simulation {
+        let mut simulation = samples::simulation(|it| {
+            it.spot_radius = 1.4;
+            it.relaxation_radius = 1.2;
+            it.insertion_rate = 150.0;
+            change(it);
+        });
+        simulation.advance_to(6.5).expect("no guard breaks");
+        simulation.scratch.wear.stale = true;
+        simulation.sort_if_stale().expect("sorted");
+        simulation
+    }
+
+    #[test]
+    fn threads_give_the_bits_of_one_move_after_the_other() {
+        let kinds = [
+            Relaxation::EveryMove,
+            Relaxation::AtRandom { ratio: 3 },
+            Relaxation::Off,
+        ];
+        for (relaxation, threads) in kinds.into_iter().zip([3, 2, 5]) {
+            let simulation = flowing(|it| it.relaxation = relaxation);
+            let spots = &simulation.spots;
+            let moves: Vec<Move> = (0..spots.len() as u32)
+                .map(|k| Move {
+                    // In no order of their heights.
+                    spot: (k * 7919) % spots.len() as u32,
+                    random: [0.1 + 0.2 * f64::from(k % 4), f64::from(k % 2)],
+                })
+                .collect();
+            let batch = Batch {
+                model: &simulation.model,
+                arrangement: &simulation.arrangement,
+                spots,
+                moves: &moves,
+            };
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            let mut crew = Crew::new(pool.build().expect("threads"));
+            let [mut by_crew, mut in_order] = [0, 1].map(|_| simulation.position.clone());
+            let [mut crew_scratch, mut scratch] = [0, 1].map(|_| simulation.scratch.clone());
+            let made = crew.make_moves(&batch, &mut by_crew, &mut crew_scratch);
+            let expected = batch.make_in_order(&mut in_order, &mut scratch);
+            assert!(crew.plan.strips.len() >= threads.min(3), "{relaxation:?}");
+            assert_eq!(made.moves, expected.moves);
+            assert!(by_crew == in_order, "{relaxation:?}");
+            assert!(by_crew != simulation.position);
+            assert_eq!(crew_scratch.wear, scratch.wear);
+            assert_eq!(crew_scratch.left.len(), scratch.left.len());
         }
-        *patience = (*patience / 2).max(LOOKS[0]);
-        let mut sleeping = lock(&self.sleeping);
-        *sleeping += 1;
-        while waits() {
-            sleeping = self
-                .wake
-                .wait(sleeping)
-                .unwrap_or_else(PoisonError::into_inner);
-        }
-        *sleeping -= 1;
     }
 }

@@ -6,6 +6,7 @@ use super::model::Model;
 use super::region::NOWHERE;
 use super::relax::{Eight, Region, displacements};
 use super::simulation::Simulation;
+use super::slack::Wear;
 use super::threads::in_parallel;
 use crate::particles::block::ROWS;
 use crate::particles::vector::Vector;
@@ -19,8 +20,7 @@ struct Task<'a> {
     position: &'a mut [Vector],
     displacement: &'a mut [Eight],
     result: Result<(), Fault>,
-    /// Whether the spheres must be sorted.
-    stale: bool,
+    wear: Wear,
 }
 
 impl Simulation {
@@ -39,7 +39,7 @@ impl Simulation {
         workers.install(|| {
             let longest = 0.5 * model.diameter;
             model.displacements_of_all((arrangement, position), longest, displacement)?;
-            scratch.stale |= model.displace_all(arrangement, position, displacement);
+            model.displace_all(arrangement, position, displacement, &mut scratch.wear);
             Ok(())
         })?;
         let lowest = |slot: &u32| {
@@ -85,19 +85,23 @@ impl Model {
         tasks.into_iter().try_for_each(|task| task.result)
     }
 
-    /// Displaces all spheres. Returns whether they must be sorted.
+    /// Displaces all spheres.
     fn displace_all(
         &self,
         arrangement: &Arrangement,
         position: &mut [Vector],
         displacement: &mut [Eight],
-    ) -> bool {
+        wear: &mut Wear,
+    ) {
         let position = position[..arrangement.spheres].chunks_mut(TASK);
         let chunks = position
             .zip(displacement.chunks_mut(TASK / ROWS))
             .enumerate();
         let mut tasks: Vec<Task<'_>> = chunks
-            .map(|(task, (position, by))| Task::new(task, position, by))
+            .map(|(task, (position, by))| Task {
+                wear: wear.unused(),
+                ..Task::new(task, position, by)
+            })
             .collect();
         in_parallel(&mut tasks, &|task: &mut Task<'_>| {
             for (k, place) in task.position.iter_mut().enumerate() {
@@ -106,11 +110,13 @@ impl Model {
                     *place = self.silo.between_walls(*place + displacement);
                     let slot = task.first + k;
                     let distance = (*place - arrangement.reference[slot]).norm_squared();
-                    task.stale |= distance > arrangement.farthest_squared[slot];
+                    task.wear.note(distance, arrangement.farthest_squared[slot]);
                 }
             }
         });
-        tasks.iter().any(|task| task.stale)
+        for task in tasks {
+            wear.note_all(task.wear);
+        }
     }
 }
 
@@ -121,7 +127,7 @@ impl<'a> Task<'a> {
             position,
             displacement,
             result: Ok(()),
-            stale: false,
+            wear: Wear::default(),
         }
     }
 }

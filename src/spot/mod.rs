@@ -5,6 +5,8 @@
 //! forces and no velocities.
 
 mod arrangement;
+mod batch;
+mod board;
 mod cells;
 mod check;
 mod crew;
@@ -28,13 +30,14 @@ mod simulation;
 mod slack;
 mod state;
 mod steps;
+mod strips;
 mod surface;
 #[cfg(test)]
 mod tests;
 mod threads;
 pub mod voids;
 mod walk;
-mod waves;
+mod worker;
 
 pub use check::ParameterError;
 pub use drainage::SpotModel;

@@ -6,7 +6,7 @@ use super::parameters::{Influence, Parameters};
 use super::region::{NOWHERE, collect};
 use super::relax::{Eight, Region, displacements};
 use super::silo::Silo;
-use super::slack::Slack;
+use super::slack::{Slack, Wear};
 use crate::particles::block::ROWS;
 use crate::particles::vector::Vector;
 use fearless_simd::{Level, Simd};
@@ -36,8 +36,7 @@ pub(crate) struct Scratch {
     pub(crate) displacement: Vec<Eight>,
     /// Slots and last places of the spheres that have left through the orifice.
     pub(crate) left: Vec<(u32, Vector)>,
-    /// Whether a sphere is so far from its reference that the spheres must be sorted.
-    pub(crate) stale: bool,
+    pub(crate) wear: Wear,
 }
 
 impl Model {
@@ -81,7 +80,7 @@ impl Model {
             .any(|(half, place)| place.abs() + radius > half);
         let reflected = self.parameters.reflection && bounded;
         let floor = self.silo.floor_is_within(radius + self.diameter, centre.z);
-        let mut stale = false;
+        let mut wear = scratch.wear;
         let moved = std::mem::take(&mut scratch.moved);
         for &slot in &moved {
             let old = position[slot as usize];
@@ -92,10 +91,10 @@ impl Model {
             };
             let new = self.silo.between_walls(old + displacement * images);
             let distance = (new - arrangement.reference[slot as usize]).norm_squared();
-            stale |= distance > arrangement.farthest_squared[slot as usize];
+            wear.note(distance, arrangement.farthest_squared[slot as usize]);
             position[slot as usize] = new;
         }
-        scratch.stale |= stale;
+        scratch.wear = wear;
         if floor {
             self.keep_above_floor(&moved, position, &mut scratch.left);
         }
@@ -182,7 +181,7 @@ impl Model {
     }
 
     fn apply(&self, arrangement: &Arrangement, position: &mut [Vector], scratch: &mut Scratch) {
-        let mut stale = false;
+        let mut wear = scratch.wear;
         let groups = scratch.relaxed.chunks(ROWS).zip(&scratch.displacement);
         for (slots, displacement) in groups {
             for (lane, &slot) in slots.iter().enumerate() {
@@ -190,11 +189,11 @@ impl Model {
                 let new = position[slot] + displacement.vector(lane);
                 let new = self.silo.between_walls(new);
                 let distance = (new - arrangement.reference[slot]).norm_squared();
-                stale |= distance > arrangement.farthest_squared[slot];
+                wear.note(distance, arrangement.farthest_squared[slot]);
                 position[slot] = new;
             }
         }
-        scratch.stale |= stale;
+        scratch.wear = wear;
     }
 
     /// Pushes spheres off the floor and the orifice's edge, and takes those away that have left.

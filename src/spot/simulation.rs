@@ -7,6 +7,7 @@ use super::neighbours::Neighbours;
 use super::parameters::{Parameters, Schedule};
 use super::random::Stream;
 use super::region::NOWHERE;
+use super::slack::Wear;
 use super::state::{Counts, StartError, State};
 use super::threads::Workers;
 use super::walk::Spot;
@@ -33,6 +34,8 @@ pub struct Simulation {
     pub(super) counts: Counts,
     pub(super) next_event: f64,
     pub(super) steps: u64,
+    /// Number of spots now inside that move in the lower part of the next step.
+    pub(super) lower: usize,
     pub(super) workers: Workers,
     seed: u64,
     time: f64,
@@ -68,6 +71,7 @@ impl Simulation {
             counts,
             next_event,
             steps: 0,
+            lower: 0,
             workers: Workers::default(),
             seed,
             time: 0.0,
@@ -165,7 +169,8 @@ impl Simulation {
             reference: self.arrangement.reference[..spheres].to_vec(),
             id: self.arrangement.id.clone(),
             left: self.left.clone(),
-            stale: self.scratch.stale,
+            wear: self.scratch.wear,
+            lower: self.lower as u32,
             counts: self.counts,
             drawn: [self.random[0].drawn(), self.random[1].drawn()],
         };
@@ -201,13 +206,14 @@ impl Simulation {
             position: state.position,
             spots: state.spots,
             scratch: Scratch {
-                stale: state.stale,
+                wear: state.wear,
                 ..Scratch::default()
             },
             random: [resumed(STREAMS[0], walk), resumed(STREAMS[1], relaxation)],
             counts: state.counts,
             next_event: state.next_event,
             steps: state.steps,
+            lower: state.lower as usize,
             workers: Workers::default(),
             seed: state.seed,
             time: state.time,
@@ -215,22 +221,40 @@ impl Simulation {
         })
     }
 
-    /// Sorts the spheres again if it is time to.
+    /// Sorts the spheres if they must be sorted before the next move.
     pub(super) fn sort_if_stale(&mut self) -> Result<(), Fault> {
-        if !self.scratch.stale {
-            return Ok(());
+        match self.scratch.wear.stale {
+            true => self.sort(),
+            false => Ok(()),
         }
-        let kept = |id: &u32| self.left[*id as usize].is_none();
-        let spheres = self.arrangement.id.iter().zip(&self.position);
-        let (ids, mut position): (Vec<u32>, Vec<Vector>) =
-            spheres.filter(|(id, _)| kept(id)).unzip();
+    }
+
+    /// Begins a step, and sorts the spheres if they would have to be sorted during it.
+    pub(super) fn sort_if_worn(&mut self) -> Result<(), Fault> {
+        if self.scratch.wear.worn {
+            self.sort()?;
+        }
+        self.scratch.wear.begin_step();
+        Ok(())
+    }
+
+    fn sort(&mut self) -> Result<(), Fault> {
+        let spheres = self.arrangement.spheres;
+        let mut ids = Vec::with_capacity(spheres);
+        let mut position = Vec::with_capacity(spheres + ROWS);
+        for (id, place) in self.arrangement.id.iter().zip(&self.position) {
+            if place.z > NOWHERE.z {
+                ids.push(*id);
+                position.push(*place);
+            }
+        }
         let neighbours = std::mem::replace(&mut self.arrangement.neighbours, Neighbours::new());
         let (sorting, spheres) = (self.model.sorting(), (&mut position, ids));
         self.arrangement = self
             .workers
             .install(|| Arrangement::sorted(sorting, spheres, neighbours))?;
         self.position = position;
-        self.scratch.stale = false;
+        self.scratch.wear = Wear::default();
         self.counts.sortings += 1;
         Ok(())
     }

@@ -2,9 +2,59 @@
 
 use super::parameters::{Parameters, Relaxation};
 use crate::particles::vector::Vector;
+use serde::{Deserialize, Serialize};
 
 /// Greatest slack, in diameters.
 const MOST: f64 = 0.4;
+
+/// Share of their slack that spheres are meant to use at most, so that a step that moves them
+/// farther than those before does not use all of it.
+const MOST_USED: f64 = 0.85;
+
+/// How much of their slack spheres have used since they were sorted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Wear {
+    /// One has used so much that another step may use all of it.
+    pub(crate) worn: bool,
+    /// One has used all of it: the spheres must be sorted before the next move.
+    pub(crate) stale: bool,
+    /// Number of steps since the sorting, with the present one.
+    steps: u32,
+    /// Square of the share of a slack from which the spheres are worn.
+    limit: f64,
+}
+
+impl Wear {
+    /// Begins a step. Most spheres that are far from where they were have got there by a random
+    /// walk: the squares of distances grow by 1/s in the next step after s.
+    pub(crate) fn begin_step(&mut self) {
+        self.steps = self.steps.saturating_add(1);
+        let steps = f64::from(self.steps);
+        self.limit = MOST_USED * MOST_USED * steps / (steps + 1.0);
+    }
+
+    /// Nothing noted yet, at the same time.
+    pub(crate) fn unused(self) -> Self {
+        Self {
+            worn: false,
+            stale: false,
+            ..self
+        }
+    }
+
+    /// Notes the square of a sphere's distance from where it was sorted, and of its slack (m2).
+    #[inline(always)]
+    pub(crate) fn note(&mut self, distance_squared: f64, slack_squared: f64) {
+        self.worn |= distance_squared > self.limit * slack_squared;
+        self.stale |= distance_squared > slack_squared;
+    }
+
+    /// Notes what others have noted.
+    pub(crate) fn note_all(&mut self, other: Self) {
+        self.worn |= other.worn;
+        self.stale |= other.stale;
+    }
+}
 
 /// The distance that a sphere may move before the next sorting, as a function of its place.
 ///
@@ -64,6 +114,11 @@ impl Slack {
         let from_orifice = (place.norm() - distance).max(self.diameter);
         let slack = self.near * self.diameter / from_orifice;
         slack.max(self.least).min(self.most)
+    }
+
+    /// The greatest slack of all (m).
+    pub(crate) fn most(&self) -> f64 {
+        self.most
     }
 
     /// How far a sphere of this slack may be from where it was sorted before the next move, which

@@ -1,5 +1,6 @@
 //! The complete state of a simulation, which checkpoints hold.
 
+use super::slack::Wear;
 use super::walk::Spot;
 use crate::particles::vector::Vector;
 use serde::{Deserialize, Serialize};
@@ -24,8 +25,10 @@ pub(crate) struct State {
     pub(crate) id: Vec<u32>,
     /// Where spheres were when they left (m), in order of their numbers.
     pub(crate) left: Vec<Option<Vector>>,
-    /// Whether the spheres must be sorted before the next move.
-    pub(crate) stale: bool,
+    pub(crate) wear: Wear,
+    /// Where the newest spots move first: number of spots now inside that move in the lower part
+    /// of the next step.
+    pub(crate) lower: u32,
     pub(crate) counts: Counts,
     /// Number of random numbers drawn for the walk, and for relaxations.
     pub(crate) drawn: [u64; 2],
@@ -85,6 +88,9 @@ impl State {
         let spheres = self.id.len();
         if self.position.len() != spheres || self.reference.len() != spheres {
             return Err("its arrays have different lengths".to_owned());
+        }
+        if self.lower as usize > self.spots.len() {
+            return Err("it has fewer spots than their lower part".to_owned());
         }
         if self.id.iter().any(|&id| id as usize >= self.left.len()) {
             return Err("a number of a sphere is out of range".to_owned());

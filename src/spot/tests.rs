@@ -120,15 +120,19 @@ fn the_mean_flow_of_mirrored_starts_is_mirrored() {
 
 #[test]
 fn bits_do_not_depend_on_threads_resumes_or_output() {
+    let kinds = [
+        (Relaxation::EveryMove, [2, 3]),
+        (Relaxation::Global { ratio: 2 }, [5, 1]),
+    ];
     for schedule in SCHEDULES {
-        for relaxation in [Relaxation::EveryMove, Relaxation::Global { ratio: 1 }] {
+        for (relaxation, threads) in kinds {
             let change = |it: &mut Parameters| {
                 it.schedule = schedule;
                 it.relaxation = relaxation;
             };
             let whole = after(0.8, change);
             let mut pieces = simulation(change);
-            pieces.use_threads(2).expect("threads");
+            pieces.use_threads(threads[0]).expect("threads");
             for part in 1..=5 {
                 pieces
                     .advance_to(f64::from(part) * 0.08)
@@ -137,17 +141,87 @@ fn bits_do_not_depend_on_threads_resumes_or_output() {
             let saved = pieces.save().expect("saved");
             let parameters = pieces.parameters().clone();
             let mut resumed = Simulation::restore(parameters, &saved).expect("restored");
-            resumed.use_threads(3).expect("threads");
+            resumed.use_threads(threads[1]).expect("threads");
             resumed.advance_to(0.8).expect("no guard breaks");
-            assert_eq!(
-                whole.positions(),
-                resumed.positions(),
-                "{schedule:?}, {relaxation:?}"
-            );
-            assert_eq!(whole.spots(), resumed.spots());
-            assert_eq!(whole.counts(), resumed.counts());
+            assert_same(&whole, &resumed);
             assert!(whole.counts().sortings > 0);
         }
+    }
+}
+
+fn assert_same(one: &Simulation, other: &Simulation) {
+    let about = (&one.parameters().schedule, &one.parameters().relaxation);
+    assert_eq!(one.positions(), other.positions(), "{about:?}");
+    assert_eq!(one.spots(), other.spots(), "{about:?}");
+    assert_eq!(one.counts(), other.counts(), "{about:?}");
+    let saved = [one, other].map(|it| it.save().expect("saved"));
+    assert!(saved[0] == saved[1], "{about:?}");
+}
+
+/// Spots have reached the top by then, and strips are many where spots are small.
+#[test]
+fn steps_have_the_same_bits_on_any_number_of_threads() {
+    let kinds = [
+        (Relaxation::EveryMove, Walk::Unbiased, [2, 5]),
+        (Relaxation::Counted { ratio: 3 }, Walk::Unbiased, [2, 3]),
+        (Relaxation::Off, Walk::Biased { exponent: 3.0 }, [3, 5]),
+    ];
+    for schedule in [Schedule::StepsInRandomOrder, Schedule::StepsNewestFirst] {
+        for (relaxation, walk, several) in kinds {
+            let change = |it: &mut Parameters| {
+                it.schedule = schedule;
+                it.relaxation = relaxation;
+                it.walk = walk;
+                it.spot_radius = 1.4;
+                it.relaxation_radius = 1.2;
+                it.insertion_rate = 150.0;
+            };
+            let one = after(6.5, change);
+            assert!(one.counts().removed > 0);
+            for threads in several {
+                let mut other = simulation(change);
+                other.use_threads(threads).expect("threads");
+                other.advance_to(6.5).expect("no guard breaks");
+                assert_same(&one, &other);
+            }
+        }
+    }
+}
+
+#[test]
+fn steps_that_must_be_sorted_in_between_have_the_same_bits_on_threads() {
+    for schedule in [Schedule::StepsInRandomOrder, Schedule::StepsNewestFirst] {
+        let change = |it: &mut Parameters| {
+            it.schedule = schedule;
+            it.relaxation = Relaxation::Off;
+            it.displacement_ratio = 20.0;
+        };
+        let one = after(2.0, change);
+        assert!(one.counts().sortings > 2 * 2 * 28, "{:?}", one.counts());
+        let mut two = simulation(change);
+        two.use_threads(2).expect("threads");
+        two.advance_to(2.0).expect("no guard breaks");
+        assert_same(&one, &two);
+    }
+}
+
+#[test]
+fn guards_break_at_the_same_move_on_threads() {
+    let mut twice = packing().to_vec();
+    twice.push(packing()[700]);
+    for schedule in [Schedule::StepsInRandomOrder, Schedule::StepsNewestFirst] {
+        let failures = [1, 2, 3].map(|threads| {
+            let parameters = Parameters {
+                schedule,
+                ..parameters()
+            };
+            let mut simulation = Simulation::new(parameters, &twice, 1).expect("a start");
+            simulation.use_threads(threads).expect("threads");
+            let failure = simulation.advance_to(4.0).expect_err("a guard breaks");
+            (failure, simulation.positions())
+        });
+        assert_eq!(failures[0], failures[1]);
+        assert_eq!(failures[0], failures[2]);
     }
 }
 

@@ -22,8 +22,12 @@ impl Workers {
     }
 
     /// The threads, if there are several.
-    pub(crate) fn crew(&self) -> Option<&Crew> {
-        self.crew.as_ref()
+    pub(crate) fn crew(&mut self) -> Option<&mut Crew> {
+        self.crew.as_mut()
+    }
+
+    pub(crate) fn are_several(&self) -> bool {
+        self.crew.is_some()
     }
 
     /// Lets parallel loops inside use these threads.

@@ -39,6 +39,7 @@ impl Model {
     }
 
     /// The middle of the way of a spot, if spheres have no influence on it; else where the spot is.
+    #[inline(always)]
     pub(crate) fn expected_centre(&self, spot: Vector, random: f64) -> Vector {
         match self.parameters.walk {
             Walk::Unbiased => spot + self.way(spot, (random * 4.0) as usize) * 0.5,
@@ -47,6 +48,7 @@ impl Model {
     }
 
     /// The way of a spot to one of its four places, cut off at the distance from walls.
+    #[inline(always)]
     fn way(&self, spot: Vector, place: usize) -> Vector {
         let parameters = &self.parameters;
         let [x, y, z] = parameters.step;

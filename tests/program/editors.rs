@@ -1,12 +1,12 @@
 //! What editors, shells and scripts are given: schemas, starter files, completions, manual pages,
 //! `--json`. `BLESS=1` writes the pages in `docs/` anew.
 
-use crate::support::{TinySweep, Workplace, scene_file};
+use crate::support::{TinySweep, Workplace, drainage_file, scene_file};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The commands that answer in JSON are tested below; these are all.
-const COMMANDS: [&str; 19] = [
+const COMMANDS: [&str; 20] = [
     "sweep",
     "classify",
     "plot",
@@ -16,6 +16,7 @@ const COMMANDS: [&str; 19] = [
     "check",
     "cost",
     "neighbours",
+    "compare",
     "stability",
     "accuracy",
     "ablate",
@@ -331,6 +332,18 @@ fn a_run_answers_in_json() {
     let run = answer(&place, &["run", "scene.toml"], 0);
     assert_eq!(run["outcome"], "unstable");
     assert_eq!(run["instability"]["guard"], "displacement");
+}
+
+#[test]
+fn a_comparison_answers_in_json() {
+    let place = Workplace::new();
+    place.write("scene.toml", &drainage_file());
+    place
+        .phase(&["run", "scene.toml", "--out", "run.h5"])
+        .code(0);
+    let compared = answer(&place, &["compare", "run.h5", "run.h5"], 0);
+    assert_eq!(compared["records"], serde_json::json!(["run.h5", "run.h5"]));
+    assert_eq!(compared["rows"][0]["difference"], 0.0);
 }
 
 #[test]

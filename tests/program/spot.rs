@@ -181,7 +181,7 @@ fn records_are_drawn_beside_each_other() {
         "outflow",
         "velocity-profile",
         "cross-profile",
-        "packing-fraction",
+        "packing-map",
         "radial-distribution",
         "bond-angles",
         "diffusion",
@@ -231,7 +231,7 @@ fn records_are_drawn_beside_each_other() {
     place
         .phase(&["plot", "--list", "full.h5"])
         .code(0)
-        .says("packing-fraction");
+        .says("packing-map");
 }
 
 /// A record compared with itself differs by nothing, and without relaxation spheres overlap more.

@@ -8,7 +8,7 @@ mod diffusion;
 mod mixing;
 mod outflow;
 mod overlay;
-mod packing_fraction;
+mod packing_map;
 mod radial_distribution;
 mod residence;
 mod retention;
@@ -25,7 +25,7 @@ pub(super) static FIGURES: [&dyn Figure; 11] = [
     &outflow::OUTFLOW,
     &velocity_profile::VelocityProfiles,
     &cross_profile::CROSS_PROFILE,
-    &packing_fraction::PackingFraction,
+    &packing_map::PackingMap,
     &surface_angle::SURFACE_ANGLE,
     &radial_distribution::RADIAL_DISTRIBUTION,
     &bond_angles::BOND_ANGLES,

@@ -245,7 +245,7 @@ fn figures_of_one_record_go_where_they_are_asked_for() {
     place
         .phase(&["plot", "tank.h5", "--figure", "phase"])
         .code(2)
-        .complains("`phase` is not a figure of a single record; available: `tracks`");
+        .complains("`phase` is not a figure of a record of a tank; available: `tracks`");
     place.write("tiny.toml", &crate::support::TinySweep::default().text());
     place.phase(&["sweep", "tiny.toml"]).code(0);
     let folder = [

@@ -15,7 +15,7 @@ use crate::plot::{Figure, PlotError, Source, choice};
 use crate::render::Image;
 
 /// Maps of the local packing fraction at two times.
-pub(super) struct PackingFraction;
+pub(super) struct PackingMap;
 
 /// Distance of the spheres that count at a place, in diameters.
 const DISTANCE: f64 = 2.2;
@@ -30,9 +30,9 @@ const SHOWN: [f64; 2] = [0.11, 0.67];
 /// Maps beside each other.
 const COLUMNS: usize = 4;
 
-impl Figure for PackingFraction {
+impl Figure for PackingMap {
     fn name(&self) -> &'static str {
-        "packing-fraction"
+        "packing-map"
     }
 
     fn description(&self) -> String {

@@ -1,0 +1,70 @@
+//! What the threads of a batch tell their neighbours: how far they are, and what they have moved.
+
+use crate::particles::vector::Vector;
+use std::ops::Range;
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// Slot of a sphere, and its new centre (m).
+type Moved = (u32, [f64; 3]);
+
+/// What one thread tells the strips below and above.
+#[derive(Debug, Default)]
+#[repr(align(128))]
+pub(super) struct Board {
+    /// How many of the moves that it shares have been made.
+    shared: AtomicU32,
+    moved: [Mutex<Vec<Moved>>; 2],
+}
+
+impl Board {
+    /// Forgets the last batch.
+    pub(super) fn clear(&self) {
+        self.shared.store(0, Ordering::Relaxed);
+        self.moved.iter().for_each(|moved| lock(moved).clear());
+    }
+
+    /// Notes where spheres are now, for the strip on one side, as far as it watches their slots.
+    pub(super) fn note<'a>(
+        &self,
+        side: usize,
+        watched: &Range<usize>,
+        slots: impl Iterator<Item = &'a u32>,
+        position: &[Vector],
+    ) {
+        let watched = slots.filter(|slot| watched.contains(&(**slot as usize)));
+        let places = watched.map(|&slot| {
+            let Vector { x, y, z, .. } = position[slot as usize];
+            (slot, [x, y, z])
+        });
+        lock(&self.moved[side]).extend(places);
+    }
+
+    /// Shows how many moves have been shared.
+    pub(super) fn show(&self, shared: u32) {
+        self.shared.store(shared, Ordering::Release);
+    }
+
+    /// Whether that many moves have been shared.
+    pub(super) fn has_shown(&self, shared: u32) -> bool {
+        self.shared.load(Ordering::Acquire) >= shared
+    }
+
+    /// Moves spheres as was noted for the strip on one side. `inbox` is empty before and after.
+    pub(super) fn take_over(&self, side: usize, inbox: &mut Inbox, position: &mut [Vector]) {
+        // The other thread is not kept waiting while the spheres are moved.
+        std::mem::swap(&mut *lock(&self.moved[side]), &mut inbox.0);
+        for (slot, centre) in inbox.0.drain(..) {
+            position[slot as usize] = Vector::from(centre);
+        }
+    }
+}
+
+/// What was taken from a board.
+#[derive(Debug, Default)]
+pub(super) struct Inbox(Vec<Moved>);
+
+/// Locks, whatever has become of another thread that held the lock.
+pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,218 @@
+//! What one thread does of a batch: the moves of its strip.
+//!
+//! It has its own copy of the positions, as far as its moves look. Where a move has to wait for one
+//! of another strip, later moves are made that have nothing to do with it.
+
+use super::batch::{Batch, Done};
+use super::board::{Board, Inbox};
+use super::guard::Fault;
+use super::model::Scratch;
+use super::region::NOWHERE;
+use super::slack::Wear;
+use super::strips::{ABOVE, BELOW, Plan, Planner, Strip, Turn};
+use crate::particles::block::ROWS;
+use crate::particles::vector::Vector;
+use std::collections::VecDeque;
+use std::iter::Peekable;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// How often a thread looks whether another one has made a move before it lets others use its
+/// processor: about 20 microseconds.
+const LOOKS: usize = 1024;
+
+/// Most moves that wait.
+const MOST_WAITING: usize = 32;
+
+/// A move that waits, and its centre, as far as it is known (m).
+type Waiting = (Turn, Vector);
+
+/// What one thread works with.
+#[derive(Debug, Default)]
+#[repr(align(128))]
+pub(super) struct Worker {
+    pub(super) position: Vec<Vector>,
+    /// What another thread has moved.
+    inbox: Inbox,
+    pub(super) scratch: Scratch,
+    pub(super) done: Vec<Done>,
+    /// The guard that a move broke.
+    pub(super) fault: Option<Fault>,
+    /// Moves that wait for other threads, and all that must follow them, in order.
+    waiting: VecDeque<Waiting>,
+    pub(super) wear: Wear,
+    /// For how long it had something to do (s).
+    pub(super) busy: f64,
+}
+
+/// What the threads share.
+#[derive(Clone, Copy)]
+pub(super) struct Task<'a> {
+    pub(super) batch: &'a Batch<'a>,
+    pub(super) planner: &'a Planner,
+    pub(super) plan: &'a Plan,
+    pub(super) boards: &'a [Board],
+    /// Only moves with smaller numbers are made.
+    pub(super) end: &'a AtomicUsize,
+    /// With nothing noted yet.
+    pub(super) wear: Wear,
+    /// The strip of this thread.
+    pub(super) own: usize,
+}
+
+impl Worker {
+    /// Makes the moves of a strip. `position` are the centres before the batch (m).
+    pub(super) fn make_moves(&mut self, task: &Task<'_>, position: &[Vector]) {
+        let start = Instant::now();
+        let strip = &task.plan.strips[task.own];
+        self.begin(strip, (position, task.wear));
+        let mut turns = strip.turns.iter().peekable();
+        let mut shared = 0;
+        while let Some(turn) = self.next_turn(task, &mut turns) {
+            self.make(task, &turn);
+            if turn.shared.contains(&true) {
+                shared += 1;
+                self.share(task, &turn, shared);
+            }
+        }
+        self.busy += start.elapsed().as_secs_f64();
+    }
+
+    fn begin(&mut self, strip: &Strip, (position, wear): (&[Vector], Wear)) {
+        self.position.resize(position.len(), NOWHERE);
+        let seen = strip.seen.clone();
+        self.position[seen.clone()].copy_from_slice(&position[seen]);
+        // What fills up the array for vectors.
+        let filled = position.len() - ROWS;
+        self.position[filled..].fill(NOWHERE);
+        self.scratch.wear = wear;
+        self.scratch.left.clear();
+        self.waiting.clear();
+        self.done.clear();
+        self.fault = None;
+        self.wear = wear;
+        self.busy = 0.0;
+    }
+
+    /// The move that can be made next; None at the end. Waits if there is nothing else to do.
+    fn next_turn<'a>(
+        &mut self,
+        task: &Task<'_>,
+        turns: &mut Peekable<impl Iterator<Item = &'a Turn>>,
+    ) -> Option<Turn> {
+        loop {
+            if self.waiting.front().is_some_and(|it| task.is_ready(&it.0)) {
+                return self.waiting.pop_front().map(|it| it.0);
+            }
+            let full = self.waiting.len() == MOST_WAITING;
+            let Some(turn) = turns.next_if(|it| !full && !task.is_after_end(it)) else {
+                let (first, _) = self.waiting.pop_front()?;
+                let since = Instant::now();
+                let ready = task.wait_until_ready(&first);
+                self.busy -= since.elapsed().as_secs_f64();
+                return ready.then_some(first);
+            };
+            if self.may_be_made(task, turn) {
+                return Some(*turn);
+            }
+            self.waiting.push_back((*turn, task.centre(turn)));
+        }
+    }
+
+    /// Whether a move depends neither on other threads nor on moves that wait.
+    fn may_be_made(&self, task: &Task<'_>, turn: &Turn) -> bool {
+        if self.waiting.is_empty() {
+            return task.is_ready(turn);
+        }
+        if turn.shared.contains(&true) {
+            return false;
+        }
+        let centre = task.centre(turn);
+        let mut waiting = self.waiting.iter();
+        !waiting.any(|(_, other)| task.planner.conflict(*other, centre))
+    }
+
+    /// Makes a move. If it ends the batch, later moves are not made any more.
+    fn make(&mut self, task: &Task<'_>, turn: &Turn) {
+        for (side, neighbour) in sides(task.own).filter(|(side, _)| turn.after[*side] > 0) {
+            // Seen from the neighbour, this strip is on the other side.
+            let board = &task.boards[neighbour];
+            board.take_over(1 - side, &mut self.inbox, &mut self.position);
+        }
+        let number = turn.number as usize;
+        let done = task
+            .batch
+            .make(number, &mut self.position, &mut self.scratch);
+        let broken = done.is_err();
+        match done {
+            Ok(done) => self.done.push(done),
+            Err(fault) => self.fault = Some(fault),
+        }
+        let wear = self.scratch.wear;
+        self.scratch.wear = wear.unused();
+        self.wear.note_all(wear);
+        if broken || wear.stale {
+            task.end.fetch_min(number + 1, Ordering::Relaxed);
+        }
+    }
+
+    /// Tells the neighbours what a move has done; it is one of so many that are shared.
+    fn share(&self, task: &Task<'_>, turn: &Turn, shared: u32) {
+        let board = &task.boards[task.own];
+        for (side, neighbour) in sides(task.own).filter(|(side, _)| turn.shared[*side]) {
+            let slots = self.scratch.moved.iter().chain(&self.scratch.relaxed);
+            let watched = &task.plan.strips[neighbour].watched;
+            board.note(side, watched, slots, &self.position);
+        }
+        board.show(shared);
+    }
+
+    /// Takes over what the neighbours have shared last.
+    pub(super) fn take_over_rest(&mut self, boards: &[Board], own: usize) {
+        for (side, neighbour) in sides(own) {
+            if let Some(board) = boards.get(neighbour) {
+                board.take_over(1 - side, &mut self.inbox, &mut self.position);
+            }
+        }
+    }
+}
+
+impl Task<'_> {
+    /// Whether the moves of other strips have been made that one depends on.
+    fn is_ready(&self, turn: &Turn) -> bool {
+        let after = sides(self.own).filter(|(side, _)| turn.after[*side] > 0);
+        let mut after = after.map(|(side, neighbour)| (turn.after[side], &self.boards[neighbour]));
+        after.all(|(shared, board)| board.has_shown(shared))
+    }
+
+    /// Waits until a move can be made. False if the end comes first.
+    fn wait_until_ready(&self, turn: &Turn) -> bool {
+        let mut looks = 0;
+        while !self.is_ready(turn) {
+            if self.is_after_end(turn) {
+                return false;
+            }
+            looks += 1;
+            if looks < LOOKS {
+                std::hint::spin_loop();
+            } else {
+                std::thread::yield_now();
+            }
+        }
+        true
+    }
+
+    /// The centre of a move, as far as it is known (m).
+    fn centre(&self, turn: &Turn) -> Vector {
+        self.batch.expected_centre(turn.number as usize)
+    }
+
+    fn is_after_end(&self, turn: &Turn) -> bool {
+        turn.number as usize >= self.end.load(Ordering::Relaxed)
+    }
+}
+
+/// The sides of a strip, and the numbers of its neighbours.
+fn sides(own: usize) -> impl Iterator<Item = (usize, usize)> {
+    [(BELOW, own.wrapping_sub(1)), (ABOVE, own + 1)].into_iter()
+}
