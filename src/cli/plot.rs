@@ -53,6 +53,9 @@ pub(crate) struct Arguments {
     /// several nothing].
     #[arg(long, value_name = "NAME", conflicts_with = "list")]
     name: Option<String>,
+    /// What names a record, in the order of the records [default: the keys in which they differ].
+    #[arg(long = "label", value_name = "TEXT", conflicts_with = "list")]
+    labels: Vec<String>,
     /// Print the names of all figures, or of those that can be drawn of DIR, and what they show;
     /// draw nothing.
     #[arg(short, long)]
@@ -104,6 +107,11 @@ impl Arguments {
         if self.name.is_some() && is_one_folder {
             return Err(Failure::refused(
                 "--name is for figures of records: those of a folder have their own names",
+            ));
+        }
+        if !self.labels.is_empty() && (is_one_folder || self.labels.len() != self.paths.len()) {
+            return Err(Failure::refused(
+                "--label names records: give it once for each, in their order",
             ));
         }
         Ok(())

@@ -2,7 +2,7 @@
 
 use super::{Drainage, flow_spread_of, spreading};
 use crate::measure::{
-    Badness, Centres, Layers, RadialDistribution, Walls, lacey_index, outflow_rate,
+    Badness, Centres, Layers, RadialDistribution, Walls, lacey_index, outflow_rate, solid_like,
     stagnant_height, surface_angle, voronoi_cells,
 };
 use crate::observe::Snapshot;
@@ -21,7 +21,7 @@ pub struct Quantity {
 }
 
 /// All of them.
-pub static QUANTITIES: [Quantity; 14] = [
+pub static QUANTITIES: [Quantity; 15] = [
     Quantity {
         name: "outflow",
         unit: "1/s",
@@ -46,6 +46,11 @@ pub static QUANTITIES: [Quantity; 14] = [
         name: "packing fraction in the flow",
         unit: "",
         measure: |drainage| over_blocks(drainage, |state| packing_fraction(drainage, state)),
+    },
+    Quantity {
+        name: "share of spheres in crystals, in the flow",
+        unit: "",
+        measure: |drainage| over_blocks(drainage, |state| solid_share(drainage, state)),
     },
     Quantity {
         name: "packing badness, of pairs",
@@ -101,6 +106,8 @@ pub static QUANTITIES: [Quantity; 14] = [
 /// Most states of which the packing is measured: more tell little more, as neighbours in time are
 /// alike.
 const STATES: usize = 10;
+/// Largest distance of a neighbour, in diameters.
+const BOND: f64 = 1.3;
 /// Distances of the radial distribution function: farthest, in diameters, and bins.
 const DISTANCES: (f64, usize) = (1.2, 480);
 /// Thickness of coloured layers and width of the cells of mixing, in diameters.
@@ -178,6 +185,19 @@ fn packing_fraction(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
     let diameter = filled_box.diameter;
     let spheres = volumes.len() as f64 * PI / 6.0 * diameter * diameter * diameter;
     (!volumes.is_empty()).then(|| spheres / volumes.iter().sum::<f64>())
+}
+
+/// Share of the spheres in the middle that are part of a crystal.
+fn solid_share(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
+    let filled_box = &drainage.filled_box;
+    let centres = Centres::of(state);
+    let region = filled_box.middle();
+    let solid = solid_like(&centres, BOND * filled_box.diameter);
+    let places = solid.iter().zip(&centres.place);
+    let inside = places.filter(|(_, place)| region.contains(**place));
+    let inside: Vec<bool> = inside.map(|(solid, _)| *solid).collect();
+    let count = inside.iter().filter(|it| **it).count();
+    (!inside.is_empty()).then(|| count as f64 / inside.len() as f64)
 }
 
 /// Overlaps over diameters of the pairs in the middle, per sphere.

@@ -5,8 +5,8 @@ use crate::document::differing_keys;
 use crate::scene::{Scene, leaf};
 use serde_json::Value;
 
-/// Keys that name no run.
-const UNNAMED: [&str; 2] = ["output", "title"];
+/// Keys and tables that name no run: what is kept of it, and for how long it went on.
+const UNNAMED: [&str; 3] = ["output", "title", "time.duration"];
 
 /// What names each run, with markup: its values of the keys in which the scenes differ, or the
 /// titles where all scenes have different ones. Nothing where they do not differ.
@@ -22,11 +22,11 @@ pub(super) fn of(scenes: &[&Scene]) -> Vec<Vec<String>> {
     for other in scenes.iter().skip(1) {
         keys.extend(differing_keys(scenes[0], other));
     }
-    keys.retain(|key| {
-        !UNNAMED
-            .iter()
-            .any(|table| key.split('.').next() == Some(table))
-    });
+    let is_unnamed = |key: &String| {
+        let in_table = |table: &&str| key == table || key.starts_with(&format!("{table}."));
+        UNNAMED.iter().any(in_table)
+    };
+    keys.retain(|key| !is_unnamed(key));
     keys.sort();
     keys.dedup();
     // A table that one scene lacks is one key, whatever else differs in it.
@@ -50,7 +50,7 @@ fn part(scene: &Scene, key: &str) -> String {
         .split('.')
         .try_fold(&tree, |table, name| table.get(name))
     {
-        None | Some(Value::Null) => format!("no {}", words(key)),
+        None | Some(Value::Null) => format!("{} not set", words(key)),
         Some(Value::Object(table)) if table.is_empty() => words(key),
         Some(Value::Object(table)) => {
             let parts = table
@@ -119,7 +119,7 @@ mod tests {
         ];
         let names = of(&[&scenes[0], &scenes[1], &scenes[2]]);
         assert_eq!(names[0], ["gravity: $g$ = 9.8 m/s²", "$ρ$ = 2500 kg/m³"]);
-        assert_eq!(names[1], ["no gravity", "$ρ$ = 2500 kg/m³"]);
+        assert_eq!(names[1], ["gravity not set", "$ρ$ = 2500 kg/m³"]);
         assert_eq!(names[2], ["gravity: $g$ = 1.6 m/s²", "$ρ$ = 3000 kg/m³"]);
         assert_eq!(of(&[&scenes[0], &scenes[0]]), [[""; 0]; 2]);
     }

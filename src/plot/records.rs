@@ -10,6 +10,7 @@ use crate::sweep::{PlotSettings, Sweep};
 /// Draws the figure `name`, one of those that take points, of records of one family, one or more.
 /// Several are named by the keys in which their scenes differ.
 ///
+/// * `labels`: what names them instead; none for the keys
 /// * `times`: first and last time (s) of the states that count, as of [`Source::times`]
 ///
 /// # Errors
@@ -18,6 +19,7 @@ pub fn draw_records(
     name: &str,
     records: &[RunRecord],
     times: Option<[f64; 2]>,
+    labels: &[String],
 ) -> Result<Svg, PlotError> {
     let Some(first) = records.first() else {
         return Err(PlotError::EmptyTable);
@@ -44,7 +46,10 @@ pub fn draw_records(
         rows: records.iter().enumerate().map(row).collect(),
     };
     let scenes: Vec<&Scene> = records.iter().map(|it| &it.scene).collect();
-    let captions = names::of(&scenes);
+    let captions = match labels {
+        [] => names::of(&scenes),
+        labels => labels.iter().map(|label| vec![label.clone()]).collect(),
+    };
     let is_common = |scene: &&Scene| scene.title == first.scene.title;
     let sweep = Sweep {
         title: first

@@ -5,6 +5,7 @@ use super::samples::{badness, packing, parameters, simulation};
 use super::simulation::Simulation;
 use super::state::StartError;
 use super::{Guard, packing};
+use crate::measure::{Centres, solid_like};
 use crate::particles::vector::Vector;
 
 const SCHEDULES: [Schedule; 3] = [
@@ -316,6 +317,23 @@ fn checkpoints_of_other_runs_and_broken_ones_are_refused() {
     assert_eq!(refused, StartError::OtherParameters);
     let broken = Simulation::restore(parameters(), &saved[..saved.len() / 2]);
     assert!(matches!(broken, Err(StartError::Checkpoint(_))));
+}
+
+/// Symptom: more than half of the spheres of a packing were part of crystals. Cause: they were
+/// shaken for so long at every height of the lid that they crystallised on the way.
+#[test]
+fn start_packings_are_disordered() {
+    let centres = Centres {
+        place: packing().to_vec(),
+        number: (0..packing().len()).collect(),
+    };
+    let solid = solid_like(&centres, 1.3);
+    let middle = |place: &Vector| place.x.abs() < 5.0 && place.y.abs() < 2.0 && place.z > 3.0;
+    let places = solid.iter().zip(&centres.place);
+    let inside = places.filter(|(_, place)| middle(place) && place.z < 13.0);
+    let inside: Vec<bool> = inside.map(|(solid, _)| *solid).collect();
+    let share = inside.iter().filter(|it| **it).count() as f64 / inside.len() as f64;
+    assert!(share < 0.1, "{share} of {}", inside.len());
 }
 
 #[test]

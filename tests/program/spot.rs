@@ -196,7 +196,7 @@ fn records_are_drawn_beside_each_other() {
             .code(0)
             .says(&format!("{figure}.png"));
         let svg = place.read(&format!("{figure}.svg"));
-        assert!(svg.contains("no relaxation"), "{figure}: {svg}");
+        assert!(svg.contains("relaxation not set"), "{figure}: {svg}");
         assert!(svg.contains("off"), "{figure}");
     }
     place
@@ -205,6 +205,17 @@ fn records_are_drawn_beside_each_other() {
         ])
         .code(0)
         .says("both-outflow.svg");
+    let labels = ["--figure", "outflow", "--label", "exact", "--label"];
+    place
+        .phase(&[&["plot", "full.h5", "off.h5"], &labels[..], &["fast"]].concat())
+        .code(0);
+    assert!(place.read("outflow.svg").contains(">fast"));
+    place
+        .phase(&[
+            "plot", "full.h5", "off.h5", "--figure", "outflow", "--label", "one",
+        ])
+        .code(2)
+        .complains("once for each");
     // Too narrow for columns of the surface, too low for two layers.
     for figure in ["surface-angle", "mixing"] {
         place

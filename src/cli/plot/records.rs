@@ -35,10 +35,16 @@ pub(super) const OF_ONE: [RecordFigure; 2] = [
 /// Those that are drawn of a drainage if none is asked for; of other runs those of [`OF_ONE`].
 const DEFAULT_OF_DRAINAGE: [&str; 2] = ["surface-angle", "radial-distribution"];
 
+/// The figure that any record has, whatever its family.
+const OF_ANY: &str = "energies";
+
 /// The figures of single runs that folders have too, of records of a family.
 fn of_runs(family: &'static Family) -> impl Iterator<Item = About> {
     let figures = plot::figures().into_iter();
-    figures.filter(move |figure| figure.default_runs.is_some() && figure.applies_to(family))
+    figures.filter(move |figure| {
+        let applies = figure.applies_to(family) || figure.name == OF_ANY;
+        figure.default_runs.is_some() && applies
+    })
 }
 
 /// What can be drawn of a record.
@@ -99,7 +105,7 @@ pub(super) fn draw(
         let image = match (of_one, &records[..]) {
             (Some(figure), [record]) => (figure.draw)(record),
             (Some(figure), _) => return Err(takes_one(figure.name)),
-            (None, _) => plot::draw_records(name, &records, arguments.times),
+            (None, _) => plot::draw_records(name, &records, arguments.times, &arguments.labels),
         };
         match image {
             Err(

@@ -20,10 +20,12 @@ const FIRST_STEP: f64 = 0.3;
 const LONGEST_STEP: f64 = 0.5;
 
 /// Greatest component of the velocities at first, in diameters.
-const SHAKE: f64 = 0.05;
+const SHAKE: f64 = 0.025;
 
-/// Steps in which spheres go on with these velocities, under repulsion and drag.
-const SHAKEN: usize = 200;
+/// Steps in which spheres go on with these velocities, under repulsion and drag. Without any the
+/// packing fraction stays at .62. Twice the velocity and four times the steps make more than half
+/// of the packing crystallise.
+const SHAKEN: usize = 50;
 
 /// Slack of the spheres, in diameters.
 const SLACK: f64 = 0.15;

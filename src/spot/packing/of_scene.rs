@@ -16,7 +16,7 @@ struct Choice {
 }
 
 /// Of how packings are made.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 impl Choice {
     fn of(scene: &Scene) -> Self {
