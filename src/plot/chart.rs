@@ -66,8 +66,8 @@ pub(super) struct Panel {
     pub(super) lines: Vec<Line>,
     /// Drawn over the lines.
     pub(super) bars: Vec<Bar>,
-    /// Whether the vertical axis is one of powers of ten.
-    pub(super) logarithmic: bool,
+    /// Whether the horizontal and the vertical axis are of powers of ten.
+    pub(super) logarithmic: [bool; 2],
 }
 
 impl Panel {
@@ -81,7 +81,7 @@ impl Panel {
             y,
             lines,
             bars: Vec::new(),
-            logarithmic: false,
+            logarithmic: [false; 2],
         }
     }
 
@@ -94,19 +94,27 @@ impl Panel {
         Self { y, bars, ..self }
     }
 
-    /// The same over powers of ten; all values must be above zero.
+    /// The same with heights over powers of ten; all values must be above zero.
     pub(super) fn logarithmic(self) -> Self {
         let points = self.lines.iter().flat_map(|line| &line.points);
-        let (low, high) = ends(points.map(|point| point.1));
-        let y = if low <= high {
-            (0.8 * low, 1.25 * high)
-        } else {
-            (0.1, 1.0)
-        };
+        let y = decades(points.map(|point| point.1));
+        let logarithmic = [self.logarithmic[0], true];
         Self {
             y,
-            logarithmic: true,
+            logarithmic,
             ..self
+        }
+    }
+
+    /// The same with both over powers of ten.
+    pub(super) fn logarithmic_both(self) -> Self {
+        let points = self.lines.iter().flat_map(|line| &line.points);
+        let x = decades(points.map(|point| point.0));
+        let panel = self.logarithmic();
+        Self {
+            x,
+            logarithmic: [true; 2],
+            ..panel
         }
     }
 
@@ -149,9 +157,12 @@ impl Chart {
     pub(super) fn body(&self, title: Option<&str>) -> Result<Body, PlotError> {
         let frame = |panel: &Panel| Frame {
             head: panel.head.clone(),
-            x: Span::linear(panel.x),
+            x: Span {
+                logarithmic: panel.logarithmic[0],
+                ..Span::linear(panel.x)
+            },
             y: Span {
-                logarithmic: panel.logarithmic,
+                logarithmic: panel.logarithmic[1],
                 ..Span::linear(panel.y)
             },
         };
@@ -215,6 +226,15 @@ fn thinned(points: impl Iterator<Item = (i32, i32)>) -> Vec<(i32, i32)> {
     }
     kept.dedup();
     kept
+}
+
+/// The range of values above zero, with a little room at both ends of an axis of powers of ten.
+fn decades(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (low, high) = ends(values);
+    match low <= high {
+        true => (0.8 * low, 1.25 * high),
+        false => (0.1, 1.0),
+    }
 }
 
 /// The smallest and the largest of some values; infinite without any.

@@ -255,7 +255,7 @@ impl Simulation {
             .install(|| Arrangement::sorted(sorting, spheres, neighbours))?;
         self.position = position;
         self.scratch.wear = Wear::default();
-        self.counts.sortings += 1;
+        self.counts.sorts += 1;
         Ok(())
     }
 

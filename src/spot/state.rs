@@ -47,8 +47,8 @@ pub struct Counts {
     pub relaxations: u64,
     /// Relaxations of all spheres.
     pub global_relaxations: u64,
-    /// Sortings of the spheres.
-    pub sortings: u64,
+    /// How often the spheres were sorted.
+    pub sorts: u64,
 }
 
 /// Why a simulation cannot start or be restored.

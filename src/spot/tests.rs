@@ -145,7 +145,7 @@ fn bits_do_not_depend_on_threads_resumes_or_output() {
             resumed.use_threads(threads[1]).expect("threads");
             resumed.advance_to(0.8).expect("no guard breaks");
             assert_same(&whole, &resumed);
-            assert!(whole.counts().sortings > 0);
+            assert!(whole.counts().sorts > 0);
         }
     }
 }
@@ -198,7 +198,7 @@ fn steps_that_must_be_sorted_in_between_have_the_same_bits_on_threads() {
             it.displacement_ratio = 20.0;
         };
         let one = after(2.0, change);
-        assert!(one.counts().sortings > 2 * 2 * 28, "{:?}", one.counts());
+        assert!(one.counts().sorts > 2 * 2 * 28, "{:?}", one.counts());
         let mut two = simulation(change);
         two.use_threads(2).expect("threads");
         two.advance_to(2.0).expect("no guard breaks");

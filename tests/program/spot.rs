@@ -140,7 +140,7 @@ fn a_sweep_over_the_orifice_is_labelled_and_drawn() {
         .code(0);
     let labels = place.read("results/labels.csv");
     let row = |index: usize| labels.lines().nth(index).unwrap().to_owned();
-    assert!(row(0).contains("outflow_rate") && row(0).contains("surface_angle"));
+    assert!(row(0).contains("outflow_rate") && row(0).contains("surface_slope"));
     assert!(row(1).contains("blocked"), "{labels}");
     assert!(!row(2).contains("blocked"), "{labels}");
     for figure in ["phase", "outflow-rate", "radial-distribution"] {

@@ -21,11 +21,11 @@ measures! {
         /// Height of the stagnant zone at the side walls (m).
         stagnant_height: measured("height of the stagnant zone", "m"),
         /// Slope of the free surface at the end, positive if it rises to the walls (rad).
-        surface_angle: measured("angle of the free surface", "rad"),
+        surface_slope: measured("angle of the free surface", "rad"),
         /// Lacey's index of mixing of layers of ten diameters at the end.
-        mixing: measured("index of mixing of layers", "").share(),
+        mixing_index: measured("index of mixing of layers", "").share(),
         /// Overlaps over diameters of the pairs in the middle, per sphere.
-        badness: measured("packing badness", ""),
+        packing_badness: measured("packing badness", ""),
     }
 }
 
@@ -37,11 +37,11 @@ impl DrainageOrder {
             outflow_rate: outflow_rate(run),
             left_share: Some(run.left() / run.spheres),
             stagnant_height: run.stagnant_height(),
-            surface_angle: end.and_then(|it| surface_angle(&it, run.diameter, run.half_width)),
-            mixing: drainage
+            surface_slope: end.and_then(|it| surface_angle(&it, run.diameter, run.half_width)),
+            mixing_index: drainage
                 .as_ref()
                 .and_then(|it| mixing(it, it.states().last()?)),
-            badness: drainage.as_ref().and_then(badness_of).map(|it| it.value),
+            packing_badness: drainage.as_ref().and_then(badness_of).map(|it| it.value),
         }
     }
 }

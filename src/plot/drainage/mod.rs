@@ -2,6 +2,7 @@
 //!
 //! Lengths are over the diameter of the spheres, so that runs of any size compare.
 
+mod badness;
 mod bond_angles;
 mod cross_profile;
 mod diffusion;
@@ -21,7 +22,7 @@ use crate::record::RunRecord;
 use overlay::{Curve, Lines, Overlay};
 
 /// All of them.
-pub(super) static FIGURES: [&dyn Figure; 11] = [
+pub(super) static FIGURES: [&dyn Figure; 12] = [
     &outflow::OUTFLOW,
     &velocity_profile::VelocityProfiles,
     &cross_profile::CROSS_PROFILE,
@@ -29,6 +30,7 @@ pub(super) static FIGURES: [&dyn Figure; 11] = [
     &surface_angle::SURFACE_ANGLE,
     &radial_distribution::RADIAL_DISTRIBUTION,
     &bond_angles::BOND_ANGLES,
+    &badness::BADNESS,
     &mixing::MIXING,
     &diffusion::DIFFUSION,
     &retention::RETENTION,

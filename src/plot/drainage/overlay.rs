@@ -40,6 +40,8 @@ pub(super) enum Scale {
     FromZero,
     /// Of powers of ten.
     Logarithmic,
+    /// The same, and so is the horizontal axis.
+    Decades,
 }
 
 /// What a run shows.
@@ -172,7 +174,12 @@ impl Frame {
             let color = color(index, count);
             let points = curve.points.iter().copied();
             let drawable = |point: &(f64, f64)| {
-                point.1.is_finite() && (self.y != Scale::Logarithmic || point.1 > 0.0)
+                let is_positive = match self.y {
+                    Scale::Free | Scale::FromZero => true,
+                    Scale::Logarithmic => point.1 > 0.0,
+                    Scale::Decades => point.0 > 0.0 && point.1 > 0.0,
+                };
+                point.1.is_finite() && is_positive
             };
             lines.push(Line {
                 points: points.clone().filter(drawable).collect(),
@@ -197,6 +204,7 @@ impl Frame {
             Scale::Free => panel,
             Scale::FromZero => panel.down_to_zero(),
             Scale::Logarithmic => panel.logarithmic(),
+            Scale::Decades => panel.logarithmic_both(),
         }
     }
 }

@@ -46,6 +46,16 @@ fn metadata_names_program_commit_and_seeds() {
     assert_eq!(title.get_text().unwrap(), "Ω < Ω & \"r\"");
 }
 
+/// Symptom: the map of a measure could not be drawn. Cause: a figure had its name.
+#[test]
+fn no_two_figures_have_one_name() {
+    let mut names: Vec<&str> = plot::figures().iter().map(|it| it.name).collect();
+    names.sort_unstable();
+    let count = names.len();
+    names.dedup();
+    assert_eq!(names.len(), count);
+}
+
 #[test]
 fn every_figure_can_be_drawn_of_a_table_without_values() {
     let axes = vec![axis(RADIUS, &[0.002, 0.003]), axis(OMEGA, &[0.0, 10.0])];

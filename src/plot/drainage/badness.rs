@@ -1,0 +1,37 @@
+//! Overlaps against processor time (Rycroft, Wong and Bazant, 2010, figures 9 and 12).
+
+use super::overlay::{Frame, Scale};
+use super::{Curve, Drainage, Lines, Overlay};
+use crate::compare::badness_of;
+use crate::plot::scale;
+
+/// Overlaps against processor time: what a coarser relaxation saves.
+pub(super) static BADNESS: Overlay = Overlay {
+    name: "badness",
+    description: "overlaps of the spheres against processor time, one point per run",
+    labels: ["processor time of the run (s)", "packing badness $B$"],
+    panels: &[Frame {
+        head: "",
+        x: None,
+        y: Scale::Decades,
+    }],
+    note: "Sum of overlaps over diameters, of pairs, per sphere in the middle of the lower half. \
+           Bars: 95 % over ten states.",
+    lines,
+};
+
+fn lines(drainage: &Drainage<'_>) -> Lines {
+    let seconds = drainage.record.cpu_seconds;
+    let curve = badness_of(drainage).map(|badness| Curve {
+        points: vec![(seconds, badness.value)],
+        half_widths: vec![badness.half_width],
+    });
+    let word = curve.as_ref().map(|it| {
+        let [seconds, badness] = [it.points[0].0, it.points[0].1].map(|it| scale::rounded(it, 3));
+        format!("{seconds} s, $B$ = {badness}")
+    });
+    Lines {
+        curves: vec![curve.unwrap_or_default()],
+        word,
+    }
+}
