@@ -62,10 +62,10 @@ pub fn schema(file: File) -> Value {
     schema
 }
 
-/// Keys of `time` that the key `accuracy` of a scene chooses.
+/// Keys of `time` that the key `accuracy` of a scene chooses; spots need no time step.
 const CHOSEN: [&str; 2] = ["dt", "frame_interval"];
 
-/// Makes keys of `time` needed in scenes without `accuracy` only. The program chooses them before
+/// Makes keys of `time` needed in scenes without `accuracy` and without spots only. The program chooses them before
 /// it checks keys, so that its own table of keys has them as needed.
 fn need_times_without_accuracy(schema: &mut Value) {
     match schema {
@@ -81,7 +81,10 @@ fn need_times_without_accuracy(schema: &mut Value) {
             needed.retain(|key| !CHOSEN.iter().any(|chosen| key == chosen));
             table.insert(
                 "if".to_owned(),
-                json!({ "not": { "required": ["accuracy"] } }),
+                json!({ "not": { "anyOf": [
+                    { "required": ["accuracy"] },
+                    { "required": ["spot"] },
+                ] } }),
             );
             let then = json!({ "properties": { "time": { "required": CHOSEN } } });
             table.insert("then".to_owned(), then);
