@@ -65,8 +65,8 @@ pub fn schema(file: File) -> Value {
 /// Keys of `time` that the key `accuracy` of a scene chooses; spots need no time step.
 const CHOSEN: [&str; 2] = ["dt", "frame_interval"];
 
-/// Makes keys of `time` needed in scenes without `accuracy` and without spots only. The program chooses them before
-/// it checks keys, so that its own table of keys has them as needed.
+/// Makes keys of `time` needed in scenes without `accuracy` and without spots only. The program
+/// chooses them before it checks keys, so that its own table of keys has them as needed.
 fn need_times_without_accuracy(schema: &mut Value) {
     match schema {
         Value::Array(entries) => entries.iter_mut().for_each(need_times_without_accuracy),
