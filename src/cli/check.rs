@@ -97,6 +97,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         jobs: jobs.len(),
         axes: &sweep.axes,
         seeds: &sweep.seeds,
+        border_seeds: &sweep.border_seeds,
         spheres: scene.spheres.count,
         effects: effects(scene),
         duration: scene.time.duration,
@@ -122,7 +123,12 @@ fn describe_sweep(sweep: &Sweep, jobs: usize) -> String {
     let title = sweep.title.as_ref().or(sweep.scene.title.as_ref());
     let mut lines = describe_grid(title, &format::count(jobs, "job"), &sweep.axes);
     let seeds: Vec<String> = sweep.seeds.iter().map(u64::to_string).collect();
-    lines.push(line("seeds", seeds.join(", ")));
+    let at_borders = match &sweep.border_seeds[..] {
+        [] => String::new(),
+        [seed] => format!("; {seed} too at points beside another label"),
+        [first, .., last] => format!("; {first} to {last} too at points beside another label"),
+    };
+    lines.push(line("seeds", seeds.join(", ") + &at_borders));
     lines.push(line("spheres", sweep.scene.spheres.count));
     lines.join("\n")
 }
@@ -253,6 +259,7 @@ struct Answer<'a> {
     jobs: usize,
     axes: &'a [Axis],
     seeds: &'a [u64],
+    border_seeds: &'a [u64],
     spheres: usize,
     effects: Vec<String>,
     duration: f64,

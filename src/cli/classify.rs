@@ -95,7 +95,12 @@ fn label_folders(
                 )));
             }
             lock = Some(folder.lock().map_err(Failure::refused)?);
-            sweep = edited.clone();
+            // The runs at borders stay those that were run.
+            let border_points = std::mem::take(&mut sweep.border_points);
+            sweep = Sweep {
+                border_points,
+                ..edited.clone()
+            };
         }
         let jobs = sweep.jobs().map_err(Failure::refused)?;
         sweep.check_sieves(&jobs).map_err(cannot_label)?;

@@ -1,21 +1,19 @@
 //! `phase sweep`: runs the jobs of a sweep, labels them, draws the figures.
 
-use super::console::{Console, name_first};
+mod rounds;
+
+use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::job::NamedJob;
-use super::progress::{Progress, Work};
-use super::{builds, classify, format, interrupt, job, plot, time_step};
-use phase::record::{Outcome, RunRecord};
+use super::{classify, format, interrupt, plot, time_step};
 use phase::resume::DEFAULT_INTERVAL;
-use phase::run::model_of;
 use phase::sweep::{
-    Event, Failure as JobFailure, Folder, FolderError, Job, Plan, Pool, PoolError, Report,
-    Standing, Sweep, describe, differing_keys, refuse_to_lose_labels, work,
+    Folder, FolderError, Job, Plan, Sweep, differing_keys, refuse_to_lose_labels, work,
 };
+use rounds::{Rounds, Run};
 use serde::Serialize;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
@@ -82,6 +80,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let mut sweep = phase::sweep::load(&arguments.file).map_err(Failure::refused)?;
     if !arguments.seed.is_empty() {
         sweep.seeds = distinct(&arguments.seed)?;
+        sweep.border_seeds.clear();
+    }
+    if arguments.no_classify && !sweep.border_seeds.is_empty() {
+        return Err(Failure::refused(
+            "seeds.at_borders needs labels; leave out --no-classify, or give the seeds with --seed",
+        ));
     }
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
     let jobs = sweep.jobs().map_err(Failure::refused)?;
@@ -106,27 +110,21 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         refuse_to_lose_labels(&folder, kept).map_err(classify::cannot_write)?;
     }
     tell_of_other_sweep(&folder, &sweep, console);
-    let plan = if arguments.force {
-        Plan::afresh(jobs.clone())
-    } else {
-        Plan::new(&folder, jobs.clone(), workers).map_err(Failure::failed)?
-    };
-    tell_of_plan(&plan, console);
     time_step::tell_of_jobs(&jobs, &sweep.axes, console);
     if !arguments.no_classify {
         warn_of_windows(&sweep, &jobs, console);
     }
-    let pool = Pool {
+    let rounds = Rounds {
         folder: &folder,
-        sweep: &sweep,
         workers,
         stop,
         checkpoint_interval: arguments.checkpoint_interval.unwrap_or(DEFAULT_INTERVAL),
-        resume: !arguments.force,
-        watch: &|_| {},
+        force: arguments.force,
+        console,
     };
-    let run = run(&plan, pool, console)?;
+    let (plan, run) = rounds.run(&mut sweep, jobs)?;
     run.print(&plan, &sweep, console)?;
+    let jobs: Vec<Job> = plan.jobs.iter().map(|(job, _)| job.clone()).collect();
     let mut answer = Answer::new(&folder, &plan, &sweep, &run);
 
     if stop.load(Ordering::Relaxed) {
@@ -188,6 +186,10 @@ fn tell_of_other_sweep(folder: &Folder, sweep: &Sweep, console: &Console) {
     let Ok(earlier) = folder.read_sweep() else {
         return;
     };
+    let earlier = Sweep {
+        border_points: sweep.border_points.clone(),
+        ..earlier
+    };
     let keys = differing_keys(&earlier, sweep);
     if !keys.is_empty() {
         console.note(format_args!(
@@ -197,41 +199,6 @@ fn tell_of_other_sweep(folder: &Folder, sweep: &Sweep, console: &Console) {
             keys.join(", ")
         ));
     }
-}
-
-/// Says what is done already, and what is run again and why.
-fn tell_of_plan(plan: &Plan, console: &Console) {
-    let done = plan.done().count();
-    if done > 0 {
-        console.note(format_args!(
-            "{done} of {} are done already",
-            format::count(plan.jobs.len(), "job")
-        ));
-    }
-    let makers = plan.done().map(|(_, done)| Some(&done.program));
-    builds::tell_of_others("record", makers, console);
-    for (job, standing) in &plan.jobs {
-        match standing {
-            Standing::Damaged(reason) => console.note(format_args!(
-                "run again: the record of job {} cannot be used: {reason}",
-                job.id
-            )),
-            Standing::OtherOutput => console.detail(format_args!(
-                "run again: the record of job {} was made with other output settings",
-                job.id
-            )),
-            Standing::Missing | Standing::Done(_) | Standing::Foreign(_) => {}
-        }
-    }
-}
-
-/// What was run now.
-struct Run {
-    report: Report,
-    seconds: f64,
-    workers: usize,
-    /// Runs that a guard ended, and which.
-    unstable: Vec<JobFailure>,
 }
 
 /// What `--json` prints.
@@ -260,7 +227,7 @@ impl Answer {
         Self {
             folder: folder.root().to_owned(),
             jobs: plan.jobs.len(),
-            done_before: plan.done().count(),
+            done_before: run.done_before,
             run_now: run.report.finished,
             resumed: run.report.resumed,
             left: run.report.left,
@@ -274,115 +241,5 @@ impl Answer {
             labels: None,
             files: Vec::new(),
         }
-    }
-}
-
-/// Runs what is to be run of a plan and watches it.
-fn run(plan: &Plan, pool: Pool<'_>, console: &Console) -> Result<Run, Failure> {
-    let (sweep, workers) = (pool.sweep, pool.workers);
-    let steps = Job::work;
-    let progress = Progress::new(
-        console,
-        Work {
-            jobs: plan.jobs.len(),
-            jobs_done: plan.done().count(),
-            steps: plan.jobs.iter().map(|(job, _)| steps(job)).sum(),
-            steps_done: plan.done().map(|(job, _)| steps(job)).sum(),
-            unit: model_of(&sweep.scene).work_unit(),
-        },
-    );
-    let name = |job: &Job| describe(&sweep.axes, &job.values, job.seed);
-    let unstable = Mutex::new(HashMap::new());
-    let note_unstable = |job: &Job, outcome: &Outcome| {
-        if let (Outcome::Unstable(instability), Ok(mut unstable)) = (outcome, unstable.lock()) {
-            let unstable_job = JobFailure::new(job, instability.to_string());
-            unstable.insert(job.id.clone(), unstable_job);
-        }
-    };
-    for (job, done) in plan.done() {
-        note_unstable(job, &done.outcome);
-    }
-    let ended = |job: &Job, record: &RunRecord| {
-        note_unstable(job, &record.outcome);
-        let seconds = format::duration(record.cpu_seconds);
-        format!("done: {} (job {}), {seconds} of CPU", name(job), job.id)
-    };
-    let watch = |event: Event<'_>| job::tell(event, &progress, &name, &ended);
-    let pool = Pool {
-        watch: &watch,
-        ..pool
-    };
-    let report = pool.run(plan).map_err(|error| match error {
-        PoolError::Foreign(_) => Failure::refused(error),
-        _ => Failure::failed(error),
-    });
-    let seconds = progress.finish();
-    let mut unstable = unstable.into_inner().unwrap_or_default();
-    let unstable = plan
-        .jobs
-        .iter()
-        .filter_map(|(job, _)| unstable.remove(&job.id))
-        .collect();
-    Ok(Run {
-        report: report?,
-        seconds,
-        workers,
-        unstable,
-    })
-}
-
-impl Run {
-    /// Prints what was done and names what went wrong.
-    fn print(&self, plan: &Plan, sweep: &Sweep, console: &Console) -> Result<(), Failure> {
-        let Report {
-            finished,
-            resumed,
-            failures,
-            left,
-            work,
-            cpu_seconds,
-            ..
-        } = &self.report;
-        let mut text = format!(
-            "{}: {finished} run now in {} with {}",
-            format::count(plan.jobs.len(), "job"),
-            format::duration(self.seconds),
-            format::count(self.workers, "worker"),
-        );
-        for (number, what) in [
-            (*resumed, "of them from a checkpoint"),
-            (plan.done().count(), "done before"),
-            (self.unstable.len(), "unstable"),
-            (failures.len(), "failed"),
-            (*left, "left"),
-        ] {
-            if number > 0 {
-                text += &format!(", {number} {what}");
-            }
-        }
-        if *finished > 0 {
-            let unit = model_of(&sweep.scene).work_unit();
-            text += &format!(
-                "\n{} in {} of CPU time: {} per CPU second",
-                format::work(*work as f64, unit),
-                format::duration(*cpu_seconds),
-                format::work(*work as f64 / cpu_seconds.max(1e-9), unit),
-            );
-        }
-        console.result(text);
-        let names = |jobs: &[JobFailure]| -> Vec<String> {
-            let named = |job: &JobFailure| {
-                let name = describe(&sweep.axes, &job.values, job.seed);
-                format!("{name} (job {}): {}", job.id, job.reason)
-            };
-            jobs.iter().map(named).collect()
-        };
-        name_first(&names(&self.unstable), |name| {
-            console.note(format_args!("unstable: {name}"));
-        });
-        name_first(&names(failures), |name| {
-            console.error(format_args!("failed: {name}"));
-        });
-        Ok(())
     }
 }

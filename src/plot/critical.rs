@@ -155,6 +155,8 @@ mod tests {
             scene: scene(),
             axes: axes.iter().map(axis).collect(),
             seeds: vec![1],
+            border_seeds: Vec::new(),
+            border_points: Vec::new(),
             sieves: Sieves::default(),
             plot: PlotSettings::default(),
         };

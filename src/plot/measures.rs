@@ -37,9 +37,12 @@ impl Figure for MeasuresFigure {
             return Err(PlotError::NoMeasures);
         }
         let named = lines.iter().filter(|line| !line.name.is_empty());
-        let seeds = source.sweep.seeds.len();
+        let seeds = match (source.sweep.seeds.len(), source.sweep.border_seeds.len()) {
+            (seeds, 0) => format!("{seeds} seeds"),
+            (seeds, more) => format!("{seeds} seeds, at borders {}", seeds + more),
+        };
         let note = format!(
-            "Points: means over {seeds} seeds, or over those that have a value. Bars: 95 % \
+            "Points: means over {seeds}, or over those that have a value. Bars: 95 % \
              intervals of the means (Student's t; of shares Wilson's)."
         );
         Chart {

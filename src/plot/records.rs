@@ -59,6 +59,8 @@ pub fn draw_records(
             .filter(|_| scenes.iter().all(is_common)),
         axes: Vec::new(),
         seeds: table.rows.iter().map(|row| row.seed).collect(),
+        border_seeds: Vec::new(),
+        border_points: Vec::new(),
         scene: first.scene.clone(),
         sieves,
         plot: PlotSettings::default(),

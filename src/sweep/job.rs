@@ -42,7 +42,8 @@ pub struct PointError {
 }
 
 impl Sweep {
-    /// All jobs. The first axis varies slowest; the seeds of a point follow each other.
+    /// All jobs. The first axis varies slowest; the seeds of a point follow each other, at border
+    /// points (`border_points`) with `border_seeds` after them.
     ///
     /// # Errors
     /// The first point whose scene cannot be run. Never for a sweep that [`load`](super::load)
@@ -52,7 +53,11 @@ impl Sweep {
         let mut scenes = PointScenes::new(&self.scene, &self.axes)?;
         for values in self.grid() {
             let scene = scenes.checked(&values)?;
-            for &seed in &self.seeds {
+            let more = match self.border_points.contains(&values) {
+                true => &self.border_seeds[..],
+                false => &[],
+            };
+            for &seed in self.seeds.iter().chain(more) {
                 let scene = Scene {
                     seed,
                     ..scene.clone()
@@ -86,19 +91,19 @@ impl Sweep {
 
 /// The points of a grid, in order: the first axis varies slowest.
 pub(crate) fn grid(axes: &[Axis]) -> impl Iterator<Item = Vec<f64>> {
-    (0..points(axes)).map(move |mut index| {
-        let mut values: Vec<f64> = axes
-            .iter()
-            .rev()
-            .map(|axis| {
-                let value = axis.values[index % axis.values.len()];
-                index /= axis.values.len();
-                value
-            })
-            .collect();
-        values.reverse();
-        values
-    })
+    (0..points(axes)).map(move |index| point_at(axes, index))
+}
+
+/// The point of a grid with that place in its order.
+pub(super) fn point_at(axes: &[Axis], mut index: usize) -> Vec<f64> {
+    let from_last = axes.iter().rev().map(|axis| {
+        let value = axis.values[index % axis.values.len()];
+        index /= axis.values.len();
+        value
+    });
+    let mut values: Vec<f64> = from_last.collect();
+    values.reverse();
+    values
 }
 
 /// Number of points of a grid.

@@ -218,8 +218,8 @@ impl Sweep {
             .collect()
     }
 
-    /// Keys in which the runs of this sweep differ from those of an edited one. Titles, thresholds
-    /// and plot settings may differ.
+    /// Keys in which the runs of this sweep differ from those of an edited one. Titles, thresholds,
+    /// plot settings and what follows from labels may differ.
     pub fn keys_of_other_runs(&self, edited: &Self) -> Vec<String> {
         let runs = |sweep: &Self| Self {
             title: None,
@@ -227,6 +227,7 @@ impl Sweep {
                 title: None,
                 ..sweep.scene.clone()
             },
+            border_points: Vec::new(),
             sieves: Sieves::default(),
             plot: PlotSettings::default(),
             ..sweep.clone()

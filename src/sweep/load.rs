@@ -2,11 +2,12 @@
 
 use super::axis::AxisEntry;
 use super::job::{PointError, PointScenes, points};
+use super::seeds::{SweepSeeds, expand_seeds};
 use super::{Axis, PlotSettings, Sweep};
 use crate::classify::{ClassifyError, Family, Sieves};
 use crate::document::{Document, LoadError, Problem, Schema, one_of, suggest};
 use crate::run::{self, Reading};
-use crate::scene::{FileKind, LARGEST_SEED, Scene, settings};
+use crate::scene::{FileKind, Scene, settings};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -17,7 +18,7 @@ use std::sync::LazyLock;
 const MOST_AXES: usize = 4;
 
 /// Largest number of jobs: their scenes are held in memory.
-const MOST_JOBS: usize = 1_000_000;
+pub(super) const MOST_JOBS: usize = 1_000_000;
 
 /// The keys of a sweep file.
 pub(crate) static SWEEP: LazyLock<Schema> = LazyLock::new(Schema::of::<SweepFile>);
@@ -35,7 +36,7 @@ pub(crate) struct SweepFile {
     #[serde(default)]
     axis: Vec<AxisEntry>,
     /// Seeds; each point of the grid runs once per seed. Absent: seed 1 alone.
-    seeds: Option<SeedsEntry>,
+    seeds: Option<SweepSeeds>,
     /// Thresholds of the sieves, which label the runs.
     #[serde(default)]
     sieves: Sieves,
@@ -50,18 +51,6 @@ pub(crate) fn or_path(schema: &mut schemars::Schema) {
     let scene = std::mem::take(schema);
     schema.insert("anyOf".to_owned(), json!([{ "type": "string" }, scene]));
     schema.insert("description".to_owned(), json!(description));
-}
-
-/// Seeds as a sweep file writes them: a list, or the first and their number.
-#[derive(Deserialize, JsonSchema)]
-pub(crate) struct SeedsEntry {
-    /// The first seed (default 1); the others follow.
-    first: Option<u64>,
-    /// Number of seeds (default 1).
-    #[schemars(range(min = 1))]
-    count: Option<u64>,
-    /// All seeds one by one, in place of `first` and `count`.
-    list: Option<Vec<u64>>,
 }
 
 /// Reads a sweep file and the scene file that it names, relative to itself. The scenes of all
@@ -96,12 +85,16 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
         // The axis has a number for every point.
         scene.time.safety_factor = None;
     }
-    let seeds = expand_seeds(file.seeds.as_ref(), &mut problems);
+    let entry = file.seeds.as_ref();
+    let seeds = expand_seeds(entry.map(|seeds| &seeds.of_all), &mut problems);
+    let border_seeds = entry.map(|entry| entry.more_at_borders(&seeds, &mut problems));
     let sweep = Sweep {
         title: file.title,
         scene,
         axes,
         seeds,
+        border_seeds: border_seeds.unwrap_or_default(),
+        border_points: Vec::new(),
         sieves: file.sieves,
         plot: file.plot,
     };
@@ -161,53 +154,6 @@ pub(crate) fn expand_axes(
         }
     }
     axes
-}
-
-/// The seeds of a file; seed 1 alone if it says nothing.
-pub(crate) fn expand_seeds(entry: Option<&SeedsEntry>, problems: &mut Vec<Problem>) -> Vec<u64> {
-    match entry {
-        None => vec![1],
-        Some(SeedsEntry {
-            list: Some(list),
-            first: None,
-            count: None,
-        }) => {
-            if list.is_empty() {
-                let problem = Problem::new("seeds.list", "there are no seeds");
-                problems.push(problem.help("list at least one"));
-            }
-            for (index, seed) in list.iter().enumerate() {
-                if list[..index].contains(seed) {
-                    let path = format!("seeds.list[{index}]");
-                    let message = format!("the seed {seed} is there twice");
-                    let help = "equal seeds give equal runs; remove one";
-                    problems.push(Problem::new(path, message).help(help));
-                }
-            }
-            list.clone()
-        }
-        Some(SeedsEntry { list: Some(_), .. }) => {
-            let message = "`list` and `first` or `count` exclude each other";
-            let problem = Problem::new("seeds.list", message).at_key();
-            problems.push(problem.help("keep the list, or the range"));
-            Vec::new()
-        }
-        Some(SeedsEntry { first, count, .. }) => {
-            let (first, count) = (first.unwrap_or(1), count.unwrap_or(1));
-            if first.saturating_add(count) > LARGEST_SEED {
-                let message = format!("the seeds would go beyond {LARGEST_SEED}, the largest one");
-                problems.push(Problem::new("seeds.first", message).help("begin with a lower one"));
-                return Vec::new();
-            }
-            if count > MOST_JOBS as u64 {
-                let message = format!("{count} seeds are too many");
-                let help = format!("{MOST_JOBS} jobs are the most");
-                problems.push(Problem::new("seeds.count", message).help(help));
-                return Vec::new();
-            }
-            (first..first + count).collect()
-        }
-    }
 }
 
 /// A sweep has so many axes at most.
@@ -302,7 +248,8 @@ fn check_plot(sweep: &Sweep, problems: &mut Vec<Problem>) {
 }
 
 fn check_grid(sweep: &Sweep, document: &Document, problems: &mut Vec<Problem>) {
-    let jobs = sweep.points().saturating_mul(sweep.seeds.len());
+    let seeds = sweep.seeds.len() + sweep.border_seeds.len();
+    let jobs = sweep.points().saturating_mul(seeds);
     if !check_jobs(jobs, "use fewer values or seeds", problems) {
         return;
     }

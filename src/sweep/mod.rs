@@ -1,6 +1,7 @@
 //! Sweeps: a scene, the axes it is varied over, and the jobs that follow.
 
 mod axis;
+mod borders;
 mod dumps;
 mod failure;
 mod failures;
@@ -10,6 +11,7 @@ mod labelling;
 mod load;
 mod plan;
 mod pool;
+mod seeds;
 mod select;
 mod spacing;
 mod status;
@@ -27,12 +29,13 @@ pub use job::{Job, PointError};
 pub(crate) use job::{PointScenes, grid, points};
 pub use labelling::{Labelled, Labelling, LabellingError, Since, refuse_to_lose_labels};
 pub(crate) use load::{
-    SWEEP, SeedsEntry, base_scene, check_axes, check_jobs, check_number_of_axes, check_points,
-    check_steps, expand_axes, expand_seeds, of_document, or_path,
+    SWEEP, base_scene, check_axes, check_jobs, check_number_of_axes, check_points, check_steps,
+    expand_axes, of_document, or_path,
 };
 pub use load::{from_str, load};
 pub use plan::{Done, ForeignRecord, Plan, Standing};
 pub use pool::{Pool, PoolError};
+pub(crate) use seeds::{SeedsEntry, expand_seeds};
 pub use select::{SelectError, parse_point};
 pub use status::{Status, UnderWay};
 pub use workers::{Begin, Event, Report};
@@ -55,6 +58,12 @@ pub struct Sweep {
     pub axes: Vec<Axis>,
     /// Seeds; each point of the grid runs once per seed.
     pub seeds: Vec<u64>,
+    /// More seeds, of the points at borders alone.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub border_seeds: Vec<u64>,
+    /// The points of the grid at borders, as far as labels have told them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub border_points: Vec<Vec<f64>>,
     /// Thresholds of the sieves.
     pub sieves: Sieves,
     /// What the phase diagram shows.
@@ -68,6 +77,8 @@ impl Sweep {
             title: None,
             axes: Vec::new(),
             seeds: vec![scene.seed],
+            border_seeds: Vec::new(),
+            border_points: Vec::new(),
             scene,
             sieves: Sieves::default(),
             plot: PlotSettings::default(),

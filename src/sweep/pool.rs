@@ -153,6 +153,8 @@ mod tests {
                 scene,
                 axes: vec![axis],
                 seeds: vec![1],
+                border_seeds: Vec::new(),
+                border_points: Vec::new(),
                 sieves,
                 plot,
             },

@@ -54,11 +54,12 @@ impl Sweep {
         for (name, value) in point {
             if name == "seed" {
                 chosen.seeds.retain(|&seed| seed as f64 == *value);
-                if chosen.seeds.is_empty() {
+                chosen.border_seeds.retain(|&seed| seed as f64 == *value);
+                if chosen.seeds.is_empty() && chosen.border_seeds.is_empty() {
                     return Err(SelectError::Value {
                         name: name.clone(),
                         value: value.to_string(),
-                        values: join(&self.seeds),
+                        values: join(self.seeds.iter().chain(&self.border_seeds)),
                     });
                 }
                 continue;

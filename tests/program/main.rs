@@ -4,6 +4,7 @@
 
 mod ablate;
 mod accuracy;
+mod borders;
 mod checkpoint;
 mod command_line;
 mod cost;

@@ -84,6 +84,8 @@ fn made_up() -> (Sweep, LabelTable) {
         scene: scene(),
         axes,
         seeds: SEEDS.to_vec(),
+        border_seeds: Vec::new(),
+        border_points: Vec::new(),
         sieves: Sieves::default(),
         plot: PlotSettings::default(),
     };

@@ -81,6 +81,8 @@ impl Tank {
                 scene: scene(),
                 axes,
                 seeds: vec![1, 2],
+                border_seeds: Vec::new(),
+                border_points: Vec::new(),
                 sieves: Sieves::default(),
                 plot: PlotSettings::default(),
             },

@@ -69,6 +69,8 @@ pub(crate) fn sweep(title: &str, axes: Vec<Axis>, seeds: &[u64]) -> Sweep {
         scene: scene(),
         axes,
         seeds: seeds.to_vec(),
+        border_seeds: Vec::new(),
+        border_points: Vec::new(),
         sieves: Sieves::default(),
         plot: PlotSettings::default(),
     }

@@ -2,7 +2,7 @@
 //!
 //! Every figure drawn here is left in `target/tmp` to look at.
 
-mod bench;
+pub(crate) mod bench;
 mod diagrams;
 mod files;
 mod panels;

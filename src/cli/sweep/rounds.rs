@@ -1,0 +1,254 @@
+//! The rounds of a sweep: all points of the grid, then more seeds at borders.
+
+use crate::cli::console::{Console, name_first};
+use crate::cli::exit::Failure;
+use crate::cli::progress::{Progress, Work};
+use crate::cli::{builds, format, job};
+use phase::record::{Outcome, RunRecord};
+use phase::run::model_of;
+use phase::sweep::{
+    Event, Failure as JobFailure, Folder, Job, Labelling, Plan, Pool, PoolError, Report, Standing,
+    Sweep, describe,
+};
+use std::collections::HashMap;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+/// The rounds of a sweep: all points of the grid, then more seeds at borders.
+pub(super) struct Rounds<'a> {
+    pub(super) folder: &'a Folder,
+    pub(super) workers: usize,
+    pub(super) stop: &'a AtomicBool,
+    pub(super) checkpoint_interval: Duration,
+    pub(super) force: bool,
+    pub(super) console: &'a Console,
+}
+
+impl Rounds<'_> {
+    /// Runs them, and puts the points at borders into the sweep. Gives the last plan, and what was
+    /// run of all rounds.
+    pub(super) fn run(&self, sweep: &mut Sweep, jobs: Vec<Job>) -> Result<(Plan, Run), Failure> {
+        let plan = if self.force {
+            Plan::afresh(jobs)
+        } else {
+            Plan::new(self.folder, jobs, self.workers).map_err(Failure::failed)?
+        };
+        tell_of_plan(&plan, self.console);
+        let run = self.run_plan(&plan, sweep)?;
+        let is_whole = run.report.left == 0
+            && run.report.failures.is_empty()
+            && run.report.halted.is_none()
+            && !self.stop.load(Ordering::Relaxed);
+        if sweep.border_seeds.is_empty() || !is_whole {
+            return Ok((plan, run));
+        }
+        let plan = self.plan_of_borders(sweep, &plan)?;
+        let later = self.run_plan(&plan, sweep)?;
+        Ok((plan, run.and(later)))
+    }
+
+    /// All jobs with those of the points at borders, once the points of the grid have run.
+    fn plan_of_borders(&self, sweep: &mut Sweep, plan: &Plan) -> Result<Plan, Failure> {
+        let jobs: Vec<Job> = plan.jobs.iter().map(|(job, _)| job.clone()).collect();
+        let labelling =
+            Labelling::new(self.folder, sweep, &jobs, self.workers).map_err(Failure::failed)?;
+        sweep.border_points = sweep.points_at_borders(&labelling.table);
+        self.console.note(format_args!(
+            "{} of {} lie beside another label and have {} in all",
+            sweep.border_points.len(),
+            format::count(sweep.points(), "point"),
+            format::count(sweep.seeds.len() + sweep.border_seeds.len(), "seed")
+        ));
+        let jobs = sweep.jobs().map_err(Failure::refused)?;
+        let mut plan = Plan::new(self.folder, jobs, self.workers).map_err(Failure::failed)?;
+        if self.force {
+            let at_border = |job: &Job| sweep.border_seeds.contains(&job.seed);
+            let again = plan.jobs.iter_mut().filter(|(job, _)| at_border(job));
+            again.for_each(|(_, standing)| *standing = Standing::Missing);
+        }
+        Ok(plan)
+    }
+
+    fn run_plan(&self, plan: &Plan, sweep: &Sweep) -> Result<Run, Failure> {
+        let pool = Pool {
+            folder: self.folder,
+            sweep,
+            workers: self.workers,
+            stop: self.stop,
+            checkpoint_interval: self.checkpoint_interval,
+            resume: !self.force,
+            watch: &|_| {},
+        };
+        run(plan, pool, self.console)
+    }
+}
+
+/// What was run now.
+pub(super) struct Run {
+    pub(super) report: Report,
+    /// Jobs whose record was there before.
+    pub(super) done_before: usize,
+    pub(super) seconds: f64,
+    pub(super) workers: usize,
+    /// Runs that a guard ended, and which.
+    pub(super) unstable: Vec<JobFailure>,
+}
+
+/// Runs what is to be run of a plan and watches it.
+fn run(plan: &Plan, pool: Pool<'_>, console: &Console) -> Result<Run, Failure> {
+    let (sweep, workers) = (pool.sweep, pool.workers);
+    let steps = Job::work;
+    let progress = Progress::new(
+        console,
+        Work {
+            jobs: plan.jobs.len(),
+            jobs_done: plan.done().count(),
+            steps: plan.jobs.iter().map(|(job, _)| steps(job)).sum(),
+            steps_done: plan.done().map(|(job, _)| steps(job)).sum(),
+            unit: model_of(&sweep.scene).work_unit(),
+        },
+    );
+    let name = |job: &Job| describe(&sweep.axes, &job.values, job.seed);
+    let unstable = Mutex::new(HashMap::new());
+    let note_unstable = |job: &Job, outcome: &Outcome| {
+        if let (Outcome::Unstable(instability), Ok(mut unstable)) = (outcome, unstable.lock()) {
+            let unstable_job = JobFailure::new(job, instability.to_string());
+            unstable.insert(job.id.clone(), unstable_job);
+        }
+    };
+    for (job, done) in plan.done() {
+        note_unstable(job, &done.outcome);
+    }
+    let ended = |job: &Job, record: &RunRecord| {
+        note_unstable(job, &record.outcome);
+        let seconds = format::duration(record.cpu_seconds);
+        format!("done: {} (job {}), {seconds} of CPU", name(job), job.id)
+    };
+    let watch = |event: Event<'_>| job::tell(event, &progress, &name, &ended);
+    let pool = Pool {
+        watch: &watch,
+        ..pool
+    };
+    let report = pool.run(plan).map_err(|error| match error {
+        PoolError::Foreign(_) => Failure::refused(error),
+        _ => Failure::failed(error),
+    });
+    let seconds = progress.finish();
+    let mut unstable = unstable.into_inner().unwrap_or_default();
+    let unstable = plan
+        .jobs
+        .iter()
+        .filter_map(|(job, _)| unstable.remove(&job.id))
+        .collect();
+    Ok(Run {
+        report: report?,
+        done_before: plan.done().count(),
+        seconds,
+        workers,
+        unstable,
+    })
+}
+
+impl Run {
+    /// This and a later round, whose plan has all jobs of this one.
+    fn and(self, later: Self) -> Self {
+        Self {
+            report: Report {
+                finished: self.report.finished + later.report.finished,
+                resumed: self.report.resumed + later.report.resumed,
+                work: self.report.work + later.report.work,
+                cpu_seconds: self.report.cpu_seconds + later.report.cpu_seconds,
+                ..later.report
+            },
+            done_before: later.done_before - self.report.finished,
+            seconds: self.seconds + later.seconds,
+            ..later
+        }
+    }
+
+    /// Prints what was done and names what went wrong.
+    pub(super) fn print(
+        &self,
+        plan: &Plan,
+        sweep: &Sweep,
+        console: &Console,
+    ) -> Result<(), Failure> {
+        let Report {
+            finished,
+            resumed,
+            failures,
+            left,
+            work,
+            cpu_seconds,
+            ..
+        } = &self.report;
+        let mut text = format!(
+            "{}: {finished} run now in {} with {}",
+            format::count(plan.jobs.len(), "job"),
+            format::duration(self.seconds),
+            format::count(self.workers, "worker"),
+        );
+        for (number, what) in [
+            (*resumed, "of them from a checkpoint"),
+            (self.done_before, "done before"),
+            (self.unstable.len(), "unstable"),
+            (failures.len(), "failed"),
+            (*left, "left"),
+        ] {
+            if number > 0 {
+                text += &format!(", {number} {what}");
+            }
+        }
+        if *finished > 0 {
+            let unit = model_of(&sweep.scene).work_unit();
+            text += &format!(
+                "\n{} in {} of CPU time: {} per CPU second",
+                format::work(*work as f64, unit),
+                format::duration(*cpu_seconds),
+                format::work(*work as f64 / cpu_seconds.max(1e-9), unit),
+            );
+        }
+        console.result(text);
+        let names = |jobs: &[JobFailure]| -> Vec<String> {
+            let named = |job: &JobFailure| {
+                let name = describe(&sweep.axes, &job.values, job.seed);
+                format!("{name} (job {}): {}", job.id, job.reason)
+            };
+            jobs.iter().map(named).collect()
+        };
+        name_first(&names(&self.unstable), |name| {
+            console.note(format_args!("unstable: {name}"));
+        });
+        name_first(&names(failures), |name| {
+            console.error(format_args!("failed: {name}"));
+        });
+        Ok(())
+    }
+}
+
+/// Says what is done already, and what is run again and why.
+fn tell_of_plan(plan: &Plan, console: &Console) {
+    let done = plan.done().count();
+    if done > 0 {
+        console.note(format_args!(
+            "{done} of {} are done already",
+            format::count(plan.jobs.len(), "job")
+        ));
+    }
+    let makers = plan.done().map(|(_, done)| Some(&done.program));
+    builds::tell_of_others("record", makers, console);
+    for (job, standing) in &plan.jobs {
+        match standing {
+            Standing::Damaged(reason) => console.note(format_args!(
+                "run again: the record of job {} cannot be used: {reason}",
+                job.id
+            )),
+            Standing::OtherOutput => console.detail(format_args!(
+                "run again: the record of job {} was made with other output settings",
+                job.id
+            )),
+            Standing::Missing | Standing::Done(_) | Standing::Foreign(_) => {}
+        }
+    }
+}
