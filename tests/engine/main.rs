@@ -18,6 +18,7 @@ mod rolling;
 mod scenes;
 mod silo;
 mod stability;
+mod steel;
 #[path = "../support/mod.rs"]
 mod support;
 mod time_step;
