@@ -3,6 +3,7 @@
 use crate::measure::FilledBox;
 use crate::observe::Snapshot;
 use crate::record::RunRecord;
+use crate::scene::Units;
 
 /// Share of the run at its start that is left out, where nothing else is asked for: the flow has to
 /// develop.
@@ -40,6 +41,11 @@ impl<'a> Drainage<'a> {
             filled_box: FilledBox::new([half_width, half_depth], floor, diameter, start),
             times: times.unwrap_or([BEGINNING * duration, duration]),
         })
+    }
+
+    /// The units of its scene.
+    pub fn units(&self) -> Units {
+        self.record.scene.units()
     }
 
     /// All states, in order of time, two or more.

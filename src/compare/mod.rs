@@ -5,11 +5,13 @@
 mod drainage;
 mod profiles;
 mod quantities;
+mod simpler;
 mod spreading;
 mod table;
 
 pub use drainage::Drainage;
 pub use profiles::{DRAWN_HEIGHTS, cross_profile, flow_spread_of, profile_at};
 pub use quantities::{QUANTITIES, Quantity, badness_of, mixing};
+pub use simpler::{MixingOverTime, mixing_of_kinematic_flow, mixing_of_voids};
 pub use spreading::{Spreading, spreading};
 pub use table::{Comparison, Row};

@@ -110,8 +110,7 @@ const STATES: usize = 10;
 const BOND: f64 = 1.3;
 /// Distances of the radial distribution function: farthest, in diameters, and bins.
 const DISTANCES: (f64, usize) = (1.2, 480);
-/// Thickness of coloured layers and width of the cells of mixing, in diameters.
-const LAYER: f64 = 10.0;
+/// Width of the cells of mixing, in diameters.
 const CELL: f64 = 2.5;
 
 /// A number without an interval: another seed would tell its scatter.
@@ -233,23 +232,29 @@ fn least_distance(drainage: &Drainage<'_>) -> Option<Estimate> {
 /// Lacey's index of mixing of layers of ten diameters in the lower half, in cells that span the
 /// depth.
 pub fn mixing(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
+    let start = layers(drainage).of(drainage.start());
+    mixing_of(drainage, &Centres::of(state), &start)
+}
+
+/// The layers whose mixing is measured.
+pub(super) fn layers(drainage: &Drainage<'_>) -> Layers {
     let filled_box = &drainage.filled_box;
-    let layers = Layers {
-        floor: filled_box.floor,
-        thickness: LAYER * filled_box.diameter,
-    };
+    Layers::of_ten_diameters(filled_box.floor, filled_box.diameter)
+}
+
+/// The same of any centres in the box of a drainage, whose layers at their start are given.
+pub(super) fn mixing_of(
+    drainage: &Drainage<'_>,
+    centres: &Centres,
+    layers: &[Option<usize>],
+) -> Option<f64> {
+    let filled_box = &drainage.filled_box;
     let region = filled_box.lower_half();
     let cells = |axis: usize| {
         let width = region.high[axis] - region.low[axis];
         (width / (CELL * filled_box.diameter)).round().max(1.0) as usize
     };
-    let cells = [cells(0), 1, cells(2)];
-    lacey_index(
-        &Centres::of(state),
-        &layers.of(drainage.start()),
-        &region,
-        cells,
-    )
+    lacey_index(centres, layers, &region, [cells(0), 1, cells(2)])
 }
 
 fn angle(drainage: &Drainage<'_>) -> Option<Estimate> {

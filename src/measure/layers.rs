@@ -14,6 +14,14 @@ pub struct Layers {
 }
 
 impl Layers {
+    /// Layers of ten diameters above a floor.
+    pub fn of_ten_diameters(floor: f64, diameter: f64) -> Self {
+        Self {
+            floor,
+            thickness: 10.0 * diameter,
+        }
+    }
+
     /// The layer at a height (m), from 0 at the floor; what is below the floor belongs to it.
     pub fn layer(&self, height: f64) -> usize {
         ((height - self.floor) / self.thickness) as usize

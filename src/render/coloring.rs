@@ -66,10 +66,12 @@ impl ColorBy {
     /// See [`LOOSEST`](Self::LOOSEST).
     pub const DENSEST: f64 = 0.75;
 
-    /// By layers of this thickness (m) above a floor at this height (m), of the state at the start.
-    pub fn layers_of(start: &Snapshot, floor: f64, thickness: f64) -> Self {
-        let of = Layers { floor, thickness }.of(start);
-        Self::Layer { thickness, of }
+    /// By the layers of the state at the start.
+    pub fn layers_of(start: &Snapshot, layers: &Layers) -> Self {
+        Self::Layer {
+            thickness: layers.thickness,
+            of: layers.of(start),
+        }
     }
 
     /// By packing fraction, of spheres of this diameter (m) between walls at x = -reach\[0\] and

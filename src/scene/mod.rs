@@ -23,6 +23,7 @@ mod start;
 mod tank;
 mod time;
 mod tree;
+mod units;
 mod validate;
 mod vary;
 
@@ -48,6 +49,7 @@ pub use start::{Start, StartSphere};
 pub use tank::Tank;
 pub(crate) use time::AUTO;
 pub use time::{Integrator, Time};
+pub use units::Units;
 pub(crate) use validate::{plural, rounded};
 pub(crate) use vary::Template;
 

@@ -7,7 +7,7 @@
 use super::random::Stream;
 
 /// Distance of rows, in units of that of sites in a row.
-const ROW_HEIGHT: f64 = 0.866_025_403_784_438_6;
+pub const ROW_HEIGHT: f64 = 0.866_025_403_784_438_6;
 
 /// A silo of grains on a lattice. Odd rows are shifted to the right by half a site.
 #[derive(Clone, Debug)]

@@ -72,7 +72,7 @@ fn steel_at_its_true_stiffness_hovers_rests_and_is_pinned() {
             let runs: Vec<f64> = runs.iter().map(|value| value.parse().unwrap()).collect();
             assert_eq!(runs.len(), RUNS);
             let mean = runs.iter().sum::<f64>() / RUNS as f64;
-            let squares = runs.iter().map(|value| (value - mean).powi(2)).sum::<f64>();
+            let squares: f64 = runs.iter().map(|it| (it - mean) * (it - mean)).sum();
             let deviation = (squares / (RUNS - 1) as f64).sqrt();
             let value = verdict.value(measure).unwrap();
             let distance = (value - mean) / deviation;

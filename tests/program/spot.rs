@@ -1,6 +1,7 @@
 //! Drainage by spots, through the built program.
 
 use crate::support::{Workplace, drainage_file};
+use phase::compare::{Drainage, mixing_of_kinematic_flow, mixing_of_voids};
 use phase::measure::{CellGrid, Centres};
 use phase::record::RunRecord;
 use phase::store::{content_digest, read_record};
@@ -355,4 +356,71 @@ fn keys_are_set_on_the_command_line() {
             .complains(complaint);
         assert!(!place.path("no.h5").exists());
     }
+}
+
+/// Spheres on a cubic lattice in a box of 12 x 6 x 42 diameters, as a table of positions.
+fn lattice() -> String {
+    let mut table = "x,y,z\n".to_owned();
+    for z in 0..42 {
+        for (x, y) in (0..12).flat_map(|x| (0..6).map(move |y| (x, y))) {
+            let place = [f64::from(x) - 5.5, f64::from(y) - 2.5, f64::from(z) + 0.5];
+            table += &place.map(|it| it.to_string()).join(",");
+            table += "\n";
+        }
+    }
+    table
+}
+
+/// A packing from elsewhere drains too; voids and the kinematic flow stand beside its mixing.
+#[test]
+fn positions_from_a_file_drain_and_are_compared_with_simpler_models() {
+    let place = Workplace::new();
+    place.write("lattice.csv", &lattice());
+    let scene = drainage_file()
+        .replace("count = 400", "count = 3024")
+        .replace(
+            "start = { kind = \"packing\" }",
+            "start = { kind = \"file\", path = \"lattice.csv\" }",
+        )
+        .replace("width = 9.0, depth = 6.0", "width = 12.0, depth = 6.0")
+        .replace("orifice_radius = 2.0", "slit_width = 4.0")
+        .replace("duration = 4.0", "duration = 16.0")
+        .replace("insertion_rate = 375.0", "insertion_rate = 190.0");
+    place.write("scene.toml", &scene);
+    place
+        .phase(&["run", "scene.toml", "--out", "lattice.h5"])
+        .code(0);
+    let record = record(&place, "lattice.h5");
+    assert_eq!(record.snapshots[0].position[[0, 0]], -5.5);
+    let left = *record.observations.discharged.last().unwrap();
+    assert!(left > 200.0, "{left} have left");
+    place
+        .phase(&["plot", "lattice.h5", "--figure", "mixing,diffusion"])
+        .code(0);
+    let svg = place.read("lattice-mixing.svg");
+    for name in ["voids on a lattice", "kinematic flow", "over"] {
+        assert!(svg.contains(name), "{name}: {svg}");
+    }
+    let drainage = Drainage::new(&record, None).unwrap();
+    let voids = mixing_of_voids(&drainage).unwrap();
+    let flow = mixing_of_kinematic_flow(&drainage).unwrap();
+    // They start on one lattice, and layers bend in both.
+    assert_eq!(voids[0], flow[0]);
+    // Cells that straddle the edges of layers are not unmixed at the start.
+    assert!((0.0..0.35).contains(&voids[0].1), "{voids:?}");
+    assert_eq!(voids.len(), record.snapshots.len());
+    for mixed in [voids, flow] {
+        let [first, last] = [mixed[0].1, mixed[mixed.len() - 1].1];
+        assert!((first + 0.1..1.0).contains(&last), "{mixed:?}");
+    }
+    let packing = "start = { kind = \"file\", path = \"lattice.csv\" }";
+    assert!(scene.contains(packing));
+    place.write(
+        "lattice.csv",
+        &lattice().replace("-5.5,-2.5,0.5", "-5.5,-2.5,1.2"),
+    );
+    place
+        .phase(&["run", "scene.toml", "--out", "overlap.h5"])
+        .code(2)
+        .complains("overlap");
 }

@@ -3,6 +3,7 @@
 use super::{Arguments, Color, words};
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
+use phase::measure::Layers;
 use phase::observe::Snapshot;
 use phase::record::RunRecord;
 use phase::render::{ColorBy, Image, Scenery, Sheet, Sides, Stage};
@@ -183,9 +184,6 @@ fn window(numbers: &[f64]) -> Result<Option<[[f64; 2]; 2]>, Failure> {
     }
 }
 
-/// Thickness of a layer, in diameters.
-const LAYER: f64 = 10.0;
-
 /// Colours that differ from run to run.
 fn own_color(run: &Run<'_>, color: Color) -> Option<ColorBy> {
     let scene = &run.record.scene;
@@ -195,7 +193,8 @@ fn own_color(run: &Run<'_>, color: Color) -> Option<ColorBy> {
         Color::Layer => {
             let start = run.record.sound_states().first()?;
             let floor = tank.floor.unwrap_or(0.0);
-            Some(ColorBy::layers_of(start, floor, LAYER * diameter))
+            let layers = Layers::of_ten_diameters(floor, diameter);
+            Some(ColorBy::layers_of(start, &layers))
         }
         Color::PackingFraction => {
             let reach = tank.reach();

@@ -3,7 +3,7 @@
 use super::moment;
 use phase::observe::Snapshot;
 use phase::record::RunRecord;
-use phase::scene::Radii;
+use phase::scene::{Radii, Units};
 
 /// A time as text, with as many digits as the frames ask for.
 fn seconds(record: &RunRecord, time: f64) -> String {
@@ -22,7 +22,8 @@ pub(super) fn brief(record: &RunRecord, time: f64) -> String {
 
 /// The caption of a state: its time, and what happened since the state before it.
 pub(super) fn caption(record: &RunRecord, state: &Snapshot) -> String {
-    let time = format!("t = {} s", seconds(record, state.time));
+    let unit = record.scene.units().of_time();
+    let time = format!("t = {} {unit}", seconds(record, state.time));
     let news = moment::news(record, state).map(|kind| kind.name().to_owned());
     let words: Vec<String> = std::iter::once(time).chain(news).collect();
     words.join(", ")
@@ -34,6 +35,7 @@ pub(super) fn place(record: &RunRecord) -> String {
     let mut place = vec![format!("n = {}", record.radius.len())];
     let millimetres = |radius: f64| rounded(1e3 * radius).to_string();
     match &scene.spheres.radius {
+        Radii::One(_) if scene.units() == Units::OfSpheres => {}
         Radii::One(radius) => place.push(format!("r = {} mm", millimetres(*radius))),
         Radii::Shares(shares) => {
             let radii: Vec<String> = shares.iter().map(|it| millimetres(it.radius)).collect();

@@ -1,6 +1,6 @@
 //! Overlaps against processor time (Rycroft, Wong and Bazant, 2010, figures 9 and 12).
 
-use super::overlay::{Frame, Scale};
+use super::overlay::{self, Frame, Scale};
 use super::{Curve, Drainage, Lines, Overlay};
 use crate::compare::badness_of;
 use crate::plot::scale;
@@ -18,6 +18,7 @@ pub(super) static BADNESS: Overlay = Overlay {
     note: "Sum of overlaps over diameters, of pairs, per sphere in the middle of the lower half. \
            Bars: 95 % over ten states.",
     lines,
+    guides: overlay::none,
 };
 
 fn lines(drainage: &Drainage<'_>) -> Lines {

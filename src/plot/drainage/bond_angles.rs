@@ -1,6 +1,6 @@
 //! The distribution of angles between bonds.
 
-use super::overlay::{Frame, Scale};
+use super::overlay::{self, Frame, Scale};
 use super::{Curve, Drainage, Lines, Overlay};
 use crate::measure::{BondAngles, Centres};
 use std::f64::consts::PI;
@@ -18,6 +18,7 @@ pub(super) static BOND_ANGLES: Overlay = Overlay {
     note: "Angles at a sphere between two neighbours nearer than 1.3 diameters. Region as of the \
            radial distribution.",
     lines,
+    guides: overlay::none,
 };
 
 /// Largest distance of a neighbour, in diameters.

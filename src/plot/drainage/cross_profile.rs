@@ -1,6 +1,6 @@
 //! The velocity through the depth of a box (Rycroft, Wong and Bazant, 2010, figure 8).
 
-use super::overlay::{Frame, Scale};
+use super::overlay::{self, Frame, Scale};
 use super::{Curve, Drainage, Lines, Overlay};
 use crate::compare::cross_profile;
 use crate::measure::ProfilePoint;
@@ -20,6 +20,7 @@ pub(super) static CROSS_PROFILE: Overlay = Overlay {
     }],
     note: "Of the middle 40 % of the width, at 45 to 64 % of the height at the start. Bars: 95 %.",
     lines,
+    guides: overlay::none,
 };
 
 fn lines(drainage: &Drainage<'_>) -> Lines {

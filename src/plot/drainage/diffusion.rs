@@ -1,8 +1,9 @@
 //! How far spheres stray from the mean flow, over the distance that they drop.
 
-use super::overlay::{Frame, Scale};
+use super::overlay::{Frame, Guide, Scale};
 use super::{Curve, Drainage, Lines, Overlay};
 use crate::compare::spreading;
+use crate::spot::voids::ROW_HEIGHT;
 
 /// How far spheres stray from the mean flow.
 pub(super) static DIFFUSION: Overlay = Overlay {
@@ -16,18 +17,20 @@ pub(super) static DIFFUSION: Overlay = Overlay {
         Frame {
             head: "across the flow, along x",
             x: None,
-            y: Scale::FromZero,
+            y: Scale::Decades,
         },
         Frame {
             head: "along the flow",
             x: None,
-            y: Scale::FromZero,
+            y: Scale::Decades,
         },
     ],
     note: "Of the spheres that start in the middle 40 % of the width at 30 to 80 % of the height; \
            about a mean flow that is linear in cells of two diameters. Pe = $V$ $d$ / $D$ across, \
-           of the longest way of which there are eight, with its 95 % interval.",
+           of the longest way of which there are eight, with its 95 % interval. Voids on a \
+           lattice (Caram and Hong, 1991) move grains by ± $d$/2 in rows of √3/2 $d$.",
     lines,
+    guides,
 };
 
 fn lines(drainage: &Drainage<'_>) -> Lines {
@@ -45,4 +48,16 @@ fn lines(drainage: &Drainage<'_>) -> Lines {
         curves: vec![curve(1), curve(2)],
         word,
     }
+}
+
+/// What voids make: a mean square displacement of d²/4 in a row.
+fn guides(drainage: &Drainage<'_>) -> Vec<Guide> {
+    let diameter = drainage.filled_box.diameter;
+    let dropped = spreading(drainage).points;
+    let dropped = dropped.iter().map(|it| it[0] / diameter);
+    let points = dropped.map(|it| (it, 0.25 / ROW_HEIGHT * it)).collect();
+    vec![Guide {
+        name: "voids on a lattice, Pe = 6.9",
+        points,
+    }]
 }

@@ -1,6 +1,6 @@
 //! How many spheres have left, over time.
 
-use super::overlay::{Frame, Scale};
+use super::overlay::{self, Frame, Scale};
 use super::{Curve, Drainage, Lines, Overlay};
 use crate::measure::outflow_rate;
 use crate::plot::scale;
@@ -17,6 +17,7 @@ pub(super) static OUTFLOW: Overlay = Overlay {
     }],
     note: "Rates with 95 % intervals (jackknife over blocks of time).",
     lines,
+    guides: overlay::none,
 };
 
 fn lines(drainage: &Drainage<'_>) -> Lines {
@@ -26,7 +27,7 @@ fn lines(drainage: &Drainage<'_>) -> Lines {
     let rate = outflow_rate(&observations.time, &left, drainage.times);
     let word = rate.map(|rate| {
         let [value, half] = [rate.value, rate.half_width].map(|it| scale::rounded(it, 3));
-        format!("{value} ± {half} per s")
+        format!("{value} ± {half} per {}", drainage.units().of_time())
     });
     let points = observations.time.iter().copied().zip(left);
     Lines {

@@ -8,6 +8,7 @@ use crate::plot::page::columns;
 use crate::plot::style::px;
 use crate::plot::svg::Svg;
 use crate::plot::{Figure, PlotError, Source, choice, palette};
+use crate::scene::Units;
 use plotters::style::RGBColor;
 
 /// A figure in which each run is a line in one panel or several.
@@ -20,6 +21,20 @@ pub(super) struct Overlay {
     pub(super) note: &'static str,
     /// What a run shows.
     pub(super) lines: fn(&Drainage<'_>) -> Lines,
+    /// What the first run is compared with, in the first panel.
+    pub(super) guides: fn(&Drainage<'_>) -> Vec<Guide>,
+}
+
+/// A line that runs are compared with.
+pub(super) struct Guide {
+    /// Its name in the legend.
+    pub(super) name: &'static str,
+    pub(super) points: Vec<(f64, f64)>,
+}
+
+/// No guides.
+pub(super) fn none(_: &Drainage<'_>) -> Vec<Guide> {
+    Vec::new()
 }
 
 /// A panel.
@@ -90,16 +105,26 @@ impl Figure for Overlay {
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
         let runs = choice::runs(source, choice::states)?;
         let (common, places) = choice::places(&runs);
+        let (mut guides, mut units) = (Vec::new(), Units::Si);
         let shown = runs
             .iter()
-            .map(|run| {
+            .enumerate()
+            .map(|(index, run)| {
                 let record = run.record()?;
-                Ok((self.lines)(&drainage(&record, source, self.name)?))
+                let drainage = drainage(&record, source, self.name)?;
+                if index == 0 {
+                    guides = (self.guides)(&drainage);
+                    units = drainage.units();
+                }
+                Ok((self.lines)(&drainage))
             })
             .collect::<Result<Vec<Lines>, PlotError>>()?;
         let panels = self.panels.iter().enumerate();
         let mut panels: Vec<Panel> = panels
-            .map(|(index, frame)| frame.panel(shown.iter().map(|it| &it.curves[index])))
+            .map(|(index, frame)| {
+                let guides = if index == 0 { &guides[..] } else { &[] };
+                frame.panel(shown.iter().map(|it| &it.curves[index]), guides)
+            })
             .collect();
         self.align(&mut panels);
         if panels
@@ -115,13 +140,15 @@ impl Figure for Overlay {
             let color = color(index, runs.len());
             (!name.is_empty()).then(|| (color, name.join(", ")))
         });
-        let [x_label, y_label] = self.labels.map(str::to_owned);
+        let named_guides = guides.iter().zip(GUIDES);
+        let named_guides = named_guides.map(|(guide, color)| (color, guide.name.to_owned()));
+        let [x_label, y_label] = self.labels.map(|label| in_units(label, units));
         Chart {
             name: self.name,
             common,
             columns: columns(panels.len()),
             height: px(300),
-            legend: legend.collect(),
+            legend: legend.chain(named_guides).collect(),
             panels,
             x_label,
             y_label,
@@ -154,6 +181,19 @@ impl Overlay {
     }
 }
 
+/// The label of a time (s) in the units of a scene.
+pub(super) fn in_units(label: &str, units: Units) -> String {
+    match units {
+        Units::OfSpheres if label.starts_with("time") => {
+            label.replace("(s)", "over $τ$ = √($d$/$g$)")
+        }
+        Units::OfSpheres | Units::Si => label.to_owned(),
+    }
+}
+
+/// Colours of guides.
+const GUIDES: [RGBColor; 2] = [RGBColor(0x50, 0x50, 0x50), palette::GUIDE];
+
 /// Colour of a run by its number: of few they are as different as can be, of many in order.
 pub(super) fn color(index: usize, count: usize) -> RGBColor {
     match palette::DISTINCT.get(index) {
@@ -166,10 +206,18 @@ pub(super) fn color(index: usize, count: usize) -> RGBColor {
 }
 
 impl Frame {
-    /// The panel of the curves of all runs.
-    fn panel<'c>(&self, curves: impl ExactSizeIterator<Item = &'c Curve>) -> Panel {
+    /// The panel of the curves of all runs, and of guides.
+    fn panel<'c>(
+        &self,
+        curves: impl ExactSizeIterator<Item = &'c Curve>,
+        guides: &[Guide],
+    ) -> Panel {
         let count = curves.len();
         let (mut lines, mut bars) = (Vec::new(), Vec::new());
+        lines.extend(guides.iter().zip(GUIDES).map(|(guide, color)| Line {
+            points: guide.points.clone(),
+            color,
+        }));
         for (index, curve) in curves.enumerate() {
             let color = color(index, count);
             let points = curve.points.iter().copied();

@@ -83,8 +83,9 @@ impl Map {
         let nearest = states.min_by(|one, other| away(one).total_cmp(&away(other)));
         let state = nearest.unwrap_or(drainage.start());
         head.push(format!(
-            "$t$ = {} s",
-            crate::plot::scale::number(state.time)
+            "$t$ = {} {}",
+            crate::plot::scale::number(state.time),
+            drainage.units().of_time()
         ));
         let diameter = drainage.filled_box.diameter;
         let [width, depth, floor] = [

@@ -1,6 +1,6 @@
 //! The radial distribution function (Rycroft, Wong and Bazant, 2010, figure 11).
 
-use super::overlay::{Frame, Scale};
+use super::overlay::{self, Frame, Scale};
 use super::{Curve, Drainage, Lines, Overlay};
 use crate::measure::{Centres, RadialDistribution};
 
@@ -24,6 +24,7 @@ pub(super) static RADIAL_DISTRIBUTION: Overlay = Overlay {
     note: "Of the spheres in the middle of the lower half: 60 % of the width, 14 to 41 % of the \
            height at the start.",
     lines,
+    guides: overlay::none,
 };
 
 /// Farthest distance, in diameters, and bins up to it.

@@ -1,6 +1,6 @@
 //! How long spheres stay, by where they start.
 
-use super::overlay::{Frame, Scale};
+use super::overlay::{self, Frame, Scale};
 use super::{Curve, Drainage, Lines, Overlay};
 use crate::measure::Residence;
 
@@ -32,6 +32,7 @@ pub(super) static RESIDENCE: Overlay = Overlay {
     note: "Of the inner, the third and the outer of five parts of the half width. A line ends \
            where less than half have left.",
     lines,
+    guides: overlay::none,
 };
 
 /// Parts of the half width, and those that are shown.

@@ -1,6 +1,6 @@
 //! How many neighbours spheres keep on their way down.
 
-use super::overlay::{Frame, Scale};
+use super::overlay::{self, Frame, Scale};
 use super::{Curve, Drainage, Lines, Overlay};
 use crate::measure::NeighbourRetention;
 
@@ -17,6 +17,7 @@ pub(super) static RETENTION: Overlay = Overlay {
     note: "Neighbours are nearer than 1.3 diameters. Of the spheres that start in the middle 60 % \
            of the width above 14 % of the height, at all later times.",
     lines,
+    guides: overlay::none,
 };
 
 /// Largest distance of a neighbour, in diameters.

@@ -1,6 +1,6 @@
 //! The angle of the free surface over time (Rycroft, Wong and Bazant, 2010, figure 7).
 
-use super::overlay::{Frame, Scale};
+use super::overlay::{self, Frame, Scale};
 use super::{Curve, Drainage, Lines, Overlay};
 use crate::measure::{Centres, surface_angle};
 
@@ -17,6 +17,7 @@ pub(super) static SURFACE_ANGLE: Overlay = Overlay {
     note: "Regression of the highest centres in columns of 2.5 diameters (Rycroft, Wong and \
            Bazant, 2010); positive if the surface rises to the walls.",
     lines,
+    guides: overlay::none,
 };
 
 fn lines(drainage: &Drainage<'_>) -> Lines {

@@ -9,6 +9,7 @@ use crate::plot::page::columns;
 use crate::plot::style::px;
 use crate::plot::svg::Svg;
 use crate::plot::{Figure, PlotError, Source, choice, palette};
+use crate::scene::Units;
 use plotters::style::RGBColor;
 
 /// The downward velocity across a box at several heights.
@@ -37,11 +38,13 @@ impl Figure for VelocityProfiles {
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
         let runs = choice::runs(source, choice::states)?;
         let (common, places) = choice::places(&runs);
+        let mut time = Units::Si.of_time();
         let panels = runs
             .iter()
             .zip(places)
             .map(|(run, place)| {
                 let record = run.record()?;
+                time = record.scene.units().of_time();
                 Ok(panel(place, &drainage(&record, source, self.name())?))
             })
             .collect::<Result<Vec<_>, PlotError>>()?;
@@ -55,7 +58,7 @@ impl Figure for VelocityProfiles {
             height: if panels.len() == 1 { px(340) } else { px(220) },
             panels,
             x_label: "place along the width $x$ / $d$".to_owned(),
-            y_label: "downward velocity $v_z$ (diameters/s)".to_owned(),
+            y_label: format!("downward velocity $v_z$ (diameters/{time})"),
             legend: legend.collect(),
             notes: vec![
                 "Bars: 95 % of what was measured in layers of four diameters. Lines: Gaussians \

@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! /             attributes: format, format_version, program_version, program_commit, identity,
-//!               seed, scene (JSON), scene_toml, outcome, work, cpu_seconds; of an unstable run
-//!               also guard, guard_step, guard_time, guard_sphere, guard_detail
+//!               seed, units, scene (JSON), scene_toml, outcome, work, cpu_seconds; of an
+//!               unstable run also guard, guard_step, guard_time, guard_sphere, guard_detail
 //! /start        of a start that lists more than 1000 spheres, which the texts leave out then:
 //!               position, velocity, spin                    n x 3
 //!               radius                                      n

@@ -83,6 +83,7 @@ fn header(file: &mut FileBuilder, record: &RunRecord, rest: Option<&Scene>) -> R
     file.set_attr("format_version", AttrValue::U64(FORMAT_VERSION));
     file.set_attr("identity", text(&scene.identity()));
     file.set_attr("seed", AttrValue::U64(scene.seed));
+    file.set_attr("units", text(scene.units().description()));
     file.set_attr("work", AttrValue::U64(record.work));
     file.set_attr("scene", text(&json));
     // For people only, so it may be missing: it is no file to run without the spheres, and TOML has

@@ -1,0 +1,159 @@
+//! The same drainage by simpler models: voids on a lattice, and the kinematic flow.
+//!
+//! Both are plane. Their grains start on one triangular lattice that fills the width and height of
+//! the box, and as large a share of them leaves at any time as of the spheres of the record.
+
+use super::quantities::{layers, mixing_of};
+use super::{Drainage, flow_spread_of};
+use crate::measure::{Centres, count_left};
+use crate::particles::vector::Vector;
+use crate::spot::kinematic::KinematicFlow;
+use crate::spot::voids::{ROW_HEIGHT, VoidSilo};
+
+/// Longest way of a grain in a step of the kinematic flow, in diameters.
+const LONGEST_WAY: f64 = 0.25;
+
+/// A grain on the lattice, and where a model has it; none once it has left.
+type Places = Vec<Option<[f64; 2]>>;
+
+/// Indices of mixing of a model: time (s) and index.
+pub type MixingOverTime = Vec<(f64, f64)>;
+
+/// The index of mixing over time of voids: of their model, a grain strays by half a diameter with
+/// each row that it drops. None if the box has no opening.
+pub fn mixing_of_voids(drainage: &Drainage<'_>) -> Option<MixingOverTime> {
+    let lattice = Lattice::of(drainage)?;
+    let seed = drainage.record.scene.seed;
+    let mut silo = VoidSilo::new(lattice.columns, lattice.rows, lattice.opening, seed)?;
+    let grains = silo.grains();
+    let mut left = 0;
+    let places = lattice.shares.iter().map(|share| {
+        let wanted = (share * grains as f64).round() as usize;
+        while left < wanted {
+            match silo.drain(wanted - left) {
+                // The slopes beside the opening are stable.
+                0 => break,
+                gone => left += gone,
+            }
+        }
+        let place = |grain: usize| silo.place(grain).map(|at| lattice.place(at));
+        (0..grains).map(place).collect::<Places>()
+    });
+    Some(lattice.mixing(drainage, places))
+}
+
+/// The index of mixing over time of the kinematic flow, with the diffusion length b that the record
+/// has: grains do not stray at all. What it has of mixing is layers that bend through cells. None
+/// if the box has no opening, or the record no b.
+pub fn mixing_of_kinematic_flow(drainage: &Drainage<'_>) -> Option<MixingOverTime> {
+    let lattice = Lattice::of(drainage)?;
+    let diffusion = flow_spread_of(drainage)?.diffusion_length.value;
+    let tank = drainage.record.scene.tank.as_ref()?;
+    let mut flow = KinematicFlow {
+        flux: 0.0,
+        diffusion,
+        half_opening: tank.opening()?.1,
+        half_width: Some(drainage.filled_box.half_width),
+    };
+    let mut places = lattice.start();
+    let area = 4.0 * drainage.filled_box.half_width * 0.5 * drainage.filled_box.filled;
+    let mut earlier = None;
+    let times = drainage.states().iter().map(|it| it.time);
+    let moments = times.zip(&lattice.shares).map(|(time, share)| {
+        if let Some((before, left)) = earlier.replace((time, *share)) {
+            flow.flux = area * (share - left) / (time - before);
+            lattice.drift(&flow, time - before, &mut places);
+        }
+        places.clone()
+    });
+    Some(lattice.mixing(drainage, moments))
+}
+
+/// The lattice on which grains start.
+struct Lattice {
+    columns: usize,
+    rows: usize,
+    /// Columns over the opening.
+    opening: usize,
+    diameter: f64,
+    floor: f64,
+    /// Share of the spheres that have left, at each state.
+    shares: Vec<f64>,
+}
+
+impl Lattice {
+    fn of(drainage: &Drainage<'_>) -> Option<Self> {
+        let it = &drainage.filled_box;
+        let half_opening = drainage.record.scene.tank.as_ref()?.opening()?.1;
+        let sites = |length: f64| (length / it.diameter).round().max(1.0) as usize;
+        let left = count_left(drainage.states());
+        let spheres = Centres::of(drainage.start()).number.len() as f64;
+        Some(Self {
+            columns: sites(2.0 * it.half_width),
+            rows: sites(it.filled / ROW_HEIGHT),
+            opening: sites(2.0 * half_opening),
+            diameter: it.diameter,
+            floor: it.floor,
+            shares: left.iter().map(|left| left / spheres).collect(),
+        })
+    }
+
+    /// A place in the box (m) of one on the lattice; the lowest row lies on the floor.
+    fn place(&self, [x, z]: [f64; 2]) -> [f64; 2] {
+        [x * self.diameter, self.floor + (z + 0.5) * self.diameter]
+    }
+
+    /// All grains at the start.
+    fn start(&self) -> Places {
+        let middle = 0.5 * (self.columns - 1) as f64;
+        let grain = |grain: usize| {
+            let (row, column) = (grain / self.columns, grain % self.columns);
+            let shift = 0.5 * (row % 2) as f64;
+            Some(self.place([column as f64 + shift - middle, row as f64 * ROW_HEIGHT]))
+        };
+        (0..self.columns * self.rows).map(grain).collect()
+    }
+
+    /// Moves grains with a flow for a time, by the midpoint rule; those that pass the floor leave.
+    fn drift(&self, flow: &KinematicFlow, time: f64, places: &mut Places) {
+        let fastest = flow.flux / (2.0 * flow.half_opening);
+        let way = LONGEST_WAY * self.diameter;
+        let steps = (fastest * time / way).ceil().max(1.0);
+        let step = time / steps;
+        let velocity = |[x, z]: [f64; 2]| {
+            let height = z - self.floor;
+            (height > 0.0).then(|| flow.velocity(x, height))
+        };
+        let moved = |[x, z]: [f64; 2], [u, w]: [f64; 2], time: f64| [x + u * time, z + w * time];
+        for _ in 0..steps as usize {
+            for place in places.iter_mut() {
+                *place = place.and_then(|at| {
+                    let middle = moved(at, velocity(at)?, 0.5 * step);
+                    Some(moved(at, velocity(middle)?, step))
+                });
+            }
+        }
+    }
+
+    /// The index of mixing of the places at each state; states without an index are left out.
+    fn mixing(
+        &self,
+        drainage: &Drainage<'_>,
+        places: impl Iterator<Item = Places>,
+    ) -> MixingOverTime {
+        let of = layers(drainage);
+        let layer = |place: &Option<[f64; 2]>| place.map(|[_, z]| of.layer(z));
+        let layers: Vec<Option<usize>> = self.start().iter().map(layer).collect();
+        let times = drainage.states().iter().map(|it| it.time);
+        let index = |(time, places): (f64, Places)| {
+            let inside = places.iter().enumerate();
+            let inside = inside.filter_map(|(grain, place)| Some((grain, (*place)?)));
+            let (number, place) = inside
+                .map(|(grain, [x, z])| (grain, Vector::new(x, 0.0, z)))
+                .unzip();
+            let centres = Centres { place, number };
+            Some((time, mixing_of(drainage, &centres, &layers)?))
+        };
+        times.zip(places).filter_map(index).collect()
+    }
+}
