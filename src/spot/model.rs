@@ -215,7 +215,9 @@ impl Model {
         }
     }
 
-    /// An error if a spot that moves no sphere has spheres above it on all sides.
+    /// An error if a spot that moves no sphere has spheres above it on all sides. A spot behind a
+    /// wall, where a negative wall distance lets it go, may find none: near an edge its reach ends
+    /// before the spheres that touch both walls.
     pub(crate) fn check_empty(
         &self,
         arrangement: &Arrangement,
@@ -223,7 +225,9 @@ impl Model {
     ) -> Result<(), Fault> {
         let radius = self.parameters.spot_radius;
         let surface = arrangement.surface().lowest(centre, radius);
-        if centre.z + radius >= surface {
+        let is_behind_wall = centre.x.abs() > self.parameters.half_width
+            || centre.y.abs() > self.parameters.half_depth;
+        if is_behind_wall || centre.z + radius >= surface {
             return Ok(());
         }
         let detail = format!("the spot finds no sphere below a surface at {surface} m");
