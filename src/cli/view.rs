@@ -80,6 +80,9 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "PIXELS", default_value_t = 320,
           value_parser = clap::value_parser!(u32).range(40..=4000))]
     width: u32,
+    /// Write the picture in 256 colours: a smaller file. Animations always are.
+    #[arg(long, conflicts_with_all = ["animate", "each"])]
+    palette: bool,
     /// Print the files written as one JSON object (docs/json.md) instead of text.
     #[arg(long)]
     pub(super) json: bool,
@@ -221,5 +224,9 @@ fn strip(runs: &[Run<'_>], arguments: &Arguments, console: &Console) -> Result<V
     }
     let image = sheets.picture(&sheets.panels(width)?);
     let texts = words::texts(runs[0].record);
-    image.to_png(&texts).map_err(Failure::failed)
+    let file = match arguments.palette {
+        true => image.to_png_of_palette(&texts),
+        false => image.to_png(&texts),
+    };
+    file.map_err(Failure::failed)
 }

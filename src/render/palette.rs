@@ -7,7 +7,7 @@ const BITS: u32 = 5;
 /// Number of colours that are told apart.
 const CELLS: usize = 1 << (3 * BITS);
 
-/// The colours of an animation, and which of them stands for which colour.
+/// The colours of pictures, and which of them stands for which colour.
 pub(super) struct Palette {
     pub(super) colors: Vec<Rgb>,
     /// Index of the colour of each cell.

@@ -193,6 +193,26 @@ fn colors_follow_what_they_stand_for() {
 }
 
 #[test]
+fn png_of_a_palette_holds_few_colors_exactly_and_is_smaller() {
+    let colors = [[10, 20, 30, 255], [200, 100, 0, 255], [255, 255, 255, 255]];
+    let pixels = (0..64 * 64).flat_map(|pixel| colors[pixel * pixel % 3]);
+    let image = Image {
+        width: 64,
+        height: 64,
+        rgba: pixels.collect(),
+    };
+    let file = image.to_png_of_palette(&[]).unwrap();
+    assert!(file.len() < image.to_png(&[]).unwrap().len());
+    let mut decoder = png::Decoder::new(std::io::Cursor::new(file));
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let mut reader = decoder.read_info().unwrap();
+    let mut found = vec![0; 3 * 64 * 64];
+    reader.next_frame(&mut found).unwrap();
+    let opaque = image.rgba.chunks_exact(4).flat_map(|pixel| &pixel[..3]);
+    assert!(found.iter().eq(opaque));
+}
+
+#[test]
 fn png_holds_the_pixels_and_the_texts() {
     let mut image = Image::white(3, 2);
     image.paste(
