@@ -23,8 +23,7 @@ pub type MixingOverTime = Vec<(f64, f64)>;
 /// each row that it drops. None if the box has no opening.
 pub fn mixing_of_voids(drainage: &Drainage<'_>) -> Option<MixingOverTime> {
     let lattice = Lattice::of(drainage)?;
-    let seed = drainage.record.scene.seed;
-    let mut silo = VoidSilo::new(lattice.columns, lattice.rows, lattice.opening, seed)?;
+    let mut silo = lattice.full.clone();
     let grains = silo.grains();
     let mut left = 0;
     let places = lattice.shares.iter().map(|share| {
@@ -36,8 +35,7 @@ pub fn mixing_of_voids(drainage: &Drainage<'_>) -> Option<MixingOverTime> {
                 gone => left += gone,
             }
         }
-        let place = |grain: usize| silo.place(grain).map(|at| lattice.place(at));
-        (0..grains).map(place).collect::<Places>()
+        lattice.places(&silo)
     });
     Some(lattice.mixing(drainage, places))
 }
@@ -55,7 +53,7 @@ pub fn mixing_of_kinematic_flow(drainage: &Drainage<'_>) -> Option<MixingOverTim
         half_opening: tank.opening()?.1,
         half_width: Some(drainage.filled_box.half_width),
     };
-    let mut places = lattice.start();
+    let mut places = lattice.places(&lattice.full);
     let area = 4.0 * drainage.filled_box.half_width * 0.5 * drainage.filled_box.filled;
     let mut earlier = None;
     let times = drainage.states().iter().map(|it| it.time);
@@ -71,10 +69,8 @@ pub fn mixing_of_kinematic_flow(drainage: &Drainage<'_>) -> Option<MixingOverTim
 
 /// The lattice on which grains start.
 struct Lattice {
-    columns: usize,
-    rows: usize,
-    /// Columns over the opening.
-    opening: usize,
+    /// All grains at their start.
+    full: VoidSilo,
     diameter: f64,
     floor: f64,
     /// Share of the spheres that have left, at each state.
@@ -89,29 +85,24 @@ impl Lattice {
         let left = count_left(drainage.states());
         let spheres = Centres::of(drainage.start()).number.len() as f64;
         Some(Self {
-            columns: sites(2.0 * it.half_width),
-            rows: sites(it.filled / ROW_HEIGHT),
-            opening: sites(2.0 * half_opening),
+            full: VoidSilo::new(
+                sites(2.0 * it.half_width),
+                sites(it.filled / ROW_HEIGHT),
+                sites(2.0 * half_opening),
+                drainage.record.scene.seed,
+            )?,
             diameter: it.diameter,
             floor: it.floor,
             shares: left.iter().map(|left| left / spheres).collect(),
         })
     }
 
-    /// A place in the box (m) of one on the lattice; the lowest row lies on the floor.
-    fn place(&self, [x, z]: [f64; 2]) -> [f64; 2] {
-        [x * self.diameter, self.floor + (z + 0.5) * self.diameter]
-    }
-
-    /// All grains at the start.
-    fn start(&self) -> Places {
-        let middle = 0.5 * (self.columns - 1) as f64;
-        let grain = |grain: usize| {
-            let (row, column) = (grain / self.columns, grain % self.columns);
-            let shift = 0.5 * (row % 2) as f64;
-            Some(self.place([column as f64 + shift - middle, row as f64 * ROW_HEIGHT]))
-        };
-        (0..self.columns * self.rows).map(grain).collect()
+    /// Where the grains of a silo are in the box (m); the lowest row lies on the floor.
+    fn places(&self, silo: &VoidSilo) -> Places {
+        let place = |[x, z]: [f64; 2]| [x * self.diameter, self.floor + (z + 0.5) * self.diameter];
+        (0..silo.grains())
+            .map(|grain| silo.place(grain).map(place))
+            .collect()
     }
 
     /// Moves grains with a flow for a time, by the midpoint rule; those that pass the floor leave.
@@ -143,7 +134,7 @@ impl Lattice {
     ) -> MixingOverTime {
         let of = layers(drainage);
         let layer = |place: &Option<[f64; 2]>| place.map(|[_, z]| of.layer(z));
-        let layers: Vec<Option<usize>> = self.start().iter().map(layer).collect();
+        let layers: Vec<Option<usize>> = self.places(&self.full).iter().map(layer).collect();
         let times = drainage.states().iter().map(|it| it.time);
         let index = |(time, places): (f64, Places)| {
             let inside = places.iter().enumerate();
