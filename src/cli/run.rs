@@ -89,7 +89,7 @@ pub(crate) struct Arguments {
     /// Time between two checkpoints (s); 0 for one at every frame [default: 120].
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     checkpoint_interval: Option<Duration>,
-    /// Threads for the one simulation. Pays from 4096 spheres on, none of which come or go; fewer
+    /// Threads for the one simulation. Pays from 4096 spheres on; fewer
     /// stay on one. The bits do not depend on it.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = threads)]
     threads: usize,

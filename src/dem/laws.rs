@@ -19,7 +19,7 @@ pub(super) fn engine(
     type Spheres = (Setup, Particles);
     fn boxed<N: NormalLaw, T: TangentialLaw>(
         normal: N,
-        tangential: T,
+        tangential: [T; 2],
         (setup, particles): Spheres,
     ) -> Box<dyn Engine> {
         Box::new(System::new(normal, tangential, setup, particles))
@@ -33,17 +33,22 @@ pub(super) fn engine(
     let spheres = (setup, particles);
     let radius = scene.spheres.radius.mean();
     let mass = scene.spheres.shape.mass(scene.spheres.density, radius) * scene.inertial_factor();
+    let at_walls = scene.friction_at_walls();
     macro_rules! of_pair {
         ($(($contact:ident, $friction:ident),)+) => {
             match (&scene.dem.contact, &scene.dem.friction) {
-                (None, None) => Ok(boxed(NoContact, Frictionless, spheres)),
+                (None, None) => Ok(boxed(NoContact, [Frictionless; 2], spheres)),
                 (None, Some(_)) => Err(BuildError::FrictionWithoutContact),
                 (Some(contact), None) => Ok(with_keys!(contact, contact => {
-                    boxed(contact.law(radius, mass), Frictionless, spheres)
+                    boxed(contact.law(radius, mass), [Frictionless; 2], spheres)
                 })),
                 $((Some(Contact::$contact(contact)), Some(Friction::$friction(friction))) => {
-                    let friction = friction.law(contact, dt);
-                    Ok(boxed(contact.law(radius, mass), friction, spheres))
+                    let at_walls = match &at_walls {
+                        Some(Friction::$friction(at_walls)) => at_walls,
+                        _ => friction,
+                    };
+                    let frictions = [friction, at_walls].map(|it| it.law(contact, dt));
+                    Ok(boxed(contact.law(radius, mass), frictions, spheres))
                 })+
                 (Some(_), Some(_)) => Err(BuildError::LawsDoNotGoTogether),
             }

@@ -88,6 +88,13 @@ pub(super) fn is_one(numbers: &[u32], fixed: usize) -> bool {
     numbers.iter().all(&mut is_new)
 }
 
+/// Whether no two of the moving spheres have the same number.
+pub(super) fn is_part_of_one(numbers: &[u32], fixed: usize) -> bool {
+    let mut numbers = numbers.get(fixed..).unwrap_or_default().to_vec();
+    numbers.sort_unstable();
+    numbers.windows(2).all(|two| two[0] < two[1])
+}
+
 /// The place that each index has in an order.
 pub(super) fn places(order: &[u32]) -> Vec<u32> {
     let mut places = vec![0; order.len()];

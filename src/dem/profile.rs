@@ -122,7 +122,7 @@ impl Part {
                 matches!(scene.start, Start::Feed { .. })
                     || scene.dem.door.is_some()
                     || scene.dem.rest.is_some()
-                    || scene.dem.outlet.is_some()
+                    || scene.outlet_height().is_some()
             }
             Self::Kick | Self::Drift | Self::Rest => true,
         }

@@ -26,6 +26,9 @@ pub fn simplifications(scene: &Scene) -> Vec<Simplification> {
         }));
         let mut removed = vec!["friction"];
         removed.extend(rolling);
+        let walls = scene.tank.iter();
+        let of_walls = walls.filter_map(|tank| tank.friction_coefficient);
+        removed.extend(of_walls.map(|_| "tank.friction_coefficient"));
         // Without friction there are no spins, nor effects that need them.
         let without_spins = SceneFacts {
             rotates: false,

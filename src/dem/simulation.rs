@@ -104,19 +104,21 @@ impl Simulation {
         }
         let present = particles.len() - particles.fixed;
         let process = Process::of_scene(scene, feed, present);
-        let sorted = process.is_none() && present >= order::MANY;
-        if sorted || process.is_some() {
+        let flows = process.is_some();
+        let sorted = scene.spheres.count >= order::MANY;
+        if sorted || flows {
             particles.number = (0..particles.fixed as u32)
                 .chain(0..present as u32)
                 .collect();
         }
         // Spheres that are alike have the same values in any order: one copy saves memory.
-        let [radius, mass, inertia] = match sorted && alike {
+        let [radius, mass, inertia] = match sorted && alike && !flows {
             true => Default::default(),
             false => scalars.unwrap_or_else(|| scalars_of(&particles)),
         };
         let setup = Setup {
             sorted,
+            flows,
             ..setup(scene, &particles, skin)
         };
         let mut engine = engine(scene, setup, particles)?;
@@ -141,23 +143,28 @@ impl Simulation {
     /// # Errors
     /// The guard that was broken; the simulation must not be advanced any further.
     pub fn advance(&mut self, steps: u64) -> Result<(), Instability> {
-        let Some(process) = &mut self.process else {
-            let engine = &mut self.engine;
-            let result = match &self.pool {
-                Some(pool) => pool.install(|| engine.advance(steps)),
-                None => engine.advance(steps),
-            };
-            return result.map_err(|instability| Instability {
-                sphere: self.engine.particles().place_in_scene(instability.sphere),
-                ..instability
-            });
+        let engine = self.engine.as_mut();
+        let end = engine.step() + steps;
+        let process = &mut self.process;
+        let mut advance = || match process {
+            Some(process) => process.advance(engine, end),
+            None => engine.advance(steps),
         };
-        let end = self.engine.step() + steps;
-        let result = process.advance(self.engine.as_mut(), end);
+        let result = match &self.pool {
+            Some(pool) => pool.install(advance),
+            None => advance(),
+        };
         // A guard names a sphere by its index in memory.
-        result.map_err(|instability| Instability {
-            sphere: self.engine.particles().number[instability.sphere] as usize,
-            ..instability
+        result.map_err(|instability| {
+            let (index, particles) = (instability.sphere, self.engine.particles());
+            let sphere = match &self.process {
+                Some(_) => particles.number[index] as usize,
+                None => particles.place_in_scene(index),
+            };
+            Instability {
+                sphere,
+                ..instability
+            }
         })
     }
 
@@ -201,8 +208,7 @@ impl Simulation {
     }
 
     /// Advances on this number of threads from now on, in scenes where that pays: those of
-    /// [`MANY`](order::MANY) spheres or more, where none comes or goes. The bits do not depend on
-    /// it.
+    /// [`MANY`](order::MANY) spheres or more. The bits do not depend on it.
     ///
     /// # Errors
     /// If the system gives no threads.
@@ -222,8 +228,8 @@ impl Simulation {
     }
 
     /// The spheres that are in the simulation, the fixed ones first. The order of the others is
-    /// that of the scene while there are fewer than [`MANY`](order::MANY) or spheres come and go,
-    /// else that of their places: see [`number`](Particles::number).
+    /// that of the scene if it has fewer than [`MANY`](order::MANY), else that of their places: see
+    /// [`number`](Particles::number).
     pub fn particles(&self) -> &Particles {
         self.engine.particles()
     }
@@ -258,8 +264,14 @@ impl Simulation {
 /// list (m). Spheres are not sorted in memory.
 fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
     let tank = scene.tank.as_ref();
+    let is_closed = scene.dem.door.is_some();
     Setup {
-        walls: tank.map(TankWall::of_tank).unwrap_or_default(),
+        walls: tank
+            .map(|tank| TankWall::of_tank(tank, is_closed))
+            .unwrap_or_default(),
+        closed_floor: tank
+            .and_then(TankWall::floor_with_opening)
+            .filter(|_| is_closed),
         effects: scene.dem.effects.build(&Targets {
             radii: &particles.radius,
             scene: scene.facts(),
@@ -274,6 +286,7 @@ fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
         neighbours: scene.dem.neighbours,
         skin,
         sorted: false,
+        flows: false,
     }
 }
 

@@ -49,6 +49,9 @@ impl Simulation {
         self.engine.restore(state.engine)?;
         if let (Some(process), Some(state)) = (&mut self.process, state.process) {
             process.restore(state);
+            if !process.is_closed() {
+                self.engine.open_floor();
+            }
         }
         Ok(())
     }

@@ -108,6 +108,27 @@ impl Scene {
         }
     }
 
+    /// The friction law at the walls of the tank, whose coefficient may be another. None without
+    /// friction.
+    pub fn friction_at_walls(&self) -> Option<Friction> {
+        let friction = self.dem.friction.as_ref()?;
+        let tank = self.tank.as_ref();
+        Some(match tank.and_then(|tank| tank.friction_coefficient) {
+            Some(coefficient) => friction.with_coefficient(coefficient),
+            None => friction.clone(),
+        })
+    }
+
+    /// Height below which spheres of the discrete element model are out (m), if they can leave. By
+    /// default of a tank with an opening, those have left that can touch none above its floor: a
+    /// diameter of the largest below it.
+    pub fn outlet_height(&self) -> Option<f64> {
+        let outlet = self.dem.outlet.as_ref().map(|outlet| outlet.height);
+        let tank = self.tank.as_ref().filter(|tank| tank.has_opening());
+        let below_opening = || Some(tank?.floor? - 2.0 * self.radius_range().1);
+        outlet.or_else(below_opening)
+    }
+
     /// Spheres that start somewhere and move for a time, and nothing that acts on them: no
     /// contacts, no walls, no forces. Seed 1, and the default guards and output.
     ///

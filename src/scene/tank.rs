@@ -1,11 +1,13 @@
 //! The walls of a tank.
 
 use crate::document::quantities::{length, place};
+use crate::document::quantity;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// The tank's walls, of the same material as the spheres: a round one, or sides.
+/// The tank's walls: a round one, or sides. They are of the material of the spheres, but for their
+/// friction, which may be another.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tank {
@@ -37,6 +39,12 @@ pub struct Tank {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = length("W_o", "width of the slit"))]
     pub slit_width: Option<f64>,
+    /// Coefficient of friction between spheres and these walls. Default: that of `friction`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(
+        transform = quantity("μ_w", "", "coefficient of friction at walls").at_least(0.0)
+    )]
+    pub friction_coefficient: Option<f64>,
 }
 
 impl Tank {
@@ -51,6 +59,11 @@ impl Tank {
         let round = self.orifice_radius.map(|it| ("tank.orifice_radius", it));
         let slit = self.slit_width.map(|it| ("tank.slit_width", 0.5 * it));
         round.or(slit)
+    }
+
+    /// Whether its floor has an opening.
+    pub fn has_opening(&self) -> bool {
+        self.floor.is_some() && self.opening().is_some()
     }
 
     /// Whether its walls are plane, those that there are.

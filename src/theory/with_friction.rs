@@ -20,7 +20,7 @@ const HALVINGS: usize = 80;
 ///
 /// mean(drag(u rho / R) rho) = mu m (g max(1 - L, 0) + Omega_c^2 R) mean(rho),
 ///
-/// with the mean over the disc, m the mass of a sphere and mu the coefficient of friction.
+/// with the mean over the disc, m the mass of a sphere and mu the coefficient of friction at walls.
 /// The updraught takes the part L of the weight off the floor,
 ///
 /// L = F_z / (m g) (1 - alpha^N) / ((1 - alpha) N),   N = 16 n r^2 / (pi R^2),
@@ -90,7 +90,7 @@ impl<'a> Bed<'a> {
         Some(Self {
             drag: effects.drag.as_ref()?,
             updraught: effects.updraught.as_ref(),
-            friction: scene.dem.friction.as_ref()?.holding_coefficient()?,
+            friction: scene.friction_at_walls()?.holding_coefficient()?,
             rotation,
             radius,
             tank_radius,

@@ -11,6 +11,7 @@ mod invariants;
 mod large;
 mod ledger;
 mod motion;
+mod openings;
 mod plane_sides;
 mod reproduction;
 mod rolling;

@@ -16,14 +16,14 @@ pub use flowing::FlowingSieve;
 use super::lengths::check_lengths;
 use super::{ClassifyError, Family, Label, Sieves};
 use crate::record::RunRecord;
-use crate::scene::Scene;
+use crate::scene::{Scene, Tank};
 use arching::ArchingEvidence;
 use emptied::EmptiedEvidence;
 use flowing::FlowingEvidence;
 use order::SiloOrder;
 use outflow::Outflow;
 
-/// Scenes with a door or an outlet.
+/// Scenes with a door or an outlet, but no opening in the floor of a tank.
 pub static SILO: Family = Family {
     name: "silo",
     labels: &[
@@ -41,7 +41,10 @@ pub static SILO: Family = Family {
         SiloOrder::MEASURES,
     ],
     default_figures: &["phase", "discharge-rate"],
-    takes: |scene| scene.dem.door.is_some() || scene.dem.outlet.is_some(),
+    takes: |scene| {
+        let is_drainage = scene.tank.as_ref().is_some_and(Tank::has_opening);
+        !is_drainage && (scene.dem.door.is_some() || scene.dem.outlet.is_some())
+    },
     check,
     // These sieves take what there is of a window.
     windows: |_| Vec::new(),

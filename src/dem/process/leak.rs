@@ -16,7 +16,7 @@ pub(super) struct LeakWatch {
     walls: Barrier,
     /// Walls and door, while the door is closed.
     closed: Option<Barrier>,
-    /// Number and centre of each disc at the latest check.
+    /// Number and centre of each disc at the latest check, in the order of their numbers.
     pub(super) before: Vec<(u32, Point)>,
 }
 
@@ -45,10 +45,13 @@ impl LeakWatch {
         dt: f64,
     ) -> Result<(), Instability> {
         let barrier = self.closed.as_ref().unwrap_or(&self.walls);
-        // Both lists are in the order of numbers, because discs come in one after the other.
+        let mut discs: Vec<(u32, usize)> = (particles.fixed..particles.len())
+            .map(|i| (particles.number[i], i))
+            .collect();
+        discs.sort_unstable();
         let mut before = self.before.iter().peekable();
-        for i in particles.fixed..particles.len() {
-            let (number, now) = (particles.number[i], place(particles, i));
+        for &(number, i) in &discs {
+            let now = place(particles, i);
             while before.next_if(|(other, _)| *other < number).is_some() {}
             let Some(&(_, from)) = before.next_if(|(other, _)| *other == number) else {
                 continue;
@@ -69,9 +72,9 @@ impl LeakWatch {
             }
         }
         self.before.clear();
-        let moving = particles.fixed..particles.len();
+        let discs = discs.into_iter();
         self.before
-            .extend(moving.map(|i| (particles.number[i], place(particles, i))));
+            .extend(discs.map(|(number, i)| (number, place(particles, i))));
         Ok(())
     }
 }

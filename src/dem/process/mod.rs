@@ -4,6 +4,7 @@
 //! due. So it does not depend on the frames of a run.
 
 mod feed;
+mod floor;
 mod leak;
 mod rest;
 mod state;
@@ -12,6 +13,7 @@ pub(super) use feed::Feed;
 pub(super) use leak::wall_pairs;
 pub(super) use state::ProcessState;
 
+use self::floor::FloorWatch;
 use self::leak::LeakWatch;
 use self::rest::RestWatch;
 use super::system::Engine;
@@ -33,6 +35,7 @@ pub(super) struct Process {
     rest: Option<RestWatch>,
     outlet: Option<f64>,
     leak: Option<LeakWatch>,
+    floor: Option<FloorWatch>,
     milestones: Vec<Milestone>,
     /// Spheres that were in from the start.
     present: usize,
@@ -56,7 +59,8 @@ impl Process {
         let active = feed.is_some()
             || scene.dem.door.is_some()
             || scene.dem.rest.is_some()
-            || scene.dem.outlet.is_some();
+            || scene.dem.outlet.is_some()
+            || scene.outlet_height().is_some();
         active.then(|| {
             let fixed = scene
                 .dem
@@ -78,8 +82,9 @@ impl Process {
                     .rest
                     .as_ref()
                     .map(|rest| RestWatch::new(rest, scene.spheres.count, dt)),
-                outlet: scene.dem.outlet.as_ref().map(|outlet| outlet.height),
+                outlet: scene.outlet_height(),
                 leak: LeakWatch::of_scene(scene, &fixed),
+                floor: FloorWatch::of_scene(scene),
                 milestones: Vec::new(),
                 present,
                 discharged: 0,
@@ -93,6 +98,11 @@ impl Process {
     fn next_step(&self, step: u64) -> u64 {
         let look = (step / self.steps + 1) * self.steps;
         self.feed.due_after(step).map_or(look, |due| look.min(due))
+    }
+
+    /// Whether a door is still to open.
+    pub(super) fn is_closed(&self) -> bool {
+        self.door.is_some()
     }
 
     /// Whether nothing more will happen: all spheres are in, and all have left or are at rest for
@@ -144,6 +154,9 @@ impl Process {
         }
         if let Some(leak) = &mut self.leak {
             leak.check(engine.particles(), step, self.dt)?;
+        }
+        if let (Some(floor), None) = (&mut self.floor, &self.door) {
+            floor.check(engine.particles(), step, self.dt)?;
         }
         self.discharge(engine);
         let at_rest = match &mut self.rest {
@@ -198,6 +211,7 @@ impl Process {
             .map(|i| !door.spheres.contains(&i))
             .collect();
         engine.retain(&keep);
+        engine.open_floor();
         if let Some(since) = at_rest {
             self.note(since, MilestoneKind::AtRest);
         }

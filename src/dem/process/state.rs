@@ -5,6 +5,7 @@ use super::{LeakWatch, Process};
 use crate::dem::state::StateError;
 use crate::simulation::Milestone;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 
 /// The state of a process.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -17,6 +18,8 @@ pub(in crate::dem) struct ProcessState {
     slow_since: Option<u64>,
     /// Number and position of each disc at the latest check of the walls.
     watched: Vec<(u32, Point)>,
+    /// Numbers of the spheres below a floor with an opening.
+    below: BTreeSet<u32>,
     milestones: Vec<Milestone>,
     discharged: usize,
     spilled: usize,
@@ -34,6 +37,10 @@ impl Process {
                 .leak
                 .as_ref()
                 .map_or_else(Vec::new, |leak| leak.before.clone()),
+            below: self
+                .floor
+                .as_ref()
+                .map_or_else(BTreeSet::new, |floor| floor.below.clone()),
             milestones: self.milestones.clone(),
             discharged: self.discharged,
             spilled: self.spilled,
@@ -64,6 +71,9 @@ impl Process {
         }
         if let Some(leak) = &mut self.leak {
             leak.before = state.watched;
+        }
+        if let Some(floor) = &mut self.floor {
+            floor.below = state.below;
         }
         self.milestones = state.milestones;
         self.discharged = state.discharged;

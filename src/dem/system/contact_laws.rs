@@ -48,6 +48,8 @@ impl Loading {
 pub(super) struct Laws<N, T> {
     pub(super) normal: N,
     pub(super) tangential: T,
+    /// The tangential law at walls, whose coefficient of friction may be another.
+    pub(super) tangential_at_walls: T,
     pub(super) loading: Loading,
     /// Largest overlap, in radii of the smaller partner.
     pub(super) overlap_limit: f64,
@@ -101,6 +103,15 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
     /// Whether a law needs the effective mass.
     pub(super) const NEEDS_EFFECTIVE_MASS: bool =
         N::NEEDS_EFFECTIVE_MASS || T::NEEDS_EFFECTIVE_MASS;
+
+    /// The laws at walls.
+    #[inline(always)]
+    pub(super) fn at_walls(&self) -> Self {
+        Self {
+            tangential: self.tangential_at_walls,
+            ..*self
+        }
+    }
 
     /// Two spheres.
     #[inline(always)]
@@ -160,7 +171,8 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         });
         let contact = wall.contact(state.offset, radius);
         let geometry = self.geometry_at_wall(state, contact, earlier.as_ref());
-        self.force(state, &geometry, Self::turned(history, &geometry))
+        let laws = self.at_walls();
+        laws.force(state, &geometry, Self::turned(history, &geometry))
     }
 
     /// Force and torques of a contact, whose history is in the plane across the normal.

@@ -247,6 +247,7 @@ impl<'a, H: History> ContactTask<'a, H> {
             return;
         };
         debug_assert!(near.contacts.len() <= near.histories.len());
+        let laws = settings.laws.at_walls();
         let block = &mut self.buffers.block;
         let blocks = (near.contacts.chunks(BLOCK)).zip(near.histories.chunks_mut(BLOCK));
         let partners = &self.partners;
@@ -260,11 +261,13 @@ impl<'a, H: History> ContactTask<'a, H> {
             block.gather_spheres::<S, N, T>(simd, lanes, histories, partners);
             match wall {
                 TankWall::Floor(wall) | TankWall::Side(wall) => {
-                    block.find_wall_contacts(wall, &settings.laws);
+                    block.find_wall_contacts(wall, &laws);
                 }
-                TankWall::Cylinder(wall) => block.find_wall_contacts(wall, &settings.laws),
+                TankWall::Cylinder(wall) => block.find_wall_contacts(wall, &laws),
+                TankWall::Orifice(wall) => block.find_wall_contacts(wall, &laws),
+                TankWall::Slit(wall) => block.find_wall_contacts(wall, &laws),
             }
-            block.apply_laws_at_wall(&settings.laws);
+            block.apply_laws_at_wall(&laws);
             block.store_histories(simd, histories, |k| k);
             block.scatter_to_spheres::<S, T>(simd, lanes, spheres.len(), &mut self.sums);
             if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {

@@ -177,6 +177,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         Laws {
             normal: self.normal,
             tangential: self.tangential,
+            tangential_at_walls: self.tangential_at_walls,
             loading: self.loading,
             overlap_limit: self.setup.limits.overlap,
         }

@@ -44,7 +44,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 if distance_squared < sum * sum {
                     let overlap = sum - distance_squared.sqrt();
                     let effective_radius = ri * radius[j] / sum;
-                    self.add_contact(&mut contacts, overlap, effective_radius, history);
+                    let law = &self.tangential;
+                    self.add_contact(&mut contacts, law, overlap, effective_radius, history);
                     if self.ledger.is_some() {
                         contacts.spring_energy +=
                             self.rolling_energy([i, j], overlap, effective_radius);
@@ -59,7 +60,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 };
                 let contact = wall.contact(centre, ri);
                 if contact.touches {
-                    self.add_contact(&mut contacts, contact.overlap, ri, history);
+                    let law = &self.tangential_at_walls;
+                    self.add_contact(&mut contacts, law, contact.overlap, ri, history);
                     if self.ledger.is_some() {
                         contacts.spring_energy +=
                             self.rolling_energy_at_wall((i, place), contact.overlap, ri);
@@ -75,13 +77,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     fn add_contact(
         &self,
         contacts: &mut Contacts,
+        law: &T,
         overlap: f64,
         effective_radius: f64,
         history: &T::History,
     ) {
         contacts.elastic_energy += self.normal.elastic_energy(overlap, effective_radius);
         if Self::HAS_HISTORY && self.ledger.is_some() {
-            contacts.spring_energy += self.tangential.energy(history, overlap, effective_radius);
+            contacts.spring_energy += law.energy(history, overlap, effective_radius);
         }
     }
 }

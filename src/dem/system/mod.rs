@@ -78,6 +78,8 @@ pub(in crate::dem) trait Engine: Send {
     fn insert(&mut self, sphere: &Sphere);
     /// Removes the spheres that are not to be kept.
     fn retain(&mut self, keep: &[bool]);
+    /// Opens the floor, if it has a closed opening.
+    fn open_floor(&mut self);
     /// Frees the memory of contacts and lists. The motion must be over.
     fn forget_contacts(&mut self);
     /// The state from which the motion continues.
@@ -101,6 +103,8 @@ pub(in crate::dem) struct Contacts {
 pub(in crate::dem) struct Setup {
     /// In the order in which they act.
     pub(in crate::dem) walls: Vec<TankWall>,
+    /// The floor as it is once its opening opens, if that is closed at the start.
+    pub(in crate::dem) closed_floor: Option<TankWall>,
     /// Effects with a potential come first.
     pub(in crate::dem) effects: Vec<PlacedEffect>,
     /// Whether an effect needs the number of spheres below each sphere.
@@ -121,6 +125,8 @@ pub(in crate::dem) struct Setup {
     /// Whether spheres are sorted in memory. [`Particles::number`] then holds their numbers in the
     /// scene.
     pub(in crate::dem) sorted: bool,
+    /// Whether spheres come or go.
+    pub(in crate::dem) flows: bool,
 }
 
 impl Setup {
@@ -140,6 +146,8 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     setup: Setup,
     normal: N,
     tangential: T,
+    /// The tangential law at walls.
+    tangential_at_walls: T,
     step: StepState,
     neighbours: NeighbourState,
     /// Histories of near pairs. The history of a law without memory has size zero.
@@ -213,7 +221,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     pub(in crate::dem) fn new(
         normal: N,
-        tangential: T,
+        [tangential, tangential_at_walls]: [T; 2],
         setup: Setup,
         particles: Particles,
     ) -> Self {
@@ -238,6 +246,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             setup,
             normal,
             tangential,
+            tangential_at_walls,
         }
     }
 
@@ -341,6 +350,19 @@ impl<N: NormalLaw, T: TangentialLaw> Engine for System<N, T> {
             &self.neighbours.near.remove_spheres(keep),
         );
         self.renumber();
+        self.note_exchange(before);
+    }
+
+    fn open_floor(&mut self) {
+        let Some(open) = self.setup.closed_floor.take() else {
+            return;
+        };
+        let before = self.energy_in_books();
+        // The floor is the first wall.
+        if let Some(floor) = self.walls.first_mut() {
+            floor.wall = open;
+        }
+        self.neighbours.stale = true;
         self.note_exchange(before);
     }
 

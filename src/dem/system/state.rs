@@ -148,11 +148,13 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             dt,
             effects,
             sorted,
+            flows,
             ..
         } = &mut self.setup;
         let present = &mut self.particles;
         limits.fit(&particles.radius, *dt);
-        if *sorted {
+        // No effect keeps an array where spheres come or go.
+        if *sorted && !*flows {
             let order = order::between(&present.number, &particles.number, particles.fixed);
             for (_, effect) in effects {
                 effect.reorder(&order);
@@ -175,13 +177,15 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let Setup { limits, dt, .. } = &self.setup;
         let count = particles.len();
         let present = &self.particles;
-        let ordered = match self.setup.sorted {
-            true => {
+        let Setup { sorted, flows, .. } = self.setup;
+        let ordered = match (sorted, flows) {
+            (_, true) => order::is_part_of_one(&particles.number, particles.fixed),
+            (true, false) => {
                 count == present.len()
                     && particles.fixed == present.fixed
                     && order::is_one(&particles.number, particles.fixed)
             }
-            false => particles.number.is_empty() == present.number.is_empty(),
+            (false, false) => particles.number.is_empty() == present.number.is_empty(),
         };
         let known = |index: u32| (index as usize) < count;
         let in_order = |wall: &Vec<(u32, T::History)>| {

@@ -181,8 +181,13 @@ pub fn limits(scene: &Scene) -> Vec<Limit> {
     if let Some(contact) = &scene.dem.contact {
         let collisions = contact.collisions(&regime);
         limits.extend(contact.limits(&collisions, &regime));
-        let friction = scene.dem.friction.as_ref();
-        limits.extend(friction.and_then(|it| it.limit(contact, &collisions, &regime)));
+        // The larger coefficient of friction, of pairs or of walls, gives the smaller limit.
+        let frictions = [scene.dem.friction.clone(), scene.friction_at_walls()];
+        let of_frictions = frictions
+            .iter()
+            .flatten()
+            .filter_map(|it| it.limit(contact, &collisions, &regime));
+        limits.extend(of_frictions.min_by(|a, b| a.seconds.total_cmp(&b.seconds)));
         let rolling = scene.dem.rolling.as_ref();
         limits.extend(rolling.map(|it| it.limit(contact, &regime)));
     }

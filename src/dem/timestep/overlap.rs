@@ -4,7 +4,7 @@ use crate::dem::neighbours::visit_pairs;
 use crate::dem::walls::{TankWall, Wall};
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
-use crate::scene::{Scene, Start, Tank};
+use crate::scene::{Scene, Start};
 use crate::start;
 
 /// The deepest overlap (m) of two listed spheres, or of one with a wall. Zero if none touch. Other
@@ -18,14 +18,14 @@ pub(super) fn deepest_at_start(scene: &Scene) -> f64 {
     let Some(tank) = &scene.tank else {
         return pairs;
     };
+    let tank_walls = TankWall::of_tank(tank, scene.dem.door.is_some());
     let centres = spheres.position.iter().zip(&spheres.radius);
-    let walls = centres.map(|(&centre, &radius)| into_walls(tank, centre, radius));
+    let walls = centres.map(|(&centre, &radius)| into_walls(&tank_walls, centre, radius));
     walls.fold(pairs, f64::max)
 }
 
-fn into_walls(tank: &Tank, centre: Vector, radius: f64) -> f64 {
-    let walls = TankWall::of_tank(tank).into_iter();
-    let contacts = walls.map(|wall| wall.contact(centre, radius));
+fn into_walls(walls: &[TankWall], centre: Vector, radius: f64) -> f64 {
+    let contacts = walls.iter().map(|wall| wall.contact(centre, radius));
     let touching = contacts.filter(|contact| contact.touches);
     touching.map(|contact| contact.overlap).fold(0.0, f64::max)
 }

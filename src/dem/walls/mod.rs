@@ -1,9 +1,11 @@
 //! Walls: one file each. A wall says where a sphere touches it; the contact laws do the rest.
 
 mod cylinder;
+mod opening;
 mod plane;
 
 pub use cylinder::Cylinder;
+pub use opening::{Orifice, Slit};
 pub use plane::Plane;
 
 use super::profile::Part;
@@ -36,8 +38,12 @@ pub trait Wall: Copy + Send + 'static {
 /// uses this type.
 #[derive(Clone, Copy, Debug)]
 pub enum TankWall {
-    /// The floor.
+    /// The floor, without an opening or with a closed one.
     Floor(Plane),
+    /// A floor with a round orifice.
+    Orifice(Orifice),
+    /// A floor with a slit.
+    Slit(Slit),
     /// The cylindrical wall.
     Cylinder(Cylinder),
     /// One of up to four sides.
@@ -48,9 +54,12 @@ impl TankWall {
     /// Most walls that a tank has: a floor and four sides.
     pub const MOST: usize = 5;
 
-    /// The walls of a tank, in the order in which they act.
-    pub fn of_tank(tank: &Tank) -> Vec<Self> {
-        let floor = tank.floor.map(|height| Self::Floor(Plane::floor(height)));
+    /// The walls of a tank, in the order in which they act: the floor first. An opening in it is
+    /// closed or open.
+    pub fn of_tank(tank: &Tank, is_closed: bool) -> Vec<Self> {
+        let open = || Self::floor_with_opening(tank).filter(|_| !is_closed);
+        let whole = |height| Self::Floor(Plane::floor(height));
+        let floor = open().or(tank.floor.map(whole));
         if let Some(radius) = tank.radius {
             let cylinder = Self::Cylinder(Cylinder { radius });
             return floor.into_iter().chain([cylinder]).collect();
@@ -63,10 +72,32 @@ impl TankWall {
         floor.into_iter().chain(sides.flatten()).collect()
     }
 
+    /// The floor of a tank that has an opening in it.
+    pub fn floor_with_opening(tank: &Tank) -> Option<Self> {
+        let height = tank.floor?;
+        let orifice = |radius| Self::Orifice(Orifice { height, radius });
+        let slit = |width| {
+            let half_width = 0.5 * width;
+            Self::Slit(Slit { height, half_width })
+        };
+        (tank.orifice_radius.map(orifice)).or(tank.slit_width.map(slit))
+    }
+
+    /// Whether it is a floor with an opening at this x and y.
+    pub fn is_open_at(&self, place: Vector) -> bool {
+        match self {
+            Self::Orifice(Orifice { radius, .. }) => {
+                place.x * place.x + place.y * place.y < radius * radius
+            }
+            Self::Slit(Slit { half_width, .. }) => place.x.abs() < *half_width,
+            Self::Floor(_) | Self::Cylinder(_) | Self::Side(_) => false,
+        }
+    }
+
     /// The part of a step to which its forces belong.
     pub fn part(&self) -> Part {
         match self {
-            Self::Floor(_) => Part::Floor,
+            Self::Floor(_) | Self::Orifice(_) | Self::Slit(_) => Part::Floor,
             Self::Cylinder(_) => Part::Cylinder,
             Self::Side(_) => Part::Sides,
         }
@@ -79,6 +110,8 @@ impl Wall for TankWall {
         match self {
             Self::Floor(wall) | Self::Side(wall) => wall.contact(centre, radius),
             Self::Cylinder(wall) => wall.contact(centre, radius),
+            Self::Orifice(wall) => wall.contact(centre, radius),
+            Self::Slit(wall) => wall.contact(centre, radius),
         }
     }
 
@@ -87,6 +120,8 @@ impl Wall for TankWall {
         match self {
             Self::Floor(wall) | Self::Side(wall) => wall.is_near(centre, radius, margin),
             Self::Cylinder(wall) => wall.is_near(centre, radius, margin),
+            Self::Orifice(wall) => wall.is_near(centre, radius, margin),
+            Self::Slit(wall) => wall.is_near(centre, radius, margin),
         }
     }
 }

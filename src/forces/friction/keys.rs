@@ -101,6 +101,20 @@ impl Friction {
         }
     }
 
+    /// The same law with another coefficient.
+    pub fn with_coefficient(&self, coefficient: f64) -> Self {
+        let mut law = self.clone();
+        match &mut law {
+            Self::Spin(law) => law.coefficient = coefficient,
+            Self::Coulomb(law) => law.coefficient = coefficient,
+            Self::CundallStrack(law) => law.coefficient = coefficient,
+            Self::Mindlin(law) => law.coefficient = coefficient,
+            Self::MindlinDeresiewicz(law) => law.coefficient = coefficient,
+            Self::SilbertFriction(law) => law.coefficient = coefficient,
+        }
+        law
+    }
+
     /// The contact laws that it goes with, by name.
     pub fn contacts(&self) -> impl Iterator<Item = &'static str> + Clone {
         let law = self.law();

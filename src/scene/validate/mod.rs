@@ -44,6 +44,8 @@ impl Scene {
         self.check_laws(problems);
         self.check_spheres(problems);
         self.check_tank(problems);
+        self.check_opening(problems);
+        self.check_friction_of_walls(problems);
         self.check_start(problems);
         self.check_times(problems);
         self.check_silo(problems);

@@ -25,7 +25,7 @@ impl Scene {
             || self.dem.door.is_some()
             || self.dem.rest.is_some()
             || self.dem.outlet.is_some()
-            || self.tank.as_ref().and_then(Tank::opening).is_some()
+            || self.tank.as_ref().is_some_and(Tank::has_opening)
     }
 
     /// Refuses what would push discs out of their plane.
@@ -128,14 +128,16 @@ impl Scene {
 
     fn check_door(&self, problems: &mut Vec<Problem>) {
         let Some(door) = &self.dem.door else { return };
-        let doors = match &self.dem.geometry {
+        let has_door = match &self.dem.geometry {
             Some(Geometry::File { .. }) => return,
-            Some(geometry) => geometry.spheres().door.len(),
-            None => 0,
+            Some(geometry) => !geometry.spheres().door.is_empty(),
+            None => false,
         };
-        if doors == 0 {
-            let message = "[door] opens a door, but [geometry] has none";
-            let help = "list the spheres of a door in [geometry], or remove [door]";
+        let is_there = has_door || self.tank.as_ref().is_some_and(Tank::has_opening);
+        if !is_there {
+            let message = "[door] opens a door, but there is none";
+            let help = "list the spheres of a door in [geometry], or add `orifice_radius` or \
+                        `slit_width` to [tank], which it closes";
             problems.push(Problem::new("door", message).help(help));
         }
         if let Some(opens) = door.opens

@@ -37,7 +37,6 @@ fn overlap(spheres: &[StartSphere], share: f64, diameter: f64) -> Option<(usize,
 
 impl Scene {
     pub(super) fn check_spot(&self, problems: &mut Vec<Problem>) {
-        self.check_opening(problems);
         let Some(spot) = &self.spot else { return };
         self.check_tables_beside_spots(problems);
         self.check_spheres_of_spots(problems);
@@ -68,55 +67,6 @@ impl Scene {
         let help = "start from a packing without overlaps, such as `kind = \"packing\"`";
         let path = format!("start.spheres[{sphere}]");
         problems.push(Problem::new(path, message).help(help));
-    }
-
-    /// The opening in the floor of a tank.
-    fn check_opening(&self, problems: &mut Vec<Problem>) {
-        let Some(tank) = &self.tank else { return };
-        let Some((key, half_width)) = tank.opening() else {
-            return;
-        };
-        let mut refuse =
-            |message: &str, help: &str| problems.push(Problem::new(key, message).help(help));
-        if self.spot.is_none() {
-            let message = format!("`{key}` belongs to the spot model");
-            return refuse(
-                &message,
-                "add [spot], or remove it; [outlet] lets spheres leave",
-            );
-        }
-        if tank.orifice_radius.is_some() && tank.slit_width.is_some() {
-            return refuse(
-                "`tank.orifice_radius` and `tank.slit_width` exclude each other",
-                "remove one of the two",
-            );
-        }
-        if tank.floor.is_none() {
-            return refuse(
-                "the opening is in a floor, but there is none",
-                "add `floor` to [tank]",
-            );
-        }
-        let radius = self.radius_range().1;
-        if half_width < radius {
-            let message = format!(
-                "spheres of radius {} m do not fit through an opening {} m wide",
-                number(radius),
-                rounded(2.0 * half_width)
-            );
-            return refuse(&message, "make the opening wider or the spheres smaller");
-        }
-        let across = tank.orifice_radius.and(tank.depth);
-        let sides = [tank.width, across].into_iter().flatten();
-        let room = 0.5 * sides.fold(f64::INFINITY, f64::min);
-        if half_width > room {
-            let message = format!(
-                "the opening reaches {} m from the axis, but the walls stand at {} m",
-                rounded(half_width),
-                rounded(room)
-            );
-            refuse(&message, "make the opening narrower or the tank wider");
-        }
     }
 
     /// Nothing but spots moves the spheres.

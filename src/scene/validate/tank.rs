@@ -1,6 +1,7 @@
 //! Whether the walls of a tank go together, and with the spheres.
 
 use crate::document::{Problem, number};
+use crate::scene::validate::rounded;
 use crate::scene::{Scene, Tank};
 
 impl Scene {
@@ -23,6 +24,60 @@ impl Scene {
             );
             let help = format!("both are in metres; make the spheres smaller or `{key}` larger");
             problems.push(Problem::new("spheres.radius", message).help(help));
+        }
+    }
+
+    /// The opening in the floor of a tank.
+    pub(super) fn check_opening(&self, problems: &mut Vec<Problem>) {
+        let Some(tank) = &self.tank else { return };
+        let Some((key, half_width)) = tank.opening() else {
+            return;
+        };
+        let mut refuse =
+            |message: &str, help: &str| problems.push(Problem::new(key, message).help(help));
+        if tank.orifice_radius.is_some() && tank.slit_width.is_some() {
+            return refuse(
+                "`tank.orifice_radius` and `tank.slit_width` exclude each other",
+                "remove one of the two",
+            );
+        }
+        if tank.floor.is_none() {
+            return refuse(
+                "the opening is in a floor, but there is none",
+                "add `floor` to [tank]",
+            );
+        }
+        let radius = self.radius_range().1;
+        if half_width < radius {
+            let message = format!(
+                "spheres of radius {} m do not fit through an opening {} m wide",
+                number(radius),
+                rounded(2.0 * half_width)
+            );
+            return refuse(&message, "make the opening wider or the spheres smaller");
+        }
+        let across = tank.orifice_radius.and(tank.depth);
+        let diameter = tank.radius.map(|radius| 2.0 * radius);
+        let sides = [tank.width, across, diameter].into_iter().flatten();
+        let room = 0.5 * sides.fold(f64::INFINITY, f64::min);
+        if half_width > room {
+            let message = format!(
+                "the opening reaches {} m from the axis, but the walls stand at {} m",
+                rounded(half_width),
+                rounded(room)
+            );
+            refuse(&message, "make the opening narrower or the tank wider");
+        }
+    }
+
+    /// Friction of walls that have none, or that nothing feels.
+    pub(super) fn check_friction_of_walls(&self, problems: &mut Vec<Problem>) {
+        let tank = self.tank.as_ref();
+        let is_given = tank.is_some_and(|tank| tank.friction_coefficient.is_some());
+        if is_given && self.dem.friction.is_none() {
+            let message = "`tank.friction_coefficient` is one of friction, but there is none";
+            let help = "add [friction] with its law, or remove the coefficient";
+            problems.push(Problem::new("tank.friction_coefficient", message).help(help));
         }
     }
 

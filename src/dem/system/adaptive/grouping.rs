@@ -181,7 +181,11 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             yielding,
             turning,
         } = *approach;
-        let (normal, tangential) = (&self.normal, &self.tangential);
+        let normal = &self.normal;
+        let tangential = match spheres {
+            [_at_a_wall] => &self.tangential_at_walls,
+            _ => &self.tangential,
+        };
         let effective_mass = 1.0 / yielding;
         let overlap =
             normal.deepest_overlap(overlap, speed + gain, effective_radius, effective_mass);

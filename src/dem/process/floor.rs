@@ -1,0 +1,81 @@
+//! Whether a sphere passed a floor beside its opening.
+//!
+//! A floor with an opening has two sides, because spheres that left through the opening may come
+//! under it. So a sphere that is pressed through it from above would go on below, and no overlap
+//! would tell.
+
+use crate::dem::walls::TankWall;
+use crate::particles::Particles;
+use crate::particles::vector::Vector;
+use crate::scene::Scene;
+use crate::simulation::{Guard, Instability};
+use std::collections::BTreeSet;
+
+/// Watches the plane of a floor with an opening.
+pub(super) struct FloorWatch {
+    floor: TankWall,
+    /// Height of the floor (m).
+    height: f64,
+    /// Numbers of the spheres that have come below it.
+    pub(super) below: BTreeSet<u32>,
+}
+
+impl FloorWatch {
+    /// A watch over the floor of a scene, if that has an opening.
+    pub(super) fn of_scene(scene: &Scene) -> Option<Self> {
+        let tank = scene.tank.as_ref()?;
+        Some(Self {
+            floor: TankWall::floor_with_opening(tank)?,
+            height: tank.floor?,
+            below: BTreeSet::new(),
+        })
+    }
+
+    /// Reports the first sphere that came below the floor where there is no opening, since the
+    /// latest check.
+    pub(super) fn check(
+        &mut self,
+        particles: &Particles,
+        step: u64,
+        dt: f64,
+    ) -> Result<(), Instability> {
+        let mut below = BTreeSet::new();
+        for i in particles.fixed..particles.len() {
+            let centre = particles.position[i];
+            if !(centre.z < self.height) {
+                continue;
+            }
+            let number = particles.number[i];
+            below.insert(number);
+            let place = crossing(centre, particles.velocity[i], self.height);
+            // What starts there came from nowhere.
+            let was_below = step == 0 || self.below.contains(&number);
+            if was_below || self.floor.is_open_at(place) {
+                continue;
+            }
+            return Err(Instability {
+                guard: Guard::WallPassed,
+                step,
+                time: step as f64 * dt,
+                sphere: i,
+                detail: format!(
+                    "through the floor at ({:.4}, {:.4}) m, beside its opening; stiffen the \
+                     contact, or make the spheres lighter or slower",
+                    place.x, place.y
+                ),
+            });
+        }
+        self.below = below;
+        Ok(())
+    }
+}
+
+/// Where a sphere crossed a height (m), if it went straight.
+fn crossing(centre: Vector, velocity: Vector, height: f64) -> Vector {
+    let ago = match velocity.z < 0.0 {
+        true => (height - centre.z) / -velocity.z,
+        false => 0.0,
+    };
+    let place = centre - velocity * ago;
+    Vector::new(place.x, place.y, height)
+}
