@@ -4,19 +4,26 @@ use crate::measure::FilledBox;
 use crate::observe::Snapshot;
 use crate::record::RunRecord;
 use crate::scene::Units;
+use crate::simulation::MilestoneKind;
 
 /// Share of the run at its start that is left out, where nothing else is asked for: the flow has to
 /// develop.
 const BEGINNING: f64 = 0.2;
 
 /// A drainage: its record, its box, and the times that count.
+///
+/// All its times are since the opening opened: since the start, unless a door was closed.
 pub struct Drainage<'a> {
     /// The record.
     pub record: &'a RunRecord,
     /// The box and its spheres.
     pub filled_box: FilledBox,
-    /// First and last time (s) of the states that count.
+    /// First and last time (s) of the states that count, since the opening.
     pub times: [f64; 2],
+    /// When the opening opened (s), since the start of the run.
+    opened: f64,
+    /// The states from the opening on.
+    states: &'a [Snapshot],
 }
 
 impl<'a> Drainage<'a> {
@@ -31,16 +38,43 @@ impl<'a> Drainage<'a> {
         let Some(([Some(half_width), Some(half_depth)], Some(floor))) = walls else {
             return Err("a box: `tank.width`, `tank.depth` and `tank.floor`");
         };
-        let [start, _, ..] = record.sound_states() else {
+        let opened = opened(record).ok_or("a door that opens within the run")?;
+        let states = record.sound_states();
+        let half_step = 0.5 * record.scene.time.dt;
+        let begun = states.partition_point(|it| it.time <= opened + half_step);
+        let states = &states[begun.saturating_sub(1)..];
+        let [start, _, ..] = states else {
             return Err("at least two snapshots: `output.snapshot_interval`");
         };
         let diameter = 2.0 * record.scene.spheres.radius.mean();
-        let duration = record.scene.time.duration;
+        let duration = record.scene.time.duration - opened;
         Ok(Self {
             record,
             filled_box: FilledBox::new([half_width, half_depth], floor, diameter, start),
             times: times.unwrap_or([BEGINNING * duration, duration]),
+            opened,
+            states,
         })
+    }
+
+    /// How long it drains (s).
+    pub fn duration(&self) -> f64 {
+        self.record.scene.time.duration - self.opened
+    }
+
+    /// A time of the run (s), since the opening.
+    pub fn since_opening(&self, time: f64) -> f64 {
+        time - self.opened
+    }
+
+    /// How many spheres have left, over the time (s) since the opening.
+    pub fn left(&self) -> [Vec<f64>; 2] {
+        let observations = &self.record.observations;
+        let times = observations.time.iter().map(|it| self.since_opening(*it));
+        let left = observations.discharged.iter().map(|&it| f64::from(it));
+        let pairs = times.zip(left).filter(|(time, _)| *time >= 0.0);
+        let (time, left) = pairs.unzip();
+        [time, left]
     }
 
     /// The units of its scene.
@@ -48,12 +82,12 @@ impl<'a> Drainage<'a> {
         self.record.scene.units()
     }
 
-    /// All states, in order of time, two or more.
+    /// All states from the opening on, in order of time, two or more.
     pub fn states(&self) -> &'a [Snapshot] {
-        self.record.sound_states()
+        self.states
     }
 
-    /// The state at the start.
+    /// The state at the opening.
     pub fn start(&self) -> &'a Snapshot {
         &self.states()[0]
     }
@@ -62,8 +96,22 @@ impl<'a> Drainage<'a> {
     pub fn flow(&self) -> &'a [Snapshot] {
         let states = self.states();
         let half_step = 0.5 * self.record.scene.time.dt;
-        let first = states.partition_point(|it| it.time < self.times[0] - half_step);
-        let end = states.partition_point(|it| it.time <= self.times[1] + half_step);
+        let time = |state: &Snapshot| self.since_opening(state.time);
+        let first = states.partition_point(|it| time(it) < self.times[0] - half_step);
+        let end = states.partition_point(|it| time(it) <= self.times[1] + half_step);
         &states[first..end.max(first)]
+    }
+}
+
+/// When the opening opened (s); none if its door is closed to the end.
+fn opened(record: &RunRecord) -> Option<f64> {
+    let is_opening = |kind| kind == MilestoneKind::DoorOpened;
+    let milestones = record.milestones.iter();
+    let mut opened = milestones
+        .filter(|it| is_opening(it.kind))
+        .map(|it| it.time);
+    match record.scene.dem.door {
+        Some(_) => opened.next(),
+        None => Some(0.0),
     }
 }

@@ -3,6 +3,7 @@
 //! Records of the discrete element model and of the spot model go through the same measures.
 
 mod drainage;
+mod fit;
 mod profiles;
 mod quantities;
 mod simpler;
@@ -10,8 +11,9 @@ mod spreading;
 mod table;
 
 pub use drainage::Drainage;
+pub use fit::SpotFit;
 pub use profiles::{DRAWN_HEIGHTS, cross_profile, flow_spread_of, profile_at};
-pub use quantities::{QUANTITIES, Quantity, badness_of, mixing};
+pub use quantities::{QUANTITIES, Quantity, badness_of, mixing, outflow};
 pub use simpler::{MixingOverTime, mixing_of_kinematic_flow, mixing_of_voids};
-pub use spreading::{Spreading, spreading};
+pub use spreading::{Spreading, correlation_radius, spreading, velocity_correlation};
 pub use table::{Comparison, Row};

@@ -1,5 +1,6 @@
 //! The numbers of a drainage, each with its interval.
 
+use super::spreading::correlation_radius;
 use super::{Drainage, flow_spread_of, spreading};
 use crate::measure::{
     Badness, Centres, Layers, RadialDistribution, Walls, lacey_index, outflow_rate, solid_like,
@@ -21,7 +22,7 @@ pub struct Quantity {
 }
 
 /// All of them.
-pub static QUANTITIES: [Quantity; 15] = [
+pub static QUANTITIES: [Quantity; 16] = [
     Quantity {
         name: "outflow",
         unit: "1/s",
@@ -82,6 +83,14 @@ pub static QUANTITIES: [Quantity; 15] = [
         measure: |drainage| spreading(drainage).peclet.map(|it| it[1]),
     },
     Quantity {
+        name: "length of velocity correlation R / d",
+        unit: "",
+        measure: |drainage| {
+            let radius = correlation_radius(drainage)?;
+            Some(over_diameter(drainage, radius))
+        },
+    },
+    Quantity {
         name: "index of mixing at the end",
         unit: "",
         measure: |drainage| exact(mixing(drainage, last(drainage))),
@@ -120,7 +129,7 @@ fn exact(value: Option<f64>) -> Option<Estimate> {
 }
 
 /// Mean over at most ten states, evenly over the times that count.
-fn over_blocks(
+pub(super) fn over_blocks(
     drainage: &Drainage<'_>,
     value: impl Fn(&Snapshot) -> Option<f64>,
 ) -> Option<Estimate> {
@@ -135,11 +144,10 @@ fn last<'a>(drainage: &Drainage<'a>) -> &'a Snapshot {
     drainage.flow().last().unwrap_or(drainage.start())
 }
 
-fn outflow(drainage: &Drainage<'_>) -> Option<Estimate> {
-    let observations = &drainage.record.observations;
-    let left = observations.discharged.iter().map(|&it| f64::from(it));
-    let left: Vec<f64> = left.collect();
-    outflow_rate(&observations.time, &left, drainage.times)
+/// Spheres that leave per second.
+pub fn outflow(drainage: &Drainage<'_>) -> Option<Estimate> {
+    let [time, left] = drainage.left();
+    outflow_rate(&time, &left, drainage.times)
 }
 
 fn diffusion_length(drainage: &Drainage<'_>) -> Option<Estimate> {
@@ -166,7 +174,7 @@ fn over_diameter(drainage: &Drainage<'_>, length: Estimate) -> Estimate {
 }
 
 /// Volume of the spheres in the middle over that of their Voronoi cells.
-fn packing_fraction(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
+pub(super) fn packing_fraction(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
     let filled_box = &drainage.filled_box;
     let [x, y] = [filled_box.half_width, filled_box.half_depth];
     let walls = Walls {

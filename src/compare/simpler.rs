@@ -56,7 +56,10 @@ pub fn mixing_of_kinematic_flow(drainage: &Drainage<'_>) -> Option<MixingOverTim
     let mut places = lattice.places(&lattice.full);
     let area = 4.0 * drainage.filled_box.half_width * 0.5 * drainage.filled_box.filled;
     let mut earlier = None;
-    let times = drainage.states().iter().map(|it| it.time);
+    let times = drainage
+        .states()
+        .iter()
+        .map(|it| drainage.since_opening(it.time));
     let moments = times.zip(&lattice.shares).map(|(time, share)| {
         if let Some((before, left)) = earlier.replace((time, *share)) {
             flow.flux = area * (share - left) / (time - before);
@@ -135,7 +138,10 @@ impl Lattice {
         let of = layers(drainage);
         let layer = |place: &Option<[f64; 2]>| place.map(|[_, z]| of.layer(z));
         let layers: Vec<Option<usize>> = self.places(&self.full).iter().map(layer).collect();
-        let times = drainage.states().iter().map(|it| it.time);
+        let times = drainage
+            .states()
+            .iter()
+            .map(|it| drainage.since_opening(it.time));
         let index = |(time, places): (f64, Places)| {
             let inside = places.iter().enumerate();
             let inside = inside.filter_map(|(grain, place)| Some((grain, (*place)?)));

@@ -1,7 +1,7 @@
 //! How far spheres stray from the mean flow.
 
 use super::Drainage;
-use crate::measure::{Axis, Diffusion};
+use crate::measure::{Axis, Diffusion, VelocityCorrelation};
 use crate::statistics::Estimate;
 
 /// How far spheres stray from the mean flow while they drop.
@@ -47,4 +47,30 @@ pub fn spreading(drainage: &Drainage<'_>) -> Spreading {
         }
     }
     spreading
+}
+
+/// Cells of the mean flow of velocity correlations, in diameters: wider than spots, which would
+/// else be taken for it.
+const WIDE_CELL: f64 = 6.0;
+/// Distances of velocity correlations: farthest, in diameters, and bins; and the nearest that
+/// counts, beyond which no two spheres touch.
+const DISTANCES: (f64, usize) = (8.0, 32);
+const NEAREST: f64 = 1.25;
+
+/// How velocities across the flow are correlated over the distance, of the spheres in the middle
+/// 40 % of the width, at 30 to 80 % of the height.
+pub fn velocity_correlation(drainage: &Drainage<'_>) -> VelocityCorrelation {
+    let diameter = drainage.filled_box.diameter;
+    let region = drainage.filled_box.part(0.4, [0.3, 0.8]);
+    let states = drainage.flow().windows(2);
+    let pairs: Vec<_> = states.map(|two| (&two[0], &two[1])).collect();
+    let (farthest, bins) = DISTANCES;
+    let distances = (farthest * diameter, bins);
+    VelocityCorrelation::of(&pairs, region, WIDE_CELL * diameter, distances)
+}
+
+/// The radius (m) of spots that correlate velocities so.
+pub fn correlation_radius(drainage: &Drainage<'_>) -> Option<Estimate> {
+    let nearest = NEAREST * drainage.filled_box.diameter;
+    velocity_correlation(drainage).radius(nearest)
 }

@@ -8,9 +8,9 @@ use crate::statistics::Estimate;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
     /// Name of the quantity.
-    pub name: &'static str,
+    pub name: String,
     /// Its unit.
-    pub unit: &'static str,
+    pub unit: String,
     /// Its values, in the order of the records; none where it is undefined.
     pub values: Vec<Option<Estimate>>,
 }
@@ -41,7 +41,7 @@ impl Comparison {
     /// # Errors
     /// What a record lacks, and its place among them.
     pub fn new(
-        records: &[RunRecord],
+        records: &[&RunRecord],
         times: Option<[f64; 2]>,
     ) -> Result<Self, (usize, &'static str)> {
         let drainages = records.iter().enumerate();
@@ -49,8 +49,8 @@ impl Comparison {
             .map(|(place, record)| Drainage::new(record, times).map_err(|lacks| (place, lacks)))
             .collect::<Result<Vec<Drainage<'_>>, _>>()?;
         let row = |quantity: &super::Quantity| Row {
-            name: quantity.name,
-            unit: quantity.unit,
+            name: quantity.name.to_owned(),
+            unit: quantity.unit.to_owned(),
             values: drainages.iter().map(quantity.measure).collect(),
         };
         Ok(Self {

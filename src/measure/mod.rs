@@ -23,6 +23,7 @@ mod stagnant;
 mod surface;
 #[cfg(test)]
 mod synthetic;
+mod velocity_correlation;
 mod velocity_profile;
 mod voronoi;
 
@@ -44,5 +45,6 @@ pub use residence::{Residence, ResidenceTimes};
 pub use retention::{NeighbourRetention, Retained};
 pub use stagnant::stagnant_height;
 pub use surface::surface_angle;
+pub use velocity_correlation::VelocityCorrelation;
 pub use velocity_profile::{ProfilePoint, VelocityProfile};
 pub use voronoi::{VoronoiCell, Walls, local_packing_fraction, voronoi_cells};

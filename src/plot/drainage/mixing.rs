@@ -25,7 +25,8 @@ pub(super) static MIXING: Overlay = Overlay {
 
 fn lines(drainage: &Drainage<'_>) -> Lines {
     let states = drainage.states().iter();
-    let points = states.filter_map(|state| Some((state.time, mixing(drainage, state)?)));
+    let points = states
+        .filter_map(|state| Some((drainage.since_opening(state.time), mixing(drainage, state)?)));
     Lines {
         curves: vec![Curve::through(points.collect())],
         word: None,

@@ -14,6 +14,7 @@ mod radial_distribution;
 mod residence;
 mod retention;
 mod surface_angle;
+mod velocity_correlation;
 mod velocity_profile;
 
 use super::{Figure, PlotError, Source};
@@ -22,7 +23,7 @@ use crate::record::RunRecord;
 use overlay::{Curve, Lines, Overlay};
 
 /// All of them.
-pub(super) static FIGURES: [&dyn Figure; 12] = [
+pub(super) static FIGURES: [&dyn Figure; 13] = [
     &outflow::OUTFLOW,
     &velocity_profile::VelocityProfiles,
     &cross_profile::CROSS_PROFILE,
@@ -33,6 +34,7 @@ pub(super) static FIGURES: [&dyn Figure; 12] = [
     &badness::BADNESS,
     &mixing::MIXING,
     &diffusion::DIFFUSION,
+    &velocity_correlation::VELOCITY_CORRELATION,
     &retention::RETENTION,
     &residence::RESIDENCE,
 ];

@@ -21,15 +21,13 @@ pub(super) static OUTFLOW: Overlay = Overlay {
 };
 
 fn lines(drainage: &Drainage<'_>) -> Lines {
-    let observations = &drainage.record.observations;
-    let left = observations.discharged.iter().map(|&it| f64::from(it));
-    let left: Vec<f64> = left.collect();
-    let rate = outflow_rate(&observations.time, &left, drainage.times);
+    let [time, left] = drainage.left();
+    let rate = outflow_rate(&time, &left, drainage.times);
     let word = rate.map(|rate| {
         let [value, half] = [rate.value, rate.half_width].map(|it| scale::rounded(it, 3));
         format!("{value} ± {half} per {}", drainage.units().of_time())
     });
-    let points = observations.time.iter().copied().zip(left);
+    let points = time.into_iter().zip(left);
     Lines {
         curves: vec![Curve::through(points.collect())],
         word,

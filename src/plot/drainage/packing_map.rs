@@ -78,13 +78,13 @@ struct Map {
 impl Map {
     /// Of the state nearest to a time.
     fn new(drainage: &Drainage<'_>, time: f64, mut head: Vec<String>) -> Self {
-        let away = |state: &&Snapshot| (state.time - time).abs();
+        let away = |state: &&Snapshot| (drainage.since_opening(state.time) - time).abs();
         let states = drainage.states().iter();
         let nearest = states.min_by(|one, other| away(one).total_cmp(&away(other)));
         let state = nearest.unwrap_or(drainage.start());
         head.push(format!(
             "$t$ = {} {}",
-            crate::plot::scale::number(state.time),
+            crate::plot::scale::number(drainage.since_opening(state.time)),
             drainage.units().of_time()
         ));
         let diameter = drainage.filled_box.diameter;

@@ -24,7 +24,7 @@ fn lines(drainage: &Drainage<'_>) -> Lines {
     let (diameter, half_width) = (drainage.filled_box.diameter, drainage.filled_box.half_width);
     let points = drainage.states().iter().filter_map(|state| {
         let angle = surface_angle(&Centres::of(state), diameter, half_width)?;
-        Some((state.time, angle.to_degrees()))
+        Some((drainage.since_opening(state.time), angle.to_degrees()))
     });
     Lines {
         curves: vec![Curve::through(points.collect())],

@@ -1,0 +1,44 @@
+//! How velocities across the flow are correlated, over the distance of two spheres.
+
+use super::overlay::{self, Frame, Scale};
+use super::{Curve, Drainage, Lines, Overlay};
+use crate::compare::{correlation_radius, velocity_correlation};
+use crate::measure::ProfilePoint;
+
+/// How velocities across the flow are correlated.
+pub(super) static VELOCITY_CORRELATION: Overlay = Overlay {
+    name: "velocity-correlation",
+    description: "correlation of the velocities of two spheres across the flow, over their distance",
+    labels: [
+        "distance over diameter $r$ / $d$",
+        "correlation of velocities $<u_i u_j>$ / $<u²>$",
+    ],
+    panels: &[Frame {
+        head: "",
+        x: None,
+        y: Scale::Free,
+    }],
+    note: "Of displacements along x between snapshots, about the mean flow, in the middle 40 % of \
+           the width at 30 to 80 % of the height. R: of two spots whose common volume falls as the \
+           correlation does. Bars: 95 %.",
+    lines,
+    guides: overlay::none,
+};
+
+fn lines(drainage: &Drainage<'_>) -> Lines {
+    let diameter = drainage.filled_box.diameter;
+    let values = velocity_correlation(drainage).points();
+    let point = |it: &ProfilePoint| (it.place / diameter, it.value.value);
+    let radius = correlation_radius(drainage);
+    let word = radius.map(|radius| {
+        let [value, half] = [radius.value, radius.half_width].map(|it| it / diameter);
+        format!("$R$ = {value:.2} ± {half:.2} $d$")
+    });
+    Lines {
+        curves: vec![Curve {
+            points: values.iter().map(point).collect(),
+            half_widths: values.iter().map(|it| it.value.half_width).collect(),
+        }],
+        word,
+    }
+}
