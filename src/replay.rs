@@ -1,5 +1,9 @@
 //! A run as far as the thesis's dump tells it: observables from positions and energies alone.
 
+mod states;
+
+pub use states::{Moment, StatesError, WrittenState, replay_states};
+
 use crate::observe::{FrameView, Observer};
 use crate::record::{Guard, Instability, Outcome, Program, RunRecord};
 use crate::scene::{Radii, Scene, Spheres, Start};

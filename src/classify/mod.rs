@@ -4,6 +4,7 @@
 //! in the list [`FAMILIES`]. A sieve is one file; its windows are durations; it reads records,
 //! never simulations.
 
+mod agreement;
 mod drainage;
 mod error;
 mod family;
@@ -18,6 +19,7 @@ mod tank;
 mod verdict;
 mod window;
 
+pub use agreement::{Agreement, MeasureDifference};
 pub use drainage::{BlockedSieve, DRAINAGE, DrainedSieve, StagnantSieve};
 pub use error::ClassifyError;
 pub use family::{FAMILIES, Family};

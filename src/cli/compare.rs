@@ -1,32 +1,48 @@
-//! `phase compare`: the numbers of drainages beside each other.
+//! `phase compare`: the numbers of drainages beside each other, or the labels of two sweeps.
+
+mod inputs;
+mod sweeps;
+mod table;
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::folders;
-use phase::compare::{Comparison, Row};
-use phase::plot;
-use phase::record::RunRecord;
+use phase::compare::Row;
 use phase::statistics::Estimate;
-use phase::store;
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// Measure the records of drainages: outflow, widening of the flow, packing, mixing, surface.
+/// Compare runs: records of drainages, or two folders of sweeps.
 ///
-/// Every number has its interval of 95 % over blocks of time, where one can be told. Of two records
-/// the difference is told, too. Lengths are over the diameter of the spheres.
+/// Records are measured: outflow, widening of the flow, packing, mixing, surface. Every number has
+/// its interval of 95 % over blocks of time, where one can be told. Of two records the difference
+/// is told, too. Lengths are over the diameter of the spheres.
+///
+/// Beside records of phase there may be dumps of LAMMPS and extended XYZ files; the scene of the
+/// first record says what they do not (or `--scene`). A table that this command wrote takes the
+/// place of its records.
+///
+/// Of two folders, runs of one point and seed are paired: the share with one label, and the mean
+/// differences of measures.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: two drainages, and what differs
-  phase compare full.h5 coarse.h5 --times 40,160 --out coarse.csv")]
+  phase compare full.h5 coarse.h5 --times 40,160 --out coarse.csv
+Example: another program
+  phase compare full.h5 dump.lammpstrj --times 40,160
+Example: two sweeps
+  phase compare results/steel results/steel-softened")]
 pub(crate) struct Arguments {
-    /// The records (HDF5) of `phase run`, one or more.
-    #[arg(required = true, value_name = "RECORD")]
-    records: Vec<PathBuf>,
-    /// First and last time (s) of the states that count [default: from a fifth of the run to its
-    /// end].
+    /// Records (HDF5, LAMMPS dump, extended XYZ) or tables (CSV), one or more; or two folders.
+    #[arg(required = true, value_name = "PATH")]
+    paths: Vec<PathBuf>,
+    /// First and last time (s) of the states that count, since the opening [default: from a fifth
+    /// of the drainage to its end].
     #[arg(long, value_name = "FROM,TO", value_parser = super::times)]
     times: Option<[f64; 2]>,
+    /// The scene of files of other programs [default: that of the first record].
+    #[arg(long, value_name = "TOML")]
+    scene: Option<PathBuf>,
     /// A table to write (CSV).
     #[arg(short, long, value_name = "CSV")]
     out: Option<PathBuf>,
@@ -35,55 +51,34 @@ pub(crate) struct Arguments {
     pub(super) json: bool,
 }
 
-/// First column of the table.
-const QUANTITY: &str = "quantity";
-
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     if let Some(table) = &arguments.out {
-        folders::refuse_to_replace(table, "a table of this command", QUANTITY.as_bytes())?;
+        folders::refuse_to_replace(table, "a table of this command", table::QUANTITY.as_bytes())?;
         folders::make_for(table)?;
     }
-    let read = |path: &PathBuf| store::read_record(path).map_err(Failure::refused);
-    let records: Vec<RunRecord> = arguments
-        .records
-        .iter()
-        .map(read)
-        .collect::<Result<_, _>>()?;
-    let comparison = Comparison::new(&records, arguments.times).map_err(|(place, needs)| {
-        let file = arguments.records[place].display();
-        Failure::refused(format_args!(
-            "{file}: a comparison of drainages needs {needs}"
-        ))
-    })?;
-    let names = names(&records, &arguments.records);
+    if arguments.paths.iter().any(|path| path.is_dir()) {
+        return sweeps::main(arguments, console);
+    }
+    let inputs = inputs::read(&arguments.paths, arguments.scene.as_deref())?;
+    let columns = inputs::columns(&inputs, arguments.times)?;
+    let names: Vec<String> = columns.iter().map(|it| it.name.clone()).collect();
+    let rows = inputs::rows(&columns);
     for (index, name) in names.iter().enumerate() {
         console.result(format_args!("{}  {name}", letter(index)));
     }
-    for line in lines(&comparison.rows, names.len()) {
+    for line in lines(&rows, names.len()) {
         console.result(line);
     }
     if let Some(path) = &arguments.out {
-        let table = table(&comparison, &names).map_err(Failure::failed)?;
-        store::write_atomic(path, &table).map_err(Failure::failed)?;
+        table::write(path, &rows, &names)?;
         console.file(path);
     }
     console.answer(&Answer {
         records: names,
-        rows: comparison.rows.iter().map(Entry::new).collect(),
+        rows: rows.iter().map(Entry::new).collect(),
         files: console.files(),
     });
     Ok(Exit::Done)
-}
-
-/// A record by its file, and by what differs.
-fn names(records: &[RunRecord], paths: &[PathBuf]) -> Vec<String> {
-    let captions = plot::captions(records).into_iter();
-    let named = paths.iter().zip(captions);
-    let name = |(path, parts): (&PathBuf, Vec<String>)| {
-        let file = [path.display().to_string()];
-        file.into_iter().chain(parts).collect::<Vec<_>>().join(", ")
-    };
-    named.map(name).collect()
 }
 
 /// What the columns of a record are called: A, B and so on.
@@ -101,7 +96,7 @@ fn lines(rows: &[Row], records: usize) -> Vec<String> {
     head.extend((records == 2).then(|| "B - A".to_owned()));
     let cell = |value: Option<Estimate>| value.map_or_else(|| "-".to_owned(), written);
     let cells = rows.iter().map(|row| {
-        let unit = match row.unit {
+        let unit = match &row.unit[..] {
             "" => String::new(),
             unit => format!(" ({unit})"),
         };
@@ -111,18 +106,27 @@ fn lines(rows: &[Row], records: usize) -> Vec<String> {
         cells
     });
     let cells: Vec<Vec<String>> = std::iter::once(head).chain(cells).collect();
-    let width = |column: usize| cells.iter().map(|row| row[column].chars().count()).max();
-    let widths: Vec<usize> = (0..cells[0].len()).filter_map(width).collect();
-    let line = |row: &Vec<String>| {
-        let cells = row.iter().zip(&widths);
+    in_columns(&cells)
+}
+
+/// Rows of as many cells as lines of text, in columns.
+pub(super) fn in_columns<R: AsRef<[String]>>(rows: &[R]) -> Vec<String> {
+    let columns = rows.first().map_or(0, |row| row.as_ref().len());
+    let width = |column: usize| {
+        let cells = rows.iter().filter_map(|row| row.as_ref().get(column));
+        cells.map(|cell| cell.chars().count()).max()
+    };
+    let widths: Vec<usize> = (0..columns).filter_map(width).collect();
+    let line = |row: &R| {
+        let cells = row.as_ref().iter().zip(&widths);
         let padded = cells.map(|(cell, &width)| format!("{cell:<width$}"));
         padded.collect::<Vec<_>>().join("  ").trim_end().to_owned()
     };
-    cells.iter().map(line).collect()
+    rows.iter().map(line).collect()
 }
 
 /// A value with its interval, if that is known.
-fn written(estimate: Estimate) -> String {
+pub(super) fn written(estimate: Estimate) -> String {
     match estimate.half_width.is_finite() {
         true => format!(
             "{:.4} ± {:.2}",
@@ -147,27 +151,6 @@ impl std::fmt::Display for Short {
     }
 }
 
-fn table(comparison: &Comparison, names: &[String]) -> Result<Vec<u8>, csv::Error> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    table.write_record([QUANTITY, "unit", "record", "value", "half_width"])?;
-    let number = |value: f64| match value.is_finite() {
-        true => value.to_string(),
-        false => String::new(),
-    };
-    for row in &comparison.rows {
-        for (name, value) in names.iter().zip(&row.values) {
-            let [value, half_width] = match value {
-                Some(it) => [it.value, it.half_width].map(number),
-                None => [String::new(), String::new()],
-            };
-            table.write_record([row.name, row.unit, name, &value, &half_width])?;
-        }
-    }
-    table
-        .into_inner()
-        .map_err(|error| error.into_error().into())
-}
-
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Answer {
@@ -181,8 +164,8 @@ struct Answer {
 /// A quantity of all records.
 #[derive(Serialize)]
 struct Entry {
-    quantity: &'static str,
-    unit: &'static str,
+    quantity: String,
+    unit: String,
     /// Values, and half widths of their intervals of 95 %, in the order of the records.
     values: Vec<Option<f64>>,
     half_widths: Vec<Option<f64>>,
@@ -197,8 +180,8 @@ impl Entry {
         let values = row.values.iter();
         let difference = row.difference();
         Self {
-            quantity: row.name,
-            unit: row.unit,
+            quantity: row.name.clone(),
+            unit: row.unit.clone(),
             values: values
                 .clone()
                 .map(|it| it.and_then(|it| finite(it.value)))

@@ -61,6 +61,7 @@ pub fn draw_records(
         seeds: table.rows.iter().map(|row| row.seed).collect(),
         border_seeds: Vec::new(),
         border_points: Vec::new(),
+        refine: None,
         scene: first.scene.clone(),
         sieves,
         plot: PlotSettings::default(),
@@ -90,7 +91,7 @@ pub fn draw_records(
 }
 
 /// What names each of several records, without markup: the keys in which their scenes differ.
-pub fn captions(records: &[RunRecord]) -> Vec<Vec<String>> {
+pub fn captions(records: &[&RunRecord]) -> Vec<Vec<String>> {
     let scenes: Vec<&Scene> = records.iter().map(|it| &it.scene).collect();
     let captions = names::of(&scenes).into_iter();
     let plainly = |parts: Vec<String>| parts.iter().map(|it| text::plain(it)).collect();

@@ -1,0 +1,82 @@
+//! Tables of `phase compare` (CSV): one row for each quantity of each record.
+
+use super::super::exit::Failure;
+use super::inputs::Column;
+use phase::compare::Row;
+use phase::statistics::Estimate;
+use phase::store;
+use std::path::Path;
+
+/// First column of the table.
+pub(super) const QUANTITY: &str = "quantity";
+
+const COLUMNS: [&str; 5] = [QUANTITY, "unit", "record", "value", "half_width"];
+
+pub(super) fn write(path: &Path, rows: &[Row], names: &[String]) -> Result<(), Failure> {
+    let text = written(rows, names).map_err(Failure::failed)?;
+    store::write_atomic(path, &text).map_err(Failure::failed)
+}
+
+fn written(rows: &[Row], names: &[String]) -> Result<Vec<u8>, csv::Error> {
+    let mut table = csv::Writer::from_writer(Vec::new());
+    table.write_record(COLUMNS)?;
+    let number = |value: f64| match value.is_finite() {
+        true => value.to_string(),
+        false => String::new(),
+    };
+    for row in rows {
+        for (name, value) in names.iter().zip(&row.values) {
+            let [value, half_width] = match value {
+                Some(it) => [it.value, it.half_width].map(number),
+                None => [String::new(), String::new()],
+            };
+            table.write_record([&row.name, &row.unit, name, &value, &half_width])?;
+        }
+    }
+    table
+        .into_inner()
+        .map_err(|error| error.into_error().into())
+}
+
+/// Reads a table back: one column for each of its records, in their order.
+pub(super) fn read(path: &Path) -> Result<Vec<Column>, Failure> {
+    let refuse = |line: u64, reason: &str| {
+        Failure::refused(format_args!("{}:{line}: {reason}", path.display()))
+    };
+    let failed = |error: csv::Error| Failure::refused(format_args!("{}: {error}", path.display()));
+    let mut reader = csv::Reader::from_path(path).map_err(failed)?;
+    if reader.headers().map_err(failed)? != COLUMNS[..] {
+        let columns = COLUMNS.join(",");
+        return Err(refuse(
+            1,
+            &format!("no table of `phase compare`: expected `{columns}`"),
+        ));
+    }
+    let mut columns: Vec<Column> = Vec::new();
+    for (record, line) in reader.records().zip(2..) {
+        let record = record.map_err(failed)?;
+        let number = |place: usize, empty: f64| match &record[place] {
+            "" => Ok(empty),
+            text => text
+                .parse::<f64>()
+                .map_err(|_| refuse(line, &format!("`{text}` is not a number"))),
+        };
+        let [value, half_width] = [number(3, f64::NAN)?, number(4, f64::INFINITY)?];
+        let value = (!value.is_nan()).then_some(Estimate { value, half_width });
+        let name = &record[2];
+        let place = columns.iter().position(|it| it.name == name);
+        let place = place.unwrap_or_else(|| {
+            columns.push(Column {
+                name: name.to_owned(),
+                values: Vec::new(),
+            });
+            columns.len() - 1
+        });
+        let quantity = [&record[0], &record[1]].map(str::to_owned);
+        columns[place].values.push((quantity, value));
+    }
+    match columns.is_empty() {
+        true => Err(refuse(1, "it holds no numbers")),
+        false => Ok(columns),
+    }
+}

@@ -1,0 +1,138 @@
+//! `phase compare`: files of other programs, tables and folders, through the built program.
+
+use crate::support::{Workplace, drainage_file};
+use phase::record::RunRecord;
+use phase::store::read_record;
+use serde_json::Value;
+use std::fmt::Write as _;
+
+fn drained() -> (Workplace, RunRecord) {
+    let place = Workplace::new();
+    place.write("scene.toml", &drainage_file());
+    place
+        .phase(&["run", "scene.toml", "--out", "run.h5"])
+        .code(0);
+    let record = read_record(place.path("run.h5").as_ref()).unwrap();
+    (place, record)
+}
+
+/// The states of a record as LAMMPS writes them, a step each `dt` (s), with numbers from 1.
+fn lammps_dump(record: &RunRecord, dt: f64) -> String {
+    let mut text = String::new();
+    for state in &record.snapshots {
+        let rows = state.position.rows().into_iter().zip(1..);
+        let rows: Vec<_> = rows.filter(|(row, _)| row[0].is_finite()).collect();
+        let step = (state.time / dt).round() + 5000.0;
+        write!(
+            text,
+            "ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n\
+             -9 9\n-9 9\n-9 99\nITEM: ATOMS id type x y z\n",
+            rows.len()
+        )
+        .unwrap();
+        for (row, number) in rows.iter().rev() {
+            writeln!(text, "{number} 1 {:?} {:?} {:?}", row[0], row[1], row[2]).unwrap();
+        }
+    }
+    text
+}
+
+fn assert_equal(place: &Workplace, one: &str, other: &str) {
+    let answer = place
+        .phase(&["compare", one, other, "--times", "1,4", "--json"])
+        .code(0);
+    let answer: Value = serde_json::from_str(&answer.stdout).unwrap();
+    let rows = answer["rows"].as_array().unwrap();
+    let mut compared = 0;
+    for row in rows.iter().filter(|it| it["quantity"] != "processor time") {
+        let values = &row["values"];
+        assert_eq!(values[0], values[1], "{row}");
+        compared += usize::from(!values[0].is_null());
+    }
+    assert!(compared > 8, "{compared} numbers");
+}
+
+#[test]
+fn what_other_programs_write_is_measured_alike() {
+    let (place, record) = drained();
+    place
+        .phase(&["export", "run.h5", "--to", "xyz", "--out", "run.xyz"])
+        .code(0);
+    assert_equal(&place, "run.h5", "run.xyz");
+    place.write("run.dump", &lammps_dump(&record, record.scene.time.dt));
+    assert_equal(&place, "run.dump", "run.h5");
+    // Alone it needs a scene.
+    let alone = place.phase(&["compare", "run.dump"]).code(2);
+    assert!(alone.stderr.contains("`--scene`"), "{}", alone.stderr);
+    place
+        .phase(&["compare", "run.dump", "--scene", "scene.toml"])
+        .code(0);
+    // Times that do not grow.
+    let twice = lammps_dump(&record, f64::INFINITY);
+    place.write("still.dump", &twice);
+    let refused = place.phase(&["compare", "run.h5", "still.dump"]).code(2);
+    assert!(
+        refused.stderr.contains("still.dump: state 2 is not later"),
+        "{}",
+        refused.stderr
+    );
+}
+
+#[test]
+fn a_table_takes_the_place_of_its_records() {
+    let (place, _) = drained();
+    let arguments = ["compare", "run.h5", "--times", "1,4", "--out", "run.csv"];
+    place.phase(&arguments).code(0);
+    assert_equal(&place, "run.h5", "run.csv");
+    place.phase(&["compare", "run.csv", "run.csv"]).code(0);
+    place.write("other.csv", "a,b\n1,2\n");
+    let refused = place.phase(&["compare", "run.h5", "other.csv"]).code(2);
+    assert!(
+        refused.stderr.contains("other.csv:1: no table"),
+        "{}",
+        refused.stderr
+    );
+    place.write(
+        "word.csv",
+        "quantity,unit,record,value,half_width\noutflow,1/s,paper,many,\n",
+    );
+    let refused = place.phase(&["compare", "word.csv"]).code(2);
+    assert!(
+        refused.stderr.contains("word.csv:2: `many`"),
+        "{}",
+        refused.stderr
+    );
+}
+
+#[test]
+fn folders_of_sweeps_are_compared() {
+    let place = Workplace::new();
+    let folder = |name: &str| std::path::absolute(format!("results/{name}")).unwrap();
+    let compare = |one: &str, other: &str| {
+        let paths = [folder(one), folder(other)].map(|it| it.to_str().unwrap().to_owned());
+        place.phase(&["compare", &paths[0], &paths[1]])
+    };
+    let same = compare("theoretical-9x9", "theoretical-9x9").code(0);
+    assert!(
+        same.stdout
+            .contains("243 of 243 runs of one point and seed"),
+        "{}",
+        same.stdout
+    );
+    let other = compare("theoretical-9x9", "theoretical-quadratic-9x9").code(0);
+    assert!(
+        other
+            .stdout
+            .contains("runs of one point and seed have one label: ")
+    );
+    assert!(other.stdout.contains("rotation"), "{}", other.stdout);
+    let refused = compare("theoretical-9x9", "silo").code(2);
+    assert!(
+        refused.stderr.contains("cannot be compared"),
+        "{}",
+        refused.stderr
+    );
+    let one = folder("silo");
+    let one = place.phase(&["compare", one.to_str().unwrap()]).code(2);
+    assert!(one.stderr.contains("two by two"), "{}", one.stderr);
+}
