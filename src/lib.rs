@@ -16,6 +16,7 @@
 //! | where an integrator is stable: a phase diagram of the numerics | [`study`] |
 //! | what a run costs, and each of its parts | [`cost`] |
 //! | records and tables as files | [`store`] |
+//! | which runs a phase diagram needs | [`refine`] |
 //! | laws that results are compared with | [`theory`], [`beverloo`] |
 //!
 //! SI units throughout, angles in radians, z up. The same scene gives the same bits on every
@@ -98,6 +99,7 @@ pub mod particles;
 pub mod plot;
 pub mod record;
 pub mod reference;
+pub mod refine;
 pub mod render;
 pub mod replay;
 pub mod resume;

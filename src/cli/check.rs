@@ -86,6 +86,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             let about = format!("about {}", format::bytes(disk));
             console.result(line("  disk", about));
         }
+        if let Some(refining) = &sweep.refine {
+            let budget = refining.settings.budget;
+            let times = budget as f64 / jobs.len().max(1) as f64;
+            console.result(line(
+                "  refined",
+                format_args!("at most {times:.1} times as long, with all {budget} runs"),
+            ));
+        }
         forecast = Some(found);
     }
     let scene = &sweep.scene;
@@ -98,6 +106,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         axes: &sweep.axes,
         seeds: &sweep.seeds,
         border_seeds: &sweep.border_seeds,
+        budget: sweep.refine.as_ref().map(|it| it.settings.budget),
         spheres: scene.spheres.count,
         effects: effects(scene),
         duration: scene.time.duration,
@@ -124,11 +133,22 @@ fn describe_sweep(sweep: &Sweep, jobs: usize) -> String {
     let mut lines = describe_grid(title, &format::count(jobs, "job"), &sweep.axes);
     let seeds: Vec<String> = sweep.seeds.iter().map(u64::to_string).collect();
     let at_borders = match &sweep.border_seeds[..] {
+        [] if sweep.refine.is_some() => " at most".to_owned(),
         [] => String::new(),
         [seed] => format!("; {seed} too at points beside another label"),
         [first, .., last] => format!("; {first} to {last} too at points beside another label"),
     };
     lines.push(line("seeds", seeds.join(", ") + &at_borders));
+    if let Some(refining) = &sweep.refine {
+        let settings = &refining.settings;
+        lines.push(line(
+            "refined",
+            format_args!(
+                "{jobs} to start, then rounds of {} up to {} in total",
+                settings.round, settings.budget
+            ),
+        ));
+    }
     lines.push(line("spheres", sweep.scene.spheres.count));
     lines.join("\n")
 }
@@ -260,6 +280,8 @@ struct Answer<'a> {
     axes: &'a [Axis],
     seeds: &'a [u64],
     border_seeds: &'a [u64],
+    /// Most runs of a refined sweep; none if the whole grid is run.
+    budget: Option<usize>,
     spheres: usize,
     effects: Vec<String>,
     duration: f64,

@@ -7,7 +7,7 @@ use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
 use super::format;
 use phase::classify::{ClassifyError, Label, LabelTable};
-use phase::sweep::{Folder, Job, Labelled, Labelling, LabellingError, Since, Sweep, work};
+use phase::sweep::{Folder, Job, Labelled, Labelling, LabellingError, Learnt, Since, Sweep, work};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -85,7 +85,8 @@ fn label_folders(
         // The sweep is kept with its new thresholds, so that the labels are always those it says.
         let mut lock = None;
         if let Some(edited) = edited {
-            let keys = sweep.keys_of_other_runs(edited);
+            let edited = refined_alike(edited, &sweep);
+            let keys = sweep.keys_of_other_runs(&edited);
             if !keys.is_empty() {
                 return Err(Failure::refused(format_args!(
                     "{}: the runs in this folder are not those of the edited sweep; they differ in \
@@ -95,22 +96,37 @@ fn label_folders(
                 )));
             }
             lock = Some(folder.lock().map_err(Failure::refused)?);
-            // The runs at borders stay those that were run.
-            let border_points = std::mem::take(&mut sweep.border_points);
+            // The runs at borders stay those that were run, and so do those of a refined sweep.
             sweep = Sweep {
-                border_points,
-                ..edited.clone()
+                border_points: sweep.border_points,
+                refine: sweep.refine,
+                ..edited
             };
         }
         let jobs = sweep.jobs().map_err(Failure::refused)?;
         sweep.check_sieves(&jobs).map_err(cannot_label)?;
         let labelled = label_folder(&folder, &sweep, &jobs, workers, console)?;
         if lock.is_some() {
+            if let Ok(Some(learnt)) = Learnt::of(&sweep, &labelled.table)
+                && let Some(refining) = &mut sweep.refine
+            {
+                refining.widths = phase::refine::widths(&learnt.lattice, &learnt.map);
+            }
             folder.write_sweep(&sweep).map_err(Failure::failed)?;
         }
         folders.push(Summary::new(&folder, &labelled));
     }
     Ok(folders)
+}
+
+/// An edited sweep, refined if that of the folder was and the edited one does not say so.
+fn refined_alike(edited: &Sweep, sweep: &Sweep) -> Sweep {
+    let mut edited = edited.clone();
+    if sweep.refine.is_some() && edited.refine.is_none() && edited.refine_by_default().is_ok() {
+        edited.refine.clone_from(&sweep.refine);
+        edited.seeds.clone_from(&sweep.seeds);
+    }
+    edited
 }
 
 /// The failure of sieves that cannot judge the runs.
@@ -201,7 +217,27 @@ pub(super) fn label_folder(
     tell_of_problems(&labelling, console);
     let labelled = labelling.write(folder).map_err(cannot_write)?;
     tell_of_labels(&labelled, folder, console);
+    write_refined(folder, sweep, &labelled.table, console)?;
     Ok(labelled)
+}
+
+/// Writes the tables of a refined sweep.
+fn write_refined(
+    folder: &Folder,
+    sweep: &Sweep,
+    table: &LabelTable,
+    console: &Console,
+) -> Result<(), Failure> {
+    if table.rows.is_empty() {
+        return Ok(());
+    }
+    if let Some(learnt) = Learnt::of(sweep, table).map_err(Failure::failed)? {
+        let written = learnt.write(folder, sweep, table.family);
+        written.map_err(Failure::failed)?;
+        console.file(&folder.refined());
+        console.file(&folder.borders());
+    }
+    Ok(())
 }
 
 /// Says which records have no label, and why.

@@ -11,6 +11,7 @@ mod console;
 mod cost;
 mod exit;
 mod export;
+mod fit;
 mod folders;
 mod format;
 mod interrupt;
@@ -22,6 +23,7 @@ mod new;
 mod plot;
 mod progress;
 mod reference;
+mod refined;
 mod run;
 mod schema;
 mod stability;
@@ -90,6 +92,7 @@ enum Command {
     Cost(cost::Arguments),
     Neighbours(neighbours::Arguments),
     Compare(compare::Arguments),
+    Fit(fit::Arguments),
     Stability(stability::Arguments),
     Accuracy(accuracy::Arguments),
     Ablate(ablate::Arguments),
@@ -116,6 +119,7 @@ impl Command {
             Self::Cost(arguments) => arguments.json,
             Self::Neighbours(arguments) => arguments.json,
             Self::Compare(arguments) => arguments.json,
+            Self::Fit(arguments) => arguments.json,
             Self::Stability(arguments) => arguments.options.json,
             Self::Accuracy(arguments) => arguments.options.json,
             Self::Ablate(arguments) => arguments.options.json,
@@ -176,6 +180,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Cost(arguments) => cost::main(&arguments, &console),
         Command::Neighbours(arguments) => neighbours::main(&arguments, &console),
         Command::Compare(arguments) => compare::main(&arguments, &console),
+        Command::Fit(arguments) => fit::main(&arguments, &console),
         Command::Stability(arguments) => stability::main(&arguments, &console),
         Command::Accuracy(arguments) => accuracy::main(&arguments, &console),
         Command::Ablate(arguments) => ablate::main(&arguments, &console),

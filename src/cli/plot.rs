@@ -71,6 +71,9 @@ type Point = Vec<(String, f64)>;
 /// The figure whose fits are printed.
 const BEVERLOO: &str = "beverloo";
 
+/// The figure of refined sweeps.
+const REFINED: &str = "refined";
+
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     arguments.check()?;
     let (mut figures, mut fits) = (Vec::new(), Vec::new());
@@ -163,12 +166,17 @@ struct FitEntry {
 
 /// Prints name and description of every figure, or of those that can be drawn of what is at `dir`.
 fn list(dir: Option<&Path>, console: &Console) -> Result<Vec<Entry>, Failure> {
+    let mut is_refined = dir.is_none();
     let (families, of_record) = match dir {
         None => (FAMILIES.to_vec(), records::of_one()),
         Some(path) if path.is_file() => (Vec::new(), records::list(path)?),
         Some(dir) => {
             let folders = Folder::find(dir).map_err(Failure::refused)?.into_iter();
-            let family = |folder: Folder| Ok(Family::of(&folder.read_sweep()?.scene));
+            let family = |folder: Folder| {
+                let sweep = folder.read_sweep()?;
+                is_refined |= sweep.refine.is_some();
+                Ok(Family::of(&sweep.scene))
+            };
             let families = folders.map(family).collect::<Result<_, FolderError>>();
             (families.map_err(Failure::failed)?, Vec::new())
         }
@@ -176,6 +184,7 @@ fn list(dir: Option<&Path>, console: &Console) -> Result<Vec<Entry>, Failure> {
     let mut entries: Vec<Entry> = plot::figures()
         .into_iter()
         .filter(|figure| families.iter().any(|family| figure.applies_to(family)))
+        .filter(|figure| is_refined || figure.name != REFINED)
         .map(|figure| Entry {
             name: figure.name,
             description: figure.description,
@@ -331,11 +340,35 @@ pub(super) fn draw_default_figures(
         console.note("a sweep without axes has no diagram: no figures");
         return Ok(());
     }
-    table
-        .family
-        .default_figures
-        .iter()
-        .try_for_each(|name| draw(name, folder, place, (sweep, table), (&[], None), console))
+    let refined = sweep.refine.iter().map(|_| &REFINED);
+    let mut names = refined.chain(table.family.default_figures);
+    names.try_for_each(|name| draw(name, folder, place, (sweep, table), (&[], None), console))
+}
+
+/// Draws the figure of a refined sweep after a round, without a word.
+pub(super) fn draw_round(
+    folder: &Folder,
+    sweep: &Sweep,
+    table: &LabelTable,
+) -> Result<(), Failure> {
+    let figure = plot::draw(
+        REFINED,
+        &plot::Source {
+            sweep,
+            table,
+            record: &|id| folder.read_record(id),
+            points: &[],
+            times: None,
+            captions: &[],
+            program: &Program::current(),
+        },
+    );
+    let figure = figure.map_err(refused_or_failed)?;
+    for (extension, bytes) in images(&figure)? {
+        let path = folder.root().join(format!("{REFINED}.{extension}"));
+        store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
+    }
+    Ok(())
 }
 
 /// Draws a figure, of points and times if they are asked for, writes it to the folder `place` as
@@ -374,17 +407,21 @@ fn refused_or_failed(error: PlotError) -> Failure {
     }
 }
 
+/// The files of a figure, by the ends of their names.
+fn images(figure: &Svg) -> Result<[(&'static str, Vec<u8>); 2], Failure> {
+    Ok([
+        ("svg", figure.to_svg_bytes()),
+        ("png", figure.to_png_bytes().map_err(Failure::failed)?),
+    ])
+}
+
 /// Writes a figure as SVG and PNG and prints their paths.
 pub(super) fn write(
     figure: &Svg,
     place: impl Fn(&str) -> PathBuf,
     console: &Console,
 ) -> Result<(), Failure> {
-    let images = [
-        ("svg", figure.to_svg_bytes()),
-        ("png", figure.to_png_bytes().map_err(Failure::failed)?),
-    ];
-    for (extension, bytes) in images {
+    for (extension, bytes) in images(figure)? {
         let path = place(extension);
         store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
         console.file(&path);

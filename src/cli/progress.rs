@@ -28,6 +28,8 @@ pub(crate) struct Work {
     pub(crate) steps_done: u64,
     /// Its unit.
     pub(crate) unit: &'static str,
+    /// What the work is part of, such as a round; may be empty.
+    pub(crate) head: String,
 }
 
 struct State {
@@ -136,6 +138,9 @@ impl<'a> Progress<'a> {
     }
 }
 
+/// The remaining time is told once one in this number of parts of the work is done.
+const EARLY: f64 = 1000.0;
+
 impl State {
     fn text(&self, elapsed: f64) -> String {
         let Work {
@@ -144,11 +149,13 @@ impl State {
             steps,
             steps_done,
             unit,
+            ref head,
         } = self.work;
         let rate = self.run as f64 / elapsed.max(1e-3);
         let done = steps_done.saturating_sub(self.done_before) as f64;
         let left = steps.saturating_sub(steps_done) as f64 * elapsed / done;
-        let left = if left.is_finite() {
+        // Spheres may be placed first, which is no part of the work: the rate is not known yet.
+        let left = if left.is_finite() && done * EARLY >= steps as f64 {
             format!(", {} left", format::duration(left))
         } else {
             String::new()
@@ -158,8 +165,12 @@ impl State {
             phase => phase.to_owned(),
         };
         let percent = 100.0 * steps_done as f64 / steps.max(1) as f64;
+        let head = match head.as_str() {
+            "" => String::new(),
+            head => format!("{head}: "),
+        };
         format!(
-            "{what}, {:.0} %, {}{left}",
+            "{head}{what}, {:.0} %, {}{left}",
             percent.min(100.0),
             format::rate(rate, unit)
         )

@@ -2,9 +2,9 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
-use super::format;
 use super::job::{self, NamedJob};
-use phase::sweep::{Axis, Folder, Plan, Status, UnderWay, describe, work};
+use super::{format, refined};
+use phase::sweep::{Axis, Folder, Plan, Status, Sweep, UnderWay, describe, work};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -39,6 +39,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             folder.root().display(),
             text(&status, &sweep.axes, workers)
         ));
+        for line in describe_refined(&sweep, &status) {
+            console.result(line);
+        }
         folders.push(FolderAnswer {
             folder: folder.root().to_owned(),
             jobs: status.jobs,
@@ -51,10 +54,28 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             workers: workers.min(status.left.max(1)),
             seconds_left: seconds_left(&status, workers),
             running: status.running,
+            refined: refined::Answer::new(&sweep, status.done + status.failures.len(), None),
         });
     }
     console.answer(&Answer { folders });
     Ok(Exit::Done)
+}
+
+/// How far a refined sweep is, and how well its borders are known.
+fn describe_refined(sweep: &Sweep, status: &Status) -> Vec<String> {
+    let Some(refining) = &sweep.refine else {
+        return Vec::new();
+    };
+    let runs = status.done + status.failures.len();
+    let mut lines = vec![format!(
+        "  refined    {} of at most {}, {}",
+        format::count(runs, "run"),
+        refining.settings.budget,
+        format::count(refining.widths.len(), "border")
+    )];
+    let borders = refined::describe_borders(sweep, refining).into_iter();
+    lines.extend(borders.map(|border| format!("  border     {border}")));
+    lines
 }
 
 /// What `--json` prints.
@@ -77,6 +98,8 @@ struct FolderAnswer {
     workers: usize,
     seconds_left: Option<f64>,
     running: bool,
+    /// How well borders are known; none if the whole grid is run.
+    refined: Option<refined::Answer>,
 }
 
 /// A run that goes on from its checkpoint.

@@ -119,6 +119,7 @@ pub(super) fn with_progress<T>(
             steps: jobs.iter().map(Job::work).sum(),
             steps_done,
             unit: job::unit_of(jobs),
+            head: String::new(),
         },
     );
     let watch = |event: Event<'_>| job::tell(event, &progress, name, ended);

@@ -1,14 +1,15 @@
 //! `phase sweep`: runs the jobs of a sweep, labels them, draws the figures.
 
+mod refining;
 mod rounds;
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::job::NamedJob;
-use super::{classify, format, interrupt, plot, time_step};
+use super::{classify, format, interrupt, plot, refined, time_step};
 use phase::resume::DEFAULT_INTERVAL;
 use phase::sweep::{
-    Folder, FolderError, Job, Plan, Sweep, differing_keys, refuse_to_lose_labels, work,
+    Folder, FolderError, Job, Plan, Refining, Sweep, differing_keys, refuse_to_lose_labels, work,
 };
 use rounds::{Rounds, Run};
 use serde::Serialize;
@@ -28,7 +29,8 @@ Example: the 9 x 9 grid on four cores, results in ./results/quick
 
 The results folder holds sweep.json (the sweep as run), records/ (one HDF5 file per run),
 labels.csv (one row per run), points.csv (one row per point of the grid), the figures as SVG
-and PNG, and, if any job failed, failed.csv.")]
+and PNG, and, if any job failed, failed.csv. That of a refined sweep holds refined.csv (the
+probability of each label at each point) and borders.csv (the borders with their bands) too.")]
 pub(crate) struct Arguments {
     /// The sweep file (TOML).
     file: PathBuf,
@@ -44,6 +46,10 @@ pub(crate) struct Arguments {
     /// Seeds in place of the file's; may be given several times.
     #[arg(short, long, value_name = "SEED", value_delimiter = ',', value_parser = super::seed)]
     seed: Vec<u64>,
+    /// Run a coarse grid, then only what the labels need (docs/refine.md). The file's table
+    /// [refine] says how; without one a tenth of the grid's jobs is run at most.
+    #[arg(long)]
+    refine: bool,
     /// Time between two checkpoints of a run (s), from which it goes on when the sweep is run again
     /// [default: 120].
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
@@ -51,6 +57,10 @@ pub(crate) struct Arguments {
     /// Only run the simulations: no labels, no figures.
     #[arg(long)]
     no_classify: bool,
+    /// Count runs that have a label in labels.csv as done, even if their records are gone, as of
+    /// published results.
+    #[arg(long, conflicts_with = "force")]
+    keep_labels: bool,
     /// Draw no figures.
     #[arg(long)]
     no_plot: bool,
@@ -78,10 +88,7 @@ pub(super) fn at_least_one(text: &str) -> Result<usize, String> {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let mut sweep = phase::sweep::load(&arguments.file).map_err(Failure::refused)?;
-    if !arguments.seed.is_empty() {
-        sweep.seeds = distinct(&arguments.seed)?;
-        sweep.border_seeds.clear();
-    }
+    choose_runs(&mut sweep, arguments)?;
     if arguments.no_classify && !sweep.border_seeds.is_empty() {
         return Err(Failure::refused(
             "seeds.at_borders needs labels; leave out --no-classify, or give the seeds with --seed",
@@ -92,12 +99,16 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if !arguments.no_classify {
         sweep.check_sieves(&jobs).map_err(classify::cannot_label)?;
     }
-    let folder = Folder::new(
+    let mut folder = Folder::new(
         arguments
             .out
             .clone()
             .unwrap_or_else(|| default_folder(&arguments.file)),
     );
+    if arguments.keep_labels {
+        refuse_other_thresholds(&folder, &sweep)?;
+        folder = folder.keeping_labels();
+    }
     let stop = interrupt::stop_on_signal(console)?;
 
     folder.create().map_err(Failure::failed)?;
@@ -120,12 +131,23 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         stop,
         checkpoint_interval: arguments.checkpoint_interval.unwrap_or(DEFAULT_INTERVAL),
         force: arguments.force,
+        draws: !arguments.no_plot,
         console,
     };
-    let (plan, run) = rounds.run(&mut sweep, jobs)?;
+    let (plan, run, refined) = match sweep.refine {
+        None => {
+            let (plan, run) = rounds.run(&mut sweep, jobs)?;
+            (plan, run, None)
+        }
+        Some(_) => {
+            let (plan, run, refined) = rounds.refine(&mut sweep)?;
+            (plan, run, Some(refined))
+        }
+    };
     run.print(&plan, &sweep, console)?;
     let jobs: Vec<Job> = plan.jobs.iter().map(|(job, _)| job.clone()).collect();
     let mut answer = Answer::new(&folder, &plan, &sweep, &run);
+    answer.refined = refined.and_then(|it| refined::Answer::new(&sweep, it.runs, it.end));
 
     if stop.load(Ordering::Relaxed) {
         console.note(format_args!(
@@ -152,6 +174,46 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     answer.files = console.files();
     console.answer(&answer);
     Ok(if failed { Exit::Failed } else { Exit::Done })
+}
+
+/// Refuses to keep labels that other thresholds gave.
+fn refuse_other_thresholds(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
+    if !folder.labels().exists() {
+        return Ok(());
+    }
+    let stored = folder.read_sweep().map_err(Failure::refused)?;
+    match stored.sieves == sweep.sieves {
+        true => Ok(()),
+        false => Err(Failure::refused(format_args!(
+            "{}: other thresholds ([sieves]) gave these labels, which cannot be kept; leave out \
+             --keep-labels, or use the thresholds of {}",
+            folder.labels().display(),
+            folder.sweep().display()
+        ))),
+    }
+}
+
+/// Takes the seeds of the command line, and refines the sweep if that is asked for.
+fn choose_runs(sweep: &mut Sweep, arguments: &Arguments) -> Result<(), Failure> {
+    if !arguments.seed.is_empty() {
+        let seeds = distinct(&arguments.seed)?;
+        if let Some(refining) = &sweep.refine {
+            refining::check(refining, &seeds)?;
+            sweep.refine_from_seed(seeds[0]).map_err(Failure::refused)?;
+        } else {
+            sweep.seeds = seeds;
+            sweep.border_seeds.clear();
+        }
+    }
+    if arguments.refine && sweep.refine.is_none() {
+        sweep.refine_by_default().map_err(Failure::refused)?;
+    }
+    if arguments.no_classify && sweep.refine.is_some() {
+        return Err(Failure::refused(
+            "refining needs labels; leave out --no-classify",
+        ));
+    }
+    Ok(())
 }
 
 /// Warns of sieves that find nothing in any run, as these are too short.
@@ -188,9 +250,14 @@ fn tell_of_other_sweep(folder: &Folder, sweep: &Sweep, console: &Console) {
     };
     let earlier = Sweep {
         border_points: sweep.border_points.clone(),
+        refine: earlier.refine.as_ref().map(Refining::without_runs),
         ..earlier
     };
-    let keys = differing_keys(&earlier, sweep);
+    let sweep = Sweep {
+        refine: sweep.refine.as_ref().map(Refining::without_runs),
+        ..sweep.clone()
+    };
+    let keys = differing_keys(&earlier, &sweep);
     if !keys.is_empty() {
         console.note(format_args!(
             "the sweep has changed since it was last run into {} ({}); records it still needs are \
@@ -218,6 +285,8 @@ struct Answer {
     cpu_seconds: f64,
     sphere_steps: u64,
     labels: Option<classify::Summary>,
+    /// How well borders are known; none if the whole grid is run.
+    refined: Option<refined::Answer>,
     /// The files written, but for the records.
     files: Vec<PathBuf>,
 }
@@ -239,6 +308,7 @@ impl Answer {
             cpu_seconds: run.report.cpu_seconds,
             sphere_steps: run.report.work,
             labels: None,
+            refined: None,
             files: Vec::new(),
         }
     }

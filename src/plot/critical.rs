@@ -2,7 +2,7 @@
 
 use super::chart::samples;
 use super::contour::{Nodes, Piece};
-use super::diagram::Curve;
+use super::diagram::{Curve, Stroke};
 use super::grid::{Grid, GridAxis, Panel};
 use super::scale::Span;
 use crate::scene::Scene;
@@ -16,7 +16,7 @@ pub(super) const WORDS: [&str; 2] = ["critical rotation $Ω_c$", "with friction,
 /// The curves Omega = Omega_c and Omega = Omega_mu inside a panel, in shown values; empty if the
 /// figure has no axis for Omega or the scene lacks what they need. What a panel is for counts
 /// instead of the scene's value. On a strip y goes from 0 to 1.
-pub(super) fn curves(scene: &Scene, grid: &Grid, panel: &Panel) -> Vec<Curve> {
+pub(super) fn curves<P>(scene: &Scene, grid: &Grid<P>, panel: &Panel<P>) -> Vec<Curve> {
     let upright = grid.y.as_ref().is_some_and(|axis| axis.key == OMEGA);
     let (omega, other) = match &grid.y {
         Some(y) if y.key == OMEGA => (y, Some(&grid.x)),
@@ -63,11 +63,11 @@ pub(super) fn curves(scene: &Scene, grid: &Grid, panel: &Panel) -> Vec<Curve> {
     vec![
         Curve {
             pieces: along(&with),
-            dashed: true,
+            stroke: Stroke::Dashed,
         },
         Curve {
             pieces: along(&without),
-            dashed: false,
+            stroke: Stroke::Full,
         },
     ]
 }
@@ -99,7 +99,7 @@ fn pieces(
 }
 
 /// Value of a key that the panel stands for.
-fn fixed(key: &str, grid: &Grid, panel: &Panel) -> Option<f64> {
+fn fixed<P>(key: &str, grid: &Grid<P>, panel: &Panel<P>) -> Option<f64> {
     [(&grid.columns, panel.column), (&grid.rows, panel.row)]
         .into_iter()
         .find_map(|(axis, value)| match axis {
@@ -157,6 +157,7 @@ mod tests {
             seeds: vec![1],
             border_seeds: Vec::new(),
             border_points: Vec::new(),
+            refine: None,
             sieves: Sieves::default(),
             plot: PlotSettings::default(),
         };

@@ -33,6 +33,8 @@ pub(super) struct Look {
     pub(super) agreement: f64,
     /// A line is drawn between neighbours of different groups, such as codes of labels.
     pub(super) group: Option<i8>,
+    /// Whether a dot shows that something is there, such as a run.
+    pub(super) is_marked: bool,
 }
 
 impl Look {
@@ -42,6 +44,7 @@ impl Look {
             fill,
             agreement: 1.0,
             group,
+            is_marked: false,
         }
     }
 }
@@ -50,21 +53,35 @@ impl Look {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Curve {
     pub(super) pieces: Vec<Piece>,
-    /// Whether it is a thin dashed one.
-    pub(super) dashed: bool,
+    pub(super) stroke: Stroke,
+}
+
+/// How a curve is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Stroke {
+    /// A theory.
+    Full,
+    /// An advice: thin and dashed.
+    Dashed,
+    /// A border between labels: thin.
+    Border,
 }
 
 impl Curve {
     /// Entries of the legend for the curves that there are, with words for full and dashed ones.
     pub(super) fn entries(curves: &[Vec<Self>], words: [&str; 2]) -> Vec<Entry> {
-        let is_there = |dashed: bool| {
+        let is_there = |stroke: Stroke| {
             let mut curves = curves.iter().flatten();
-            curves.any(|curve| curve.dashed == dashed && !curve.pieces.is_empty())
+            curves.any(|curve| curve.stroke == stroke && !curve.pieces.is_empty())
         };
         let [full, dashed] = words;
-        let entries = [(false, Key::Curve, full), (true, Key::Dashes, dashed)].into_iter();
+        let entries = [
+            (Stroke::Full, Key::Curve, full),
+            (Stroke::Dashed, Key::Dashes, dashed),
+        ];
+        let entries = entries.into_iter();
         entries
-            .filter(|(dashed, ..)| is_there(*dashed))
+            .filter(|(stroke, ..)| is_there(*stroke))
             .map(|(_, key, words)| Entry::new(key, words))
             .collect()
     }
@@ -184,8 +201,12 @@ impl<P> Diagram<'_, P> {
             style::paint(sheet, corners, fill)?;
         }
         self.draw_borders(sheet, plot, &looks)?;
-        for Curve { pieces, dashed } in curves {
-            let draw = if *dashed { style::dashes } else { style::curve };
+        for Curve { pieces, stroke } in curves {
+            let draw = match stroke {
+                Stroke::Full => style::curve,
+                Stroke::Dashed => style::dashes,
+                Stroke::Border => style::border,
+            };
             for piece in pieces {
                 let pixels = piece.iter().map(|point| plot.map_coordinate(point));
                 draw(sheet, &pixels.collect::<Vec<_>>())?;
@@ -197,6 +218,9 @@ impl<P> Diagram<'_, P> {
                 && look.agreement < 1.0
             {
                 style::disagreement(sheet, corners, look.agreement, page.legend.0.cell)?;
+            }
+            if look.is_some_and(|look| look.is_marked) {
+                style::mark(sheet, corners)?;
             }
         }
         axes.draw()

@@ -24,6 +24,10 @@ pub(super) enum Key {
     Curve,
     /// The curve of an advice.
     Dashes,
+    /// A border between labels.
+    Border,
+    /// The dot of a run.
+    Mark,
     /// A line of a chart.
     Line(RGBColor),
     /// A dot.
@@ -107,6 +111,8 @@ fn draw_key(sheet: &Sheet<'_>, key: Key, (left, middle): (i32, i32), cell: i32) 
             style::disagreement(sheet, corners, agreement, cell)?;
         }
         Key::Curve => return style::curve(sheet, &[(left, middle), (right, middle)]),
+        Key::Border => return style::border(sheet, &[(left, middle), (right, middle)]),
+        Key::Mark => return style::mark(sheet, corners),
         Key::Dashes => return style::dashes(sheet, &[(left, middle), (right, middle)]),
         Key::Dot(color) => {
             let middle = (left.midpoint(right), middle);

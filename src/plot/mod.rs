@@ -33,6 +33,7 @@ mod palette;
 mod phase;
 mod png;
 mod records;
+mod refined;
 mod scale;
 mod series;
 mod speeds;
@@ -55,6 +56,7 @@ pub use tracks::draw as draw_tracks;
 use crate::classify::Family;
 use crate::classify::LabelTable;
 use crate::record::{Program, RunRecord};
+use crate::refine::RefineError;
 use crate::store::StoreError;
 use crate::sweep::{SelectError, Sweep};
 
@@ -106,6 +108,7 @@ trait Figure: Sync {
 fn all() -> Vec<&'static dyn Figure> {
     let mut figures: Vec<&dyn Figure> = vec![
         &phase::PhaseDiagram,
+        &refined::RefinedDiagram,
         &states::States,
         &speeds::Speeds,
         &energies::ENERGIES,
@@ -240,6 +243,15 @@ pub enum PlotError {
         /// The axis.
         name: String,
     },
+    /// The sweep is not refined.
+    #[error(
+        "the figure `refined` needs a refined sweep: a table [refine] in its file, or `phase sweep \
+         --refine`"
+    )]
+    NotRefined,
+    /// What a refined sweep has learnt cannot be told.
+    #[error(transparent)]
+    Refine(#[from] RefineError),
     /// There is no axis to draw along.
     #[error("no axis is left for x: the figure needs a sweep over at least one axis")]
     NoAxis,
@@ -347,6 +359,7 @@ impl PlotError {
                 | Self::OtherFamily { .. }
                 | Self::NeedsAxis { .. }
                 | Self::NoPoints(_)
+                | Self::NotRefined
                 | Self::Select(_)
                 | Self::OpenAxis { .. }
                 | Self::NoRun { .. }

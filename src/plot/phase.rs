@@ -57,7 +57,7 @@ fn has_majority(point: &Point) -> bool {
     point.agreement > 0.5
 }
 
-fn fill(label: Label) -> Fill {
+pub(super) fn fill(label: Label) -> Fill {
     match label {
         // Its colour is that of the critical rotation.
         Label::UNSTABLE => Fill::CrossHatch,
@@ -75,6 +75,7 @@ fn look(point: &Point) -> Look {
             },
             agreement: point.agreement,
             group: Some(point.label.code),
+            is_marked: false,
         }
     } else {
         Look::new(Fill::Stipple, None)

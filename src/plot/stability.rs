@@ -2,7 +2,7 @@
 //! with the theoretical limit of the time step over it.
 
 use super::contour::{Nodes, Piece};
-use super::diagram::{Curve, Diagram, Look};
+use super::diagram::{Curve, Diagram, Look, Stroke};
 use super::grid::{Grid, GridAxis, Panel};
 use super::legend::{Entry, Key};
 use super::style::Fill;
@@ -122,11 +122,11 @@ fn curves(study: &Study, integrator: Integrator, x: &GridAxis, y: &GridAxis) -> 
     vec![
         Curve {
             pieces: of(|theory| theory.twelve_contacts),
-            dashed: true,
+            stroke: Stroke::Dashed,
         },
         Curve {
             pieces: of(|theory| theory.decisive),
-            dashed: false,
+            stroke: Stroke::Full,
         },
     ]
 }

@@ -157,6 +157,22 @@ pub(super) fn disagreement(
     sheet.draw(&Circle::new(centre, radius, BLACK.stroke_width(8)))
 }
 
+/// Radius of the dot of a run.
+const MARK: i32 = px(2);
+
+/// Marks a cell in which a run was made: a black dot with a white rim.
+pub(super) fn mark(sheet: &Sheet<'_>, corners: Corners) -> Drawn {
+    let [(left, top), (right, bottom)] = corners;
+    let centre = (left.midpoint(right), top.midpoint(bottom));
+    sheet.draw(&Circle::new(centre, MARK + 8, WHITE.filled()))?;
+    sheet.draw(&Circle::new(centre, MARK, BLACK.filled()))
+}
+
+/// Draws a border between labels: a thin black line.
+pub(super) fn border(sheet: &Sheet<'_>, points: &[(i32, i32)]) -> Drawn {
+    sheet.draw(&PathElement::new(points, BLACK.mix(0.85).stroke_width(12)))
+}
+
 /// Draws the curve of a theory: black with a white border, visible on every colour.
 pub(super) fn curve(sheet: &Sheet<'_>, points: &[(i32, i32)]) -> Drawn {
     sheet.draw(&PathElement::new(points, WHITE.stroke_width(44)))?;

@@ -8,9 +8,11 @@ mod checkpoint;
 mod dump;
 mod export;
 mod hashed;
+mod import;
 mod labels;
 mod lock;
 mod record;
+mod refined;
 mod rows;
 
 pub use crate::document::advice;
@@ -23,12 +25,14 @@ pub use export::{
     PAGE_SIGNATURE, SPHERES_SIGNATURE, frame_name, write_arrays, write_fixed, write_fixed_xyz,
     write_observations, write_page, write_spheres, write_svg, write_vtk, write_xyz,
 };
+pub use import::read_states;
 pub use labels::{read_labels, write_labels, write_points};
 pub use lock::Lock;
 pub use record::{
     HDF5_SIGNATURE, RecordHeader, content_digest, motion_digest, read_record, read_record_header,
     write_record, write_record_and_drop_states,
 };
+pub use refined::{BorderRow, write_borders, write_probabilities};
 pub use rows::write_rows;
 
 use std::io;

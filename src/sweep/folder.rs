@@ -1,9 +1,11 @@
 //! The results folder of a sweep: what lies where in it.
 
 use super::Sweep;
+use crate::classify::LabelRow;
 use crate::record::RunRecord;
 use crate::resume::Checkpoints;
 use crate::store::{self, Lock, StoreError};
+use std::collections::HashMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -13,6 +15,8 @@ use std::time::Duration;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Folder {
     root: PathBuf,
+    /// Whether runs that have a label count as done without their records.
+    keeps_labels: bool,
 }
 
 /// What can be wrong with a results folder.
@@ -68,7 +72,28 @@ pub enum FolderError {
 impl Folder {
     /// The results folder at `root`, which need not exist yet.
     pub fn new(root: impl Into<PathBuf>) -> Self {
-        Self { root: root.into() }
+        Self {
+            root: root.into(),
+            keeps_labels: false,
+        }
+    }
+
+    /// The same folder, in which runs that have a label count as done without their records.
+    pub fn keeping_labels(self) -> Self {
+        Self {
+            keeps_labels: true,
+            ..self
+        }
+    }
+
+    /// The labels that count without records, by the identities of their runs.
+    pub(super) fn kept_labels(&self) -> HashMap<String, LabelRow> {
+        let table = self
+            .keeps_labels
+            .then(|| store::read_labels(&self.labels()));
+        let rows = table.and_then(Result::ok).map(|table| table.rows);
+        let rows = rows.unwrap_or_default().into_iter();
+        rows.map(|row| (row.id.clone(), row)).collect()
     }
 
     /// The results folder at `path`, or all of them that lie directly in it, by name.
@@ -152,6 +177,16 @@ impl Folder {
     /// The table of points, one row per point of the grid.
     pub fn points(&self) -> PathBuf {
         self.root.join("points.csv")
+    }
+
+    /// The table of probabilities of a refined sweep, one row per point of the grid.
+    pub fn refined(&self) -> PathBuf {
+        self.root.join("refined.csv")
+    }
+
+    /// The table of borders of a refined sweep.
+    pub fn borders(&self) -> PathBuf {
+        self.root.join("borders.csv")
     }
 
     /// The table of failed jobs; absent if none failed.

@@ -43,32 +43,50 @@ pub struct PointError {
 
 impl Sweep {
     /// All jobs. The first axis varies slowest; the seeds of a point follow each other, at border
-    /// points (`border_points`) with `border_seeds` after them.
+    /// points (`border_points`) with `border_seeds` after them. Of a refined sweep those that have
+    /// been chosen so far, by point and seed.
     ///
     /// # Errors
     /// The first point whose scene cannot be run. Never for a sweep that [`load`](super::load)
     /// returned.
     pub fn jobs(&self) -> Result<Vec<Job>, PointError> {
-        let mut jobs = Vec::with_capacity(self.points() * self.seeds.len());
-        let mut scenes = PointScenes::new(&self.scene, &self.axes)?;
-        for values in self.grid() {
-            let scene = scenes.checked(&values)?;
+        if let Some(refining) = &self.refine {
+            return self.jobs_of_runs(&refining.runs());
+        }
+        self.jobs_at(self.grid().flat_map(|values| {
             let more = match self.border_points.contains(&values) {
                 true => &self.border_seeds[..],
                 false => &[],
             };
-            for &seed in self.seeds.iter().chain(more) {
-                let scene = Scene {
-                    seed,
-                    ..scene.clone()
-                };
-                jobs.push(Job {
-                    id: scene.identity(),
-                    values: values.clone(),
-                    seed,
-                    scene,
-                });
-            }
+            let seeds = self.seeds.iter().chain(more);
+            seeds.map(move |seed| (values.clone(), *seed))
+        }))
+    }
+
+    /// The jobs of these points and seeds, in this order.
+    pub(super) fn jobs_at(
+        &self,
+        runs: impl Iterator<Item = (Vec<f64>, u64)>,
+    ) -> Result<Vec<Job>, PointError> {
+        let mut scenes = PointScenes::new(&self.scene, &self.axes)?;
+        let mut last: Option<(Vec<f64>, Scene)> = None;
+        let mut jobs = Vec::new();
+        for (values, seed) in runs {
+            let scene = match last {
+                Some((at, scene)) if at == values => scene,
+                _ => scenes.checked(&values)?,
+            };
+            let of_seed = Scene {
+                seed,
+                ..scene.clone()
+            };
+            jobs.push(Job {
+                id: of_seed.identity(),
+                values: values.clone(),
+                seed,
+                scene: of_seed,
+            });
+            last = Some((values, scene));
         }
         Ok(jobs)
     }

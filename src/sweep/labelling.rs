@@ -1,6 +1,6 @@
 //! Labels every run of a results folder from its record.
 
-use super::{Folder, Job, PlotSettings, Sweep, work};
+use super::{Folder, Job, PlotSettings, Refining, Sweep, work};
 use crate::classify::{self, ClassifyError, Family, Label, LabelRow, LabelTable, Sieves};
 use crate::document::differing_keys;
 use crate::scene::Scene;
@@ -30,7 +30,11 @@ impl Labelling {
         jobs: &[Job],
         workers: usize,
     ) -> Result<Self, rayon::ThreadPoolBuildError> {
-        let found = work::map(workers, jobs, |job| label(folder, sweep, job))?;
+        let kept = folder.kept_labels();
+        let found = work::map(workers, jobs, |job| {
+            let row = label(folder, sweep, job)?;
+            Ok(row.or_else(|| kept.get(&job.id).cloned()))
+        })?;
         let mut labelling = Self {
             table: LabelTable {
                 family: Family::of(&sweep.scene),
@@ -228,6 +232,7 @@ impl Sweep {
                 ..sweep.scene.clone()
             },
             border_points: Vec::new(),
+            refine: sweep.refine.as_ref().map(Refining::without_runs),
             sieves: Sieves::default(),
             plot: PlotSettings::default(),
             ..sweep.clone()

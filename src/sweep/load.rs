@@ -2,6 +2,7 @@
 
 use super::axis::AxisEntry;
 use super::job::{PointError, PointScenes, points};
+use super::refining::RefineEntry;
 use super::seeds::{SweepSeeds, expand_seeds};
 use super::{Axis, PlotSettings, Sweep};
 use crate::classify::{ClassifyError, Family, Sieves};
@@ -37,6 +38,8 @@ pub(crate) struct SweepFile {
     axis: Vec<AxisEntry>,
     /// Seeds; each point of the grid runs once per seed. Absent: seed 1 alone.
     seeds: Option<SweepSeeds>,
+    /// Runs only where labels need them, in place of the whole grid. Absent: the whole grid is run.
+    refine: Option<RefineEntry>,
     /// Thresholds of the sieves, which label the runs.
     #[serde(default)]
     sieves: Sieves,
@@ -86,15 +89,22 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
         scene.time.safety_factor = None;
     }
     let entry = file.seeds.as_ref();
-    let seeds = expand_seeds(entry.map(|seeds| &seeds.of_all), &mut problems);
-    let border_seeds = entry.map(|entry| entry.more_at_borders(&seeds, &mut problems));
-    let sweep = Sweep {
+    let (seeds, border_seeds) = match &file.refine {
+        Some(refine) => (refine.seeds(entry, &mut problems), None),
+        None => {
+            let seeds = expand_seeds(entry.map(|seeds| &seeds.of_all), &mut problems);
+            let more = entry.map(|entry| entry.more_at_borders(&seeds, &mut problems));
+            (seeds, more)
+        }
+    };
+    let mut sweep = Sweep {
         title: file.title,
         scene,
         axes,
         seeds,
         border_seeds: border_seeds.unwrap_or_default(),
         border_points: Vec::new(),
+        refine: None,
         sieves: file.sieves,
         plot: file.plot,
     };
@@ -106,6 +116,10 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     check_axes(&sweep.axes, &mut problems);
     check_sieves(&sweep, document.tree(), &mut problems);
     document.accept(&problems)?;
+    if let Some(refine) = &file.refine {
+        refine.refine(&mut sweep, &mut problems);
+        document.accept(&problems)?;
+    }
     check_plot(&sweep, &mut problems);
     check_grid(&sweep, document, &mut problems);
     document.accept(&problems)?;

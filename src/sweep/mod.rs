@@ -11,6 +11,7 @@ mod labelling;
 mod load;
 mod plan;
 mod pool;
+mod refining;
 mod seeds;
 mod select;
 mod spacing;
@@ -35,6 +36,7 @@ pub(crate) use load::{
 pub use load::{from_str, load};
 pub use plan::{Done, ForeignRecord, Plan, Standing};
 pub use pool::{Pool, PoolError};
+pub use refining::{FAILED, Learnt, Refinement, RefinementError, Refining, Step, label_name};
 pub(crate) use seeds::{SeedsEntry, expand_seeds};
 pub use select::{SelectError, parse_point};
 pub use status::{Status, UnderWay};
@@ -64,6 +66,10 @@ pub struct Sweep {
     /// The points of the grid at borders, as far as labels have told them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub border_points: Vec<Vec<f64>>,
+    /// How it is refined, if not the whole grid is run: its `seeds` are then those that a point
+    /// may have.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub refine: Option<Refining>,
     /// Thresholds of the sieves.
     pub sieves: Sieves,
     /// What the phase diagram shows.
@@ -79,6 +85,7 @@ impl Sweep {
             seeds: vec![scene.seed],
             border_seeds: Vec::new(),
             border_points: Vec::new(),
+            refine: None,
             scene,
             sieves: Sieves::default(),
             plot: PlotSettings::default(),

@@ -21,6 +21,8 @@ pub enum Standing {
     Missing,
     /// A good record of this very scene.
     Done(Done),
+    /// A label that counts without a record.
+    Labelled,
     /// A good record of the same motion, but other things were stored.
     OtherOutput,
     /// A record that cannot be read; says why.
@@ -69,7 +71,13 @@ impl Plan {
     ) -> Result<Self, rayon::ThreadPoolBuildError> {
         let mut seen = HashSet::new();
         jobs.retain(|job| seen.insert(job.id.clone()));
-        let standings = work::map(workers, &jobs, |job| standing(job, &folder.record(&job.id)))?;
+        let kept = folder.kept_labels();
+        let standings = work::map(workers, &jobs, |job| {
+            match standing(job, &folder.record(&job.id)) {
+                Standing::Missing if kept.contains_key(&job.id) => Standing::Labelled,
+                standing => standing,
+            }
+        })?;
         Ok(Self {
             jobs: jobs.into_iter().zip(standings).collect(),
         })
@@ -107,9 +115,19 @@ impl Plan {
             })
     }
 
+    /// The jobs that have a label, from their records or kept without.
+    pub fn labelled(&self) -> impl Iterator<Item = &Job> {
+        let has_label =
+            |standing: &Standing| matches!(standing, Standing::Done(_) | Standing::Labelled);
+        let jobs = self.jobs.iter();
+        jobs.filter(move |(_, standing)| has_label(standing))
+            .map(|(job, _)| job)
+    }
+
     /// The jobs that are to be run.
     pub fn pending(&self) -> impl Iterator<Item = &Job> {
-        let pending = |standing: &Standing| !matches!(standing, Standing::Done(_));
+        let pending =
+            |standing: &Standing| !matches!(standing, Standing::Done(_) | Standing::Labelled);
         self.jobs
             .iter()
             .filter(move |(_, standing)| pending(standing))

@@ -155,6 +155,7 @@ mod tests {
                 seeds: vec![1],
                 border_seeds: Vec::new(),
                 border_points: Vec::new(),
+                refine: None,
                 sieves,
                 plot,
             },

@@ -29,6 +29,28 @@ pub(crate) struct SeedsEntry {
 }
 
 impl SweepSeeds {
+    /// The first seed of a refined sweep, whose table `[refine]` says how many there are.
+    pub(super) fn first_of_refined(&self, problems: &mut Vec<Problem>) -> u64 {
+        let given = [
+            ("count", self.of_all.count.is_some()),
+            ("list", self.of_all.list.is_some()),
+        ];
+        for (key, _) in given.iter().filter(|(_, is_given)| *is_given) {
+            let message = format!("`seeds.{key}` has no effect in a refined sweep");
+            let help = "remove it; `refine.replicates` says how many seeds a point has at most";
+            let problem = Problem::new(format!("seeds.{key}"), message);
+            problems.push(problem.help(help).at_key());
+        }
+        if self.at_borders.is_some() {
+            let message = "`seeds.at_borders` has no effect in a refined sweep, which gives the \
+                           points at borders more seeds itself";
+            let problem = Problem::new("seeds.at_borders", message);
+            let help = "remove it, or the table [refine]";
+            problems.push(problem.help(help).at_key());
+        }
+        self.of_all.first.unwrap_or(1)
+    }
+
     /// The seeds that only points at borders have: those after the `seeds` of all points.
     pub(super) fn more_at_borders(&self, seeds: &[u64], problems: &mut Vec<Problem>) -> Vec<u64> {
         let Some(number) = self.at_borders else {

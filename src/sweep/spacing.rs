@@ -49,7 +49,7 @@ fn ends(from: f64, to: f64, count: usize, at: impl Fn(f64) -> f64) -> Vec<f64> {
 }
 
 /// `value`, rounded to the decimals that `scale` has with this number of significant digits.
-fn clean(value: f64, scale: f64, digits: i32) -> f64 {
+pub(super) fn clean(value: f64, scale: f64, digits: i32) -> f64 {
     let scientific = format!("{scale:e}");
     let exponent = scientific
         .split('e')

@@ -69,8 +69,12 @@ impl Status {
         let left_ids: HashSet<_> = plan.pending().map(|job| &job.id).collect();
         let mut failures = read_failures(&folder.failures())?;
         failures.retain(|failure| left_ids.contains(&failure.id));
-        let is_bad =
-            |standing: &Standing| !matches!(standing, Standing::Done(_) | Standing::Missing);
+        let is_bad = |standing: &Standing| {
+            !matches!(
+                standing,
+                Standing::Done(_) | Standing::Labelled | Standing::Missing
+            )
+        };
         let is_unstable = |outcome: &Outcome| matches!(outcome, Outcome::Unstable(_));
         Ok(Self {
             jobs: plan.jobs.len(),

@@ -181,3 +181,30 @@ fn seeds_of_border_points_and_points_without_label_do_not_move_borders() {
     });
     assert!(sweep.points_at_borders(&table).is_empty());
 }
+
+#[test]
+fn labels_count_without_their_records() {
+    let place = Workplace::new();
+    sweep(&place, &tiny("at_borders = 4"), "all", &[]);
+    sweep(&place, &tiny(""), "kept", &[]);
+    std::fs::remove_dir_all(place.path("kept/records")).unwrap();
+    place.write("tiny.toml", &tiny("at_borders = 4").text());
+    let arguments = ["sweep", "tiny.toml", "--out", "kept", "--no-plot"];
+    // Without being asked for, no label is lost.
+    place
+        .phase(&arguments)
+        .code(2)
+        .complains("labels would be lost");
+    let kept = place.phase(&[&arguments[..], &["--keep-labels", "--json"]].concat());
+    let kept: serde_json::Value = serde_json::from_str(&kept.code(0).stdout).unwrap();
+    assert_eq!([&kept["jobs"], &kept["run_now"]], [12, 4]);
+    for file in ["labels.csv", "points.csv"] {
+        let [all, kept] = ["all", "kept"].map(|folder| place.read(&format!("{folder}/{file}")));
+        assert_eq!(all, kept, "{file}");
+    }
+    // Those of other thresholds are not kept.
+    let other = format!("{}[sieves.settle]\ntolerance = 1e-9\n", tiny("").text());
+    place.write("tiny.toml", &other);
+    let refused = place.phase(&[&arguments[..], &["--keep-labels"]].concat());
+    refused.code(2).complains("other thresholds");
+}

@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The commands that answer in JSON are tested below; these are all.
-const COMMANDS: [&str; 20] = [
+const COMMANDS: [&str; 21] = [
     "sweep",
     "classify",
     "plot",
@@ -17,6 +17,7 @@ const COMMANDS: [&str; 20] = [
     "cost",
     "neighbours",
     "compare",
+    "fit",
     "stability",
     "accuracy",
     "ablate",
@@ -375,6 +376,30 @@ fn a_study_of_stability_answers_in_json() {
         files.contains(&"results/stability/study/stability.png".into()),
         "{study}"
     );
+}
+
+#[test]
+fn a_refined_sweep_answers_in_json() {
+    let place = Workplace::new();
+    let tiny = TinySweep::default().text();
+    let table = "[refine]\nbudget = 4\nstart = [2]\nround = 1";
+    place.write("tiny.toml", &tiny.replace("[seeds]\nlist = [1, 2]", table));
+    let check = answer(&place, &["check", "tiny.toml", "--no-trial"], 0);
+    assert_eq!((&check["jobs"], &check["budget"]), (&2.into(), &4.into()));
+    let swept = answer(&place, &["sweep", "tiny.toml", "--no-plot"], 0);
+    let refined = &swept["refined"];
+    assert_eq!(refined["end"], "budget", "{swept}");
+    assert_eq!(
+        (&refined["runs"], &refined["budget"]),
+        (&4.into(), &4.into())
+    );
+    let border = &refined["borders"][0];
+    assert_eq!(border["axis"], "omega", "{swept}");
+    assert_eq!(border["labels"][1], "pinned", "{swept}");
+    let status = answer(&place, &["status", "results/tiny"], 0);
+    let folder = &status["folders"][0]["refined"];
+    assert_eq!(folder["end"], Value::Null);
+    assert_eq!(folder["borders"], refined["borders"]);
 }
 
 #[test]

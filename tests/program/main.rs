@@ -7,9 +7,11 @@ mod accuracy;
 mod borders;
 mod checkpoint;
 mod command_line;
+mod compare;
 mod cost;
 mod editors;
 mod figures;
+mod fit;
 /// How the program writes numbers; its unit tests run here.
 #[path = "../../src/cli/format.rs"]
 #[allow(dead_code, reason = "the program uses all of it")]
@@ -21,6 +23,7 @@ mod model;
 mod plot;
 mod published;
 mod records;
+mod refine;
 mod resume;
 mod rooms;
 mod scene_files;

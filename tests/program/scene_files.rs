@@ -2,6 +2,7 @@
 //! the message that stands beside it. `BLESS=1` writes these messages anew; read the difference.
 
 use phase::document::LoadError;
+use phase::refine::{Choice, ModelKind, Settings};
 use phase::scene::{self, Radii, Scene, Start};
 use phase::study::{accuracy, stability};
 use phase::sweep::{self, Sweep};
@@ -114,10 +115,21 @@ fn shipped_sweeps_have_the_grids_they_promise() {
         ("beverloo", 8 * 2 * 4),
         ("spot", 7 * 6 * 3),
         ("silo-fillings", 2 * 12),
+        // Coarse grids.
+        ("theoretical-refined", 6 * 6),
+        ("theoretical-density", 6 * 6 * 3),
     ];
     for (name, jobs) in others {
         let sweep = load_sweep(format!("sweeps/{name}.toml"));
         assert_eq!(sweep.jobs().unwrap().len(), jobs, "{name}");
+    }
+    for (name, points, budget) in [
+        ("theoretical-refined", 41 * 41, 116),
+        ("theoretical-density", 41 * 41 * 9, 400),
+    ] {
+        let sweep = load_sweep(format!("sweeps/{name}.toml"));
+        assert_eq!(sweep.points(), points, "{name}");
+        assert_eq!(sweep.refine.unwrap().settings.budget, budget, "{name}");
     }
     for path in files("sweeps") {
         let name = path.file_stem().unwrap().to_str().unwrap();
@@ -217,6 +229,47 @@ fn a_sweep_without_axes_runs_its_seeds() {
     let jobs = load_sweep("tests/good/sweep-of-table.toml").jobs().unwrap();
     let seeds: Vec<u64> = jobs.iter().map(|job| job.seed).collect();
     assert_eq!(seeds, [5, 3, 11]);
+}
+
+#[test]
+fn a_table_of_refining_says_how() {
+    let sweep = load_sweep("tests/good/sweep-refined.toml");
+    // Ascending, and cut into finer steps in the scale of each axis.
+    let [omega, alpha] = [0, 1].map(|axis| &sweep.axes[axis].values);
+    assert_eq!((omega.len(), alpha.len()), (13, 9));
+    assert_eq!(omega[..3], [0.0, 2.5, 5.0]);
+    assert_eq!((alpha[0], alpha[2], alpha[8]), (0.01, 0.0316227766017, 1.0));
+    assert_eq!(sweep.seeds, [3, 4]);
+    let refining = sweep.refine.as_ref().unwrap();
+    let expected = Settings {
+        budget: 30,
+        width: Some(0.05),
+        start: vec![4, 3],
+        round: 5,
+        replicates: 2,
+        first_seed: 3,
+        exploring: 0.25,
+        model: ModelKind::Regression,
+        choice: Choice::Entropy,
+    };
+    assert_eq!(refining.settings, expected);
+    // The coarse grid.
+    assert_eq!(sweep.jobs().unwrap().len(), 12);
+}
+
+/// A tenth of the points, but no less than the coarse grid.
+#[test]
+fn a_budget_that_is_not_given_follows_the_grid() {
+    for (count, budget) in [(11, 36), (41, 169)] {
+        let text = format!(
+            "scene = 'tank.toml'
+            [[axis]]\nkey = 'omega'\nfrom = 0.0\nto = 40.0\ncount = {count}
+            [[axis]]\nkey = 'spheres.radius'\nfrom = 0.003\nto = 0.005\ncount = {count}
+            [refine]"
+        );
+        let sweep = sweep::from_str(&text, Path::new("tests/good/sweep.toml")).unwrap();
+        assert_eq!(sweep.refine.unwrap().settings.budget, budget);
+    }
 }
 
 #[test]

@@ -86,6 +86,7 @@ fn made_up() -> (Sweep, LabelTable) {
         seeds: SEEDS.to_vec(),
         border_seeds: Vec::new(),
         border_points: Vec::new(),
+        refine: None,
         sieves: Sieves::default(),
         plot: PlotSettings::default(),
     };

@@ -4,7 +4,7 @@ use crate::cli::console::Console;
 use crate::cli::exit::Failure;
 use phase::record::{Program, RunRecord};
 use phase::store::{self, StoreError};
-use phase::sweep::{Axis, Folder, Job, parse_point};
+use phase::sweep::{Axis, Folder, Job, Sweep, parse_point};
 use std::path::{Path, PathBuf};
 
 /// A job of a sweep, and where its record is.
@@ -63,6 +63,14 @@ impl Original {
             )));
         }
         let mut jobs = chosen.jobs().map_err(Failure::refused)?;
+        if jobs.is_empty() {
+            // A point at which a refined sweep has no run.
+            let whole = Sweep {
+                refine: None,
+                ..chosen.clone()
+            };
+            jobs = whole.jobs().map_err(Failure::refused)?;
+        }
         if jobs.is_empty() {
             return Err(refuse("the sweep has no seeds".to_owned()));
         }

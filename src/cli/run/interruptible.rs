@@ -47,6 +47,7 @@ pub(super) fn run(
             jobs_done: 0,
             steps: work,
             steps_done: told,
+            head: String::new(),
             unit: model.work_unit(),
         },
     );

@@ -1,4 +1,5 @@
-//! The rounds of a sweep: all points of the grid, then more seeds at borders.
+//! The rounds of a sweep: all points of the grid, then more seeds at borders. Those of refined
+//! sweeps are in `refining.rs`.
 
 use crate::cli::console::{Console, name_first};
 use crate::cli::exit::Failure;
@@ -22,6 +23,8 @@ pub(super) struct Rounds<'a> {
     pub(super) stop: &'a AtomicBool,
     pub(super) checkpoint_interval: Duration,
     pub(super) force: bool,
+    /// Whether figures are drawn.
+    pub(super) draws: bool,
     pub(super) console: &'a Console,
 }
 
@@ -71,6 +74,11 @@ impl Rounds<'_> {
     }
 
     fn run_plan(&self, plan: &Plan, sweep: &Sweep) -> Result<Run, Failure> {
+        self.run_part(plan, sweep, Part::default())
+    }
+
+    /// Runs a plan that is part of more.
+    pub(super) fn run_part(&self, plan: &Plan, sweep: &Sweep, part: Part) -> Result<Run, Failure> {
         let pool = Pool {
             folder: self.folder,
             sweep,
@@ -80,8 +88,17 @@ impl Rounds<'_> {
             resume: !self.force,
             watch: &|_| {},
         };
-        run(plan, pool, self.console)
+        run(plan, pool, part, self.console)
     }
+}
+
+/// What a plan is part of.
+#[derive(Default)]
+pub(super) struct Part {
+    /// What stands before its progress; may be empty.
+    pub(super) head: String,
+    /// Most jobs of the whole, if these are more than those of the plan.
+    pub(super) jobs: Option<usize>,
 }
 
 /// What was run now.
@@ -96,17 +113,22 @@ pub(super) struct Run {
 }
 
 /// Runs what is to be run of a plan and watches it.
-fn run(plan: &Plan, pool: Pool<'_>, console: &Console) -> Result<Run, Failure> {
+fn run(plan: &Plan, pool: Pool<'_>, part: Part, console: &Console) -> Result<Run, Failure> {
     let (sweep, workers) = (pool.sweep, pool.workers);
     let steps = Job::work;
+    let planned: u64 = plan.jobs.iter().map(|(job, _)| steps(job)).sum();
+    let jobs = part.jobs.unwrap_or(plan.jobs.len());
+    // Jobs that are not planned yet take as much work as the others do on average.
+    let scale = jobs as f64 / plan.jobs.len().max(1) as f64;
     let progress = Progress::new(
         console,
         Work {
-            jobs: plan.jobs.len(),
+            jobs,
             jobs_done: plan.done().count(),
-            steps: plan.jobs.iter().map(|(job, _)| steps(job)).sum(),
+            steps: (planned as f64 * scale) as u64,
             steps_done: plan.done().map(|(job, _)| steps(job)).sum(),
             unit: model_of(&sweep.scene).work_unit(),
+            head: part.head,
         },
     );
     let name = |job: &Job| describe(&sweep.axes, &job.values, job.seed);
@@ -162,6 +184,25 @@ impl Run {
                 ..later.report
             },
             done_before: later.done_before - self.report.finished,
+            seconds: self.seconds + later.seconds,
+            ..later
+        }
+    }
+
+    /// This and a later round of a refined sweep, whose plan has all jobs of this one that have not
+    /// failed.
+    pub(super) fn with_round(self, later: Self) -> Self {
+        let mut failures = self.report.failures;
+        failures.extend(later.report.failures);
+        Self {
+            report: Report {
+                finished: self.report.finished + later.report.finished,
+                resumed: self.report.resumed + later.report.resumed,
+                work: self.report.work + later.report.work,
+                cpu_seconds: self.report.cpu_seconds + later.report.cpu_seconds,
+                failures,
+                ..later.report
+            },
             seconds: self.seconds + later.seconds,
             ..later
         }
@@ -228,7 +269,7 @@ impl Run {
 }
 
 /// Says what is done already, and what is run again and why.
-fn tell_of_plan(plan: &Plan, console: &Console) {
+pub(super) fn tell_of_plan(plan: &Plan, console: &Console) {
     let done = plan.done().count();
     if done > 0 {
         console.note(format_args!(
@@ -248,7 +289,7 @@ fn tell_of_plan(plan: &Plan, console: &Console) {
                 "run again: the record of job {} was made with other output settings",
                 job.id
             )),
-            Standing::Missing | Standing::Done(_) | Standing::Foreign(_) => {}
+            Standing::Missing | Standing::Done(_) | Standing::Labelled | Standing::Foreign(_) => {}
         }
     }
 }

@@ -62,7 +62,11 @@ impl Base {
                 folder: document.folder().to_owned(),
             });
         }
-        let sweep = sweep::of_document(document)?;
+        // The whole grid is compared.
+        let sweep = Sweep {
+            refine: None,
+            ..sweep::of_document(document)?
+        };
         let entry = &document.tree()["scene"];
         let (tree, folder) = match entry.as_str() {
             Some(path) => {

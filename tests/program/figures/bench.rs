@@ -83,6 +83,7 @@ impl Tank {
                 seeds: vec![1, 2],
                 border_seeds: Vec::new(),
                 border_points: Vec::new(),
+                refine: None,
                 sieves: Sieves::default(),
                 plot: PlotSettings::default(),
             },

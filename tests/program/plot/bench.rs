@@ -71,6 +71,7 @@ pub(crate) fn sweep(title: &str, axes: Vec<Axis>, seeds: &[u64]) -> Sweep {
         seeds: seeds.to_vec(),
         border_seeds: Vec::new(),
         border_points: Vec::new(),
+        refine: None,
         sieves: Sieves::default(),
         plot: PlotSettings::default(),
     }

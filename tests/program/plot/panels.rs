@@ -3,8 +3,10 @@
 use super::bench::{
     OMEGA, RADIUS, axis, draw, has, linear, made_up, nine, sweep, table, texts, verdict,
 };
-use phase::classify::Label;
+use phase::classify::{Label, LabelTable};
+use phase::refine::Run;
 use phase::scene::Scene;
+use phase::sweep::{Axis, Sweep};
 use std::path::Path;
 
 #[test]
@@ -153,4 +155,88 @@ fn many_panels_widen_the_figure() {
         .nth(1)
         .and_then(|rest| rest.split('"').next());
     assert!(width.unwrap().parse::<f64>().unwrap() > 900.0);
+}
+
+/// A sweep of a made-up law that has been refined with runs at every third point.
+fn refined(axes: Vec<Axis>) -> (Sweep, LabelTable) {
+    let mut sweep = sweep("Refined", axes, &[1]);
+    let mut table = table(&sweep, |values, _| {
+        let third = values.get(2).map_or(0.0, |value| value / 2e4);
+        Some(made_up(values[0], values[1], third))
+    });
+    sweep.refine_by_default().unwrap();
+    let mut row = 0;
+    table.rows.retain(|_| {
+        row += 1;
+        row % 3 == 1
+    });
+    let refining = sweep.refine.as_mut().unwrap();
+    refining.chosen = table
+        .rows
+        .iter()
+        .map(|row| Run {
+            values: row.values.clone(),
+            seed: row.seed,
+        })
+        .collect();
+    (sweep, table)
+}
+
+#[test]
+fn a_refined_map_shows_borders_bands_runs_and_the_critical_rotation() {
+    let axes = vec![
+        axis(RADIUS, &linear(0.002, 0.006, 13)),
+        axis(OMEGA, &linear(0.0, 40.0, 13)),
+    ];
+    let (sweep, table) = refined(axes);
+    let svg = draw("refined", "refined", &sweep, &table);
+    for text in ["pinned", "in its 95 % band", "border", "run"] {
+        assert!(has(&svg, text), "{text} in {:?}", texts(&svg));
+    }
+    assert!(
+        texts(&svg)
+            .iter()
+            .any(|it| it.starts_with("critical rotation"))
+    );
+    // A dot and its rim for each point with a run, and for the legend.
+    let dots = svg.lines().filter(|line| line.starts_with("<circle"));
+    assert_eq!(dots.count(), 2 * (table.points().len() + 1));
+}
+
+#[test]
+fn a_third_axis_of_a_refined_map_has_four_panels() {
+    let axes = vec![
+        axis(RADIUS, &linear(0.002, 0.006, 7)),
+        axis(OMEGA, &linear(0.0, 40.0, 7)),
+        axis(("spheres.density", "density"), &linear(1000.0, 5000.0, 9)),
+    ];
+    let (sweep, table) = refined(axes);
+    let svg = draw("refined-three", "refined", &sweep, &table);
+    let heads = texts(&svg);
+    let heads = heads.iter().filter(|text| text.starts_with("ρ = "));
+    let heads: Vec<&String> = heads.collect();
+    let expected = ["1000", "2500", "3500", "5000"];
+    assert_eq!(heads.len(), 4, "{heads:?}");
+    for (head, number) in heads.iter().zip(expected) {
+        assert!(head.contains(number), "{head}");
+    }
+    draw("phase-of-refined-three", "phase", &sweep, &table);
+}
+
+#[test]
+fn one_axis_of_a_refined_map_is_a_strip() {
+    let (mut sweep, mut table) = refined(vec![
+        axis(OMEGA, &linear(0.0, 40.0, 13)),
+        axis(RADIUS, &[0.003]),
+    ]);
+    sweep.axes.pop();
+    table.axes.pop();
+    table.rows.iter_mut().for_each(|row| row.values.truncate(1));
+    let refining = sweep.refine.as_mut().unwrap();
+    refining
+        .chosen
+        .iter_mut()
+        .for_each(|run| run.values.truncate(1));
+    let svg = draw("refined-strip", "refined", &sweep, &table);
+    assert!(has(&svg, "run"));
 }

@@ -1,0 +1,125 @@
+//! How far a refined sweep is: its runs, and how well its borders are known.
+
+use super::{format, job};
+use phase::classify::Family;
+use phase::refine::{Finish, Gap, Width};
+use phase::sweep::{Refining, Sweep, label_name};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// What `--json` prints of a refined sweep.
+#[derive(Serialize)]
+pub(super) struct Answer {
+    runs: usize,
+    budget: usize,
+    /// Why no more runs are made; none while more are.
+    end: Option<&'static str>,
+    borders: Vec<Border>,
+}
+
+/// How well a border is known.
+#[derive(Serialize)]
+struct Border {
+    labels: [&'static str; 2],
+    axis: String,
+    crossings: usize,
+    mean: f64,
+    widest: f64,
+}
+
+impl Answer {
+    /// That of a sweep, if it is refined, with this number of runs.
+    pub(super) fn new(sweep: &Sweep, runs: usize, end: Option<Finish>) -> Option<Self> {
+        let refining = sweep.refine.as_ref()?;
+        let family = Family::of(&sweep.scene);
+        let border = |width: &Width| Border {
+            labels: width.labels.map(|code| label_name(family, code)),
+            axis: sweep.axes[width.axis].name.clone(),
+            crossings: width.crossings,
+            mean: width.mean,
+            widest: width.widest,
+        };
+        Some(Self {
+            runs,
+            budget: refining.settings.budget,
+            end: end.map(|end| match end {
+                Finish::Budget => "budget",
+                Finish::Width => "width",
+                Finish::Complete => "complete",
+            }),
+            borders: refining.widths.iter().map(border).collect(),
+        })
+    }
+}
+
+/// A part of an axis, as per cent.
+fn share(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// Names the two labels of a border.
+fn labels(sweep: &Sweep, width: &Width) -> String {
+    let family = Family::of(&sweep.scene);
+    let [one, other] = width.labels.map(|code| label_name(family, code));
+    format!("{one} to {other}")
+}
+
+/// The number of borders, and how wide the band of the worst one is.
+pub(super) fn describe_widest(sweep: &Sweep, refining: &Refining) -> String {
+    match refining.widest() {
+        None => "no border yet".to_owned(),
+        Some(width) => format!(
+            "{}, the widest band ({}) over {} of {}",
+            format::count(refining.widths.len(), "border"),
+            labels(sweep, width),
+            share(width.mean),
+            sweep.axes[width.axis].name
+        ),
+    }
+}
+
+/// One line for each border.
+pub(super) fn describe_borders(sweep: &Sweep, refining: &Refining) -> Vec<String> {
+    let line = |width: &Width| {
+        format!(
+            "{}: 95 % band over {} of {} on average, {} at most ({})",
+            labels(sweep, width),
+            share(width.mean),
+            sweep.axes[width.axis].name,
+            share(width.widest),
+            format::count(width.crossings, "crossing")
+        )
+    };
+    refining.widths.iter().map(line).collect()
+}
+
+/// Why no more runs are made.
+pub(super) fn describe_end(refining: &Refining, end: Finish) -> String {
+    let settings = &refining.settings;
+    match (end, settings.width) {
+        (Finish::Budget, None) => format!("the budget of {} runs is spent", settings.budget),
+        (Finish::Budget, Some(width)) => format!(
+            "the budget of {} runs is spent, before all bands are as narrow as wanted ({})",
+            settings.budget,
+            share(width)
+        ),
+        (Finish::Width, width) => format!(
+            "the bands of all borders are as narrow as wanted ({})",
+            share(width.unwrap_or(1.0))
+        ),
+        (Finish::Complete, _) => "every point has been run with all its seeds".to_owned(),
+    }
+}
+
+/// What the runs may have missed.
+pub(super) fn describe_gap(sweep: &Sweep, gap: &Gap) -> String {
+    let point: BTreeMap<String, f64> = job::point(&sweep.axes, &gap.values);
+    let point = point
+        .iter()
+        .map(|(name, value)| format!("{name} = {value}"));
+    format!(
+        "a region less than {} of the axes across may have been missed, such as at {}",
+        share(2.0 * gap.radius),
+        point.collect::<Vec<_>>().join(", ")
+    )
+}

@@ -1,0 +1,265 @@
+//! What a refined sweep has learnt: the most probable label at every point, how sure it is, borders
+//! as curves, and the runs.
+
+use super::critical;
+use super::diagram::{Curve, Diagram, Look, Stroke};
+use super::grid::{self, Grid, GridAxis, Panel};
+use super::legend::{Entry, Key};
+use super::phase;
+use super::style::Fill;
+use super::svg::Svg;
+use super::{Figure, PlotError, Source, palette};
+use crate::refine::{self, Code};
+use crate::sweep::{FAILED, Learnt};
+use std::collections::BTreeSet;
+
+/// Most panels along one axis.
+const MOST_PANELS: usize = 4;
+
+/// Probability of the most probable label below which a point is in the bands of 68 and 95 %.
+const BOUNDS: [f64; 2] = [0.84, 0.975];
+
+/// Share of a colour that is left in the bands, as for seeds of which this share agrees.
+const SHADES: [f64; 2] = [0.45, 0.75];
+
+/// The figure of a refined sweep.
+pub(super) struct RefinedDiagram;
+
+/// A point of the grid.
+#[derive(Clone, Copy, Debug)]
+struct Cell {
+    code: Code,
+    certainty: f64,
+    /// Whether a run was made there.
+    is_run: bool,
+}
+
+impl Figure for RefinedDiagram {
+    fn name(&self) -> &'static str {
+        "refined"
+    }
+
+    fn description(&self) -> String {
+        "of a refined sweep: the most probable label at every point, paler in the bands of its \
+         borders; the borders, and the runs"
+            .to_owned()
+    }
+
+    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
+        grid::check(source.sweep, source.table)?;
+        let learnt = Learnt::of(source.sweep, source.table)?.ok_or(PlotError::NotRefined)?;
+        let (grid, places) = grid_of(source, &learnt)?;
+        let curves = curves(source, &learnt, &grid, &places);
+        let cells = || grid.panels.iter().flat_map(|it| it.cells.iter().flatten());
+        let is_plane = grid.y.is_some();
+        let diagram = Diagram {
+            name: self.name(),
+            grid: &grid,
+            look: &|cell: &Cell| Some(look(source, *cell, is_plane)),
+            empty: "no value".to_owned(),
+            legend: legend(source, &cells().copied().collect::<Vec<_>>()),
+            bar: None,
+        };
+        let mut entries = Curve::entries(&curves, critical::WORDS);
+        let mut all = curves.iter().flatten();
+        if all.any(|curve| curve.stroke == Stroke::Border && !curve.pieces.is_empty()) {
+            entries.push(Entry::new(Key::Border, "border"));
+        }
+        let title = source.sweep.title.as_deref();
+        let (size, body) = diagram.body(title, &curves, entries)?;
+        Ok(Svg::new(self.name(), source, size, &body))
+    }
+}
+
+/// The grid of the figure, and a place of the lattice in each panel.
+fn grid_of(source: &Source<'_>, learnt: &Learnt) -> Result<(Grid<Cell>, Vec<usize>), PlotError> {
+    let sweep = source.sweep;
+    let places = grid::places(sweep)?;
+    let axis = |place: usize| {
+        let index = places[place]?;
+        let more = std::iter::empty();
+        Some(GridAxis::over(index, &sweep.axes, &sweep.scene, more))
+    };
+    let panels_of = |place: usize| {
+        let mut axis = axis(place)?;
+        axis.values = shown_values(&axis.values);
+        Some(axis)
+    };
+    let mut grid = Grid {
+        x: axis(0).ok_or(PlotError::NoAxis)?,
+        y: axis(1),
+        columns: panels_of(2),
+        rows: panels_of(3),
+        panels: Vec::new(),
+    };
+    let values = |axis: &Option<GridAxis>| match axis {
+        Some(axis) => axis.values.iter().copied().map(Some).collect(),
+        None => vec![None],
+    };
+    let lattice = &learnt.lattice;
+    let index_of = |axis: &GridAxis, value: f64| {
+        let mut known = lattice.axes()[axis.index].values().iter();
+        known.position(|other| *other == value).unwrap_or(0)
+    };
+    let run: BTreeSet<usize> = learnt
+        .runs
+        .iter()
+        .filter_map(|(run, _)| lattice.place_of(&run.values))
+        .collect();
+    let (columns, rows) = (values(&grid.columns), values(&grid.rows));
+    let mut of_panels = Vec::new();
+    for row in rows {
+        for &column in &columns {
+            let mut indices = vec![0; lattice.axes().len()];
+            for (axis, value) in [(&grid.columns, column), (&grid.rows, row)] {
+                if let Some((axis, value)) = axis.as_ref().zip(value) {
+                    indices[axis.index] = index_of(axis, value);
+                }
+            }
+            of_panels.push(lattice.place(&indices));
+            let heights = grid.y.as_ref().map_or(1, |axis| axis.values.len());
+            let mut cells = Vec::new();
+            for height in 0..heights {
+                for across in 0..grid.x.values.len() {
+                    indices[grid.x.index] = across;
+                    if let Some(y) = &grid.y {
+                        indices[y.index] = height;
+                    }
+                    let place = lattice.place(&indices);
+                    cells.push(Some(Cell {
+                        code: learnt.map.label(place),
+                        certainty: learnt.map.certainty(place),
+                        is_run: run.contains(&place),
+                    }));
+                }
+            }
+            let head = grid.columns.as_ref().zip(column);
+            grid.panels.push(Panel {
+                head: head.map(|(axis, value)| axis.at(value)),
+                column,
+                row,
+                cells,
+            });
+        }
+    }
+    Ok((grid, of_panels))
+}
+
+/// The values of an axis that have panels: all, or some at equal steps of the list with both ends.
+pub(super) fn shown_values(values: &[f64]) -> Vec<f64> {
+    if values.len() <= MOST_PANELS {
+        return values.to_vec();
+    }
+    let (last, steps) = (values.len() - 1, MOST_PANELS - 1);
+    let index = |step: usize| (2 * step * last + steps) / (2 * steps);
+    (0..=steps).map(|step| values[index(step)]).collect()
+}
+
+/// The curves of each panel: borders, and the critical rotation over them.
+fn curves(
+    source: &Source<'_>,
+    learnt: &Learnt,
+    grid: &Grid<Cell>,
+    places: &[usize],
+) -> Vec<Vec<Curve>> {
+    let codes = learnt.map.codes();
+    let pairs = || {
+        let all = codes.iter().enumerate();
+        all.flat_map(|(index, one)| codes[..index].iter().map(move |other| (*other, *one)))
+    };
+    let panels = grid.panels.iter().zip(places);
+    let of_panel = |(panel, place): (&Panel<Cell>, &usize)| {
+        let mut curves = Vec::new();
+        if let Some(y) = &grid.y {
+            let plane = refine::Panel {
+                lattice: &learnt.lattice,
+                map: &learnt.map,
+                x: grid.x.index,
+                y: y.index,
+                place: *place,
+            };
+            let shown = |curve: refine::Curve| {
+                let points = curve.into_iter();
+                points
+                    .map(|[at, height]| (grid.x.show(at), y.show(height)))
+                    .collect()
+            };
+            let pieces = pairs().flat_map(|(one, other)| plane.border(one, other));
+            curves.push(Curve {
+                pieces: pieces.map(shown).collect(),
+                stroke: Stroke::Border,
+            });
+        }
+        curves.extend(critical::curves(&source.sweep.scene, grid, panel));
+        curves
+    };
+    panels.map(of_panel).collect()
+}
+
+/// The fill of a label with this certainty.
+fn fill(source: &Source<'_>, code: Code, certainty: f64) -> Fill {
+    let mut labels = source.table.family.labels.iter();
+    let Some(label) = labels.find(|label| label.code == code) else {
+        return Fill::Stipple;
+    };
+    match phase::fill(*label) {
+        Fill::Color(color) => {
+            let mut bounds = BOUNDS.iter().zip(SHADES);
+            let shade = bounds.find(|(bound, _)| certainty < **bound);
+            Fill::Color(palette::faded(color, shade.map_or(1.0, |(_, shade)| shade)))
+        }
+        pattern => pattern,
+    }
+}
+
+fn look(source: &Source<'_>, cell: Cell, is_plane: bool) -> Look {
+    Look {
+        // Of a plane, borders are curves.
+        group: (!is_plane).then_some(cell.code),
+        is_marked: cell.is_run,
+        ..Look::new(fill(source, cell.code, cell.certainty), None)
+    }
+}
+
+/// Entries of the legend but for curves.
+fn legend(source: &Source<'_>, cells: &[Cell]) -> Vec<Entry> {
+    let labels = source.table.family.labels.iter();
+    let occurs = |code: Code| cells.iter().any(|cell| cell.code == code);
+    let names = labels.map(|label| (label.code, label.name.replace('-', " ")));
+    let names: Vec<(Code, String)> = names
+        .chain([(FAILED, "failed".to_owned())])
+        .filter(|(code, _)| occurs(*code))
+        .collect();
+    let entry =
+        |(code, name): &(Code, String)| Entry::new(Key::Fill(fill(source, *code, 1.0)), name);
+    let mut entries: Vec<Entry> = names.iter().map(entry).collect();
+    // Bands in the colour that is seen most.
+    let colored = names.iter().map(|(code, _)| *code);
+    let colored = colored.filter(|code| matches!(fill(source, *code, 1.0), Fill::Color(_)));
+    let number = |code: &Code| cells.iter().filter(|cell| cell.code == *code).count();
+    if let Some(code) = colored.max_by_key(number) {
+        let words = ["in the 68 % band of a border", "in its 95 % band"];
+        let bands = words.into_iter().zip([[0.0, BOUNDS[0]], BOUNDS]);
+        for (words, [low, high]) in bands {
+            let mut cells = cells.iter();
+            if cells.any(|cell| (low..high).contains(&cell.certainty)) {
+                entries.push(Entry::new(Key::Fill(fill(source, code, low)), words));
+            }
+        }
+    }
+    entries.push(Entry::new(Key::Mark, "run"));
+    entries
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn four_values_have_panels_the_ends_among_them() {
+        let values: Vec<f64> = (0..9).map(f64::from).collect();
+        assert_eq!(shown_values(&values), [0.0, 3.0, 5.0, 8.0]);
+        assert_eq!(shown_values(&values[..4]), values[..4]);
+        assert_eq!(shown_values(&values[..5]), [0.0, 1.0, 3.0, 4.0]);
+    }
+}

@@ -1,0 +1,221 @@
+//! Borders between labels along one axis, with bands.
+
+use super::{Code, Lattice, ProbabilityMap, RefineError};
+use serde::{Deserialize, Serialize};
+
+/// Probability of the label of the other side at which each band ends: 68 and 95 % lie between.
+const ENDS: [f64; 2] = [0.16, 0.025];
+
+/// Where the most probable label changes along one axis, in one column of the map.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Crossing {
+    /// Value on each axis; on the axis that is crossed, that of the border.
+    pub values: Vec<f64>,
+    /// Label below the border and label above it.
+    pub labels: [Code; 2],
+    /// Ends of the interval of 68 %, on the axis that is crossed, in its unit.
+    pub band68: [f64; 2],
+    /// Ends of the interval of 95 %.
+    pub band95: [f64; 2],
+    /// Length of the interval of 95 %, as a share of the axis in its scale.
+    pub width: f64,
+}
+
+/// All crossings of a map along one axis.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Borders {
+    /// The axis that is crossed.
+    pub axis: usize,
+    /// Crossings, by column and then by value.
+    pub crossings: Vec<Crossing>,
+}
+
+/// How well the border of two labels is known.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Width {
+    /// The two labels, the smaller code first.
+    pub labels: [Code; 2],
+    /// The axis that is crossed.
+    pub axis: usize,
+    /// Number of crossings.
+    pub crossings: usize,
+    /// Mean length of the intervals of 95 %, as a share of the axis in its scale.
+    pub mean: f64,
+    /// The largest of them.
+    pub widest: f64,
+}
+
+impl Borders {
+    /// The crossings along an axis: for an Ω axis, the table of Ω*.
+    ///
+    /// Between two neighbouring places, a crossing lies where the probabilities of both labels are
+    /// equal if their logarithms change at a constant rate. The band reaches as far down as the
+    /// label of the upper side is probable (2.5 % for the band of 95 %), and as far up as that of
+    /// the lower side is: for a single border these are the quantiles of the place where the label
+    /// of one seed changes. So it holds both what the model does not know and what seeds change.
+    ///
+    /// # Errors
+    /// If the lattice has no such axis.
+    pub fn new(lattice: &Lattice, map: &ProbabilityMap, axis: usize) -> Result<Self, RefineError> {
+        if axis < lattice.axes().len() {
+            return Ok(Self::of(lattice, map, axis));
+        }
+        let name = axis.to_string();
+        let reason = "there is no axis of this number";
+        Err(RefineError::Axis { name, reason })
+    }
+
+    /// The crossings along an axis that the lattice has.
+    fn of(lattice: &Lattice, map: &ProbabilityMap, axis: usize) -> Self {
+        let crossed = &lattice.axes()[axis];
+        let units: Vec<f64> = crossed
+            .values()
+            .iter()
+            .map(|it| crossed.unit(*it))
+            .collect();
+        let mut crossings = Vec::new();
+        for first in (0..lattice.places()).filter(|place| lattice.indices(*place)[axis] == 0) {
+            let mut indices = lattice.indices(first);
+            let places = (0..units.len()).map(|index| {
+                indices[axis] = index;
+                lattice.place(&indices)
+            });
+            let column = Column {
+                map,
+                places: &places.collect::<Vec<_>>(),
+                units: &units,
+            };
+            for step in 1..units.len() {
+                let labels = [step - 1, step].map(|index| map.best(column.places[index]));
+                if labels[0] == labels[1] {
+                    continue;
+                }
+                let (at, bands) = column.cross(step, labels);
+                let mut values = lattice.values(first);
+                values[axis] = crossed.value(at);
+                let [band68, band95] = bands.map(|band| band.map(|unit| crossed.value(unit)));
+                crossings.push(Crossing {
+                    values,
+                    labels: labels.map(|label| map.codes()[label]),
+                    band68,
+                    band95,
+                    width: bands[1][1] - bands[1][0],
+                });
+            }
+        }
+        Self { axis, crossings }
+    }
+
+    /// Mean and largest width of the crossings of each pair of labels, by their codes.
+    pub fn widths(&self) -> Vec<Width> {
+        let mut widths: Vec<Width> = Vec::new();
+        for crossing in &self.crossings {
+            let mut labels = crossing.labels;
+            labels.sort_unstable();
+            let place = widths.partition_point(|width| width.labels < labels);
+            if widths.get(place).is_none_or(|width| width.labels != labels) {
+                let none = Width {
+                    labels,
+                    axis: self.axis,
+                    crossings: 0,
+                    mean: 0.0,
+                    widest: 0.0,
+                };
+                widths.insert(place, none);
+            }
+            let width = &mut widths[place];
+            width.crossings += 1;
+            width.mean += crossing.width;
+            width.widest = width.widest.max(crossing.width);
+        }
+        for width in &mut widths {
+            width.mean /= width.crossings as f64;
+        }
+        widths
+    }
+}
+
+/// How well each pair of neighbouring labels is told apart, by their codes: along the axis on which
+/// their mean width is smallest, because an axis along a border says little of it.
+pub fn widths(lattice: &Lattice, map: &ProbabilityMap) -> Vec<Width> {
+    let mut narrowest: Vec<Width> = Vec::new();
+    for axis in 0..lattice.axes().len() {
+        for width in Borders::of(lattice, map, axis).widths() {
+            let place = narrowest.partition_point(|other| other.labels < width.labels);
+            match narrowest.get_mut(place) {
+                Some(other) if other.labels == width.labels => {
+                    if width.mean < other.mean {
+                        *other = width;
+                    }
+                }
+                _ => narrowest.insert(place, width),
+            }
+        }
+    }
+    narrowest
+}
+
+/// Places along the axis that is crossed.
+struct Column<'a> {
+    map: &'a ProbabilityMap,
+    places: &'a [usize],
+    units: &'a [f64],
+}
+
+impl Column<'_> {
+    /// Logarithm of the probability of a label.
+    fn log(&self, index: usize, label: usize) -> f64 {
+        libm::log(self.map.at(self.places[index])[label].max(1e-300))
+    }
+
+    /// Where between places `step - 1` and `step` two labels are equally probable.
+    fn equal(&self, step: usize, low: usize, high: usize) -> f64 {
+        let below = self.log(step - 1, low) - self.log(step - 1, high);
+        let above = self.log(step, high) - self.log(step, low);
+        let share = if below + above > 0.0 {
+            below / (below + above)
+        } else {
+            0.5
+        };
+        self.between(step, share)
+    }
+
+    /// The border of two labels between places `step - 1` and `step`, and its bands.
+    fn cross(&self, step: usize, [low, high]: [usize; 2]) -> (f64, [[f64; 2]; 2]) {
+        let at = self.equal(step, low, high);
+        let band = |end| [self.down(step, at, high, end), self.up(step, at, low, end)];
+        (at, ENDS.map(band))
+    }
+
+    /// The place at this share of the way from `step - 1` to `step`.
+    fn between(&self, step: usize, share: f64) -> f64 {
+        self.units[step - 1] + share * (self.units[step] - self.units[step - 1])
+    }
+
+    /// The place at or below `at`, between `step - 1` and `step`, from which downwards a label is
+    /// first less probable than `end`.
+    fn down(&self, step: usize, at: f64, label: usize, end: f64) -> f64 {
+        let bound = libm::log(end);
+        for step in (1..=step).rev() {
+            let [low, high] = [self.log(step - 1, label), self.log(step, label)];
+            if low < bound {
+                let share = (bound - low) / (high - low).max(bound - low);
+                return self.between(step, share).min(at);
+            }
+        }
+        self.units[0].min(at)
+    }
+
+    /// The same upwards.
+    fn up(&self, step: usize, at: f64, label: usize, end: f64) -> f64 {
+        let bound = libm::log(end);
+        for step in step..self.places.len() {
+            let [low, high] = [self.log(step - 1, label), self.log(step, label)];
+            if high < bound {
+                let share = (bound - high) / (low - high).max(bound - high);
+                return self.between(step, 1.0 - share).max(at);
+            }
+        }
+        self.units[self.units.len() - 1].max(at)
+    }
+}

@@ -1,0 +1,165 @@
+//! Which places are run next.
+
+use super::lattice::square_distance;
+use super::{Lattice, Observations, ProbabilityMap, Run, Settings};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Where runs are made next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Choice {
+    /// Where the two most probable labels are closest.
+    #[default]
+    Margin,
+    /// Where the entropy of the label is largest.
+    Entropy,
+    /// Where a label tells most of the latent functions of the model, so that noise does not
+    /// count (Houlsby et al., arXiv:1112.5745 (2011)). With `votes` and `nearest` all places are
+    /// equal.
+    Information,
+    /// Farthest from all runs, whatever the labels: for comparison.
+    Spread,
+}
+
+impl Choice {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Margin, Self::Entropy, Self::Information, Self::Spread];
+
+    /// Its name, as in a sweep file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Margin => "margin",
+            Self::Entropy => "entropy",
+            Self::Information => "information",
+            Self::Spread => "spread",
+        }
+    }
+
+    /// How much a run at a place is wanted, 0 or more.
+    fn score(self, map: &ProbabilityMap, place: usize) -> f64 {
+        let at = map.at(place);
+        match self {
+            Self::Margin => {
+                let best = map.best(place);
+                let others = (0..at.len()).filter(|label| *label != best);
+                let second = others.map(|label| at[label]).fold(0.0, f64::max);
+                1.0 - (at[best] - second)
+            }
+            Self::Entropy => {
+                let terms = at.iter().filter(|p| **p > 0.0).map(|p| -p * libm::log(*p));
+                terms.sum()
+            }
+            Self::Information => map.information(place),
+            Self::Spread => 0.0,
+        }
+    }
+}
+
+/// What is known of each place while a round is chosen.
+pub(super) struct Candidates<'a> {
+    lattice: &'a Lattice,
+    settings: &'a Settings,
+    /// How much a run is wanted, less for every run of the round nearby.
+    scores: Vec<f64>,
+    /// Squared distance from the nearest run.
+    gaps: Vec<f64>,
+    /// Seeds that each place has been run with.
+    seeds: Vec<Vec<u64>>,
+    /// Squared distance at which runs of one round keep from each other.
+    separation: f64,
+}
+
+impl<'a> Candidates<'a> {
+    pub(super) fn new(
+        lattice: &'a Lattice,
+        runs: &Observations,
+        map: &ProbabilityMap,
+        settings: &'a Settings,
+    ) -> Self {
+        let count = lattice.places();
+        // Half the mean spacing of the runs, as if they were everywhere.
+        let spacing = libm::pow(runs.len() as f64, -1.0 / lattice.axes().len() as f64);
+        let mut candidates = Self {
+            lattice,
+            settings,
+            scores: (0..count)
+                .map(|place| settings.choice.score(map, place))
+                .collect(),
+            gaps: vec![f64::INFINITY; count],
+            seeds: vec![Vec::new(); count],
+            separation: 0.25 * spacing * spacing,
+        };
+        for (run, _) in runs.iter() {
+            if let Ok(unit) = lattice.unit_of(&run.values) {
+                candidates.note(&unit, run.seed);
+            }
+        }
+        // Where a place nearby tells as much, it is better than one more seed.
+        for (score, seeds) in candidates.scores.iter_mut().zip(&candidates.seeds) {
+            *score /= (1 + seeds.len()) as f64;
+        }
+        candidates
+    }
+
+    /// Takes a run at a place of the unit cube into account.
+    fn note(&mut self, unit: &[f64], seed: u64) {
+        for place in 0..self.gaps.len() {
+            let square = square_distance(self.lattice.unit(place), unit);
+            self.gaps[place] = self.gaps[place].min(square);
+            if square == 0.0 {
+                self.seeds[place].push(seed);
+            }
+        }
+    }
+
+    /// Whether a place may be run once more.
+    fn is_open(&self, place: usize) -> bool {
+        (self.seeds[place].len() as u64) < self.settings.replicates
+    }
+
+    /// The place to explore: that farthest from all runs, the most wanted of equals.
+    pub(super) fn farthest(&self) -> Option<usize> {
+        let new = (0..self.gaps.len()).filter(|place| self.seeds[*place].is_empty());
+        first_largest(new, |place| (self.gaps[place], self.scores[place]))
+    }
+
+    /// The most wanted place, the farthest from all runs of equals.
+    pub(super) fn wanted(&self) -> Option<usize> {
+        let open = (0..self.gaps.len()).filter(|place| self.is_open(*place));
+        first_largest(open, |place| (self.scores[place], self.gaps[place]))
+    }
+
+    /// Adds a run at a place, with the first seed that it has not been run with.
+    pub(super) fn take(&mut self, place: usize) -> Run {
+        let first = self.settings.first_seed;
+        let seeds = &self.seeds[place];
+        let mut tried = first..=first.saturating_add(seeds.len() as u64);
+        let seed = tried.find(|seed| !seeds.contains(seed)).unwrap_or(first);
+        let unit = self.lattice.unit(place).to_vec();
+        self.note(&unit, seed);
+        for other in 0..self.scores.len() {
+            let square = square_distance(self.lattice.unit(other), &unit);
+            self.scores[other] *= -libm::expm1(-0.5 * square / self.separation);
+        }
+        Run {
+            values: self.lattice.values(place),
+            seed,
+        }
+    }
+}
+
+/// The place with the largest pair of numbers, the first of equals.
+fn first_largest(
+    places: impl Iterator<Item = usize>,
+    numbers: impl Fn(usize) -> (f64, f64),
+) -> Option<usize> {
+    let mut best: Option<(usize, (f64, f64))> = None;
+    for place in places {
+        let own = numbers(place);
+        if best.is_none_or(|(_, other)| own > other) {
+            best = Some((place, own));
+        }
+    }
+    best.map(|(place, _)| place)
+}

@@ -1,0 +1,76 @@
+//! Which runs a phase diagram needs.
+//!
+//! A full grid of runs is mostly far from any border between labels. Here a coarse grid is run
+//! first, and then rounds of runs where the label is least certain. What comes out is a probability
+//! of each label at each place ([`ProbabilityMap`]), and the borders with bands ([`Borders`],
+//! [`Panel`]). Bands hold what is not known for lack of runs, and what changes with the seed.
+//!
+//! Everything is a function of the axes, the settings and the labels alone. The mathematical
+//! functions are those of `libm`, all sums have a fixed order, and there are no threads: bits are
+//! the same on all machines.
+//!
+//! ```
+//! use phase::refine::{
+//!     Axis, Borders, Lattice, Observations, Scale, Settings, next_round, probabilities,
+//! };
+//!
+//! // The label is 3 above a line, and 1 below it.
+//! let label = |values: &[f64]| if values[1] > 2.0 + 0.3 * values[0] { 3 } else { 1 };
+//! let values: Vec<f64> = (0..=20).map(|k| 0.5 * f64::from(k)).collect();
+//! let lattice = Lattice::new(vec![
+//!     Axis::new("radius", values.clone(), Scale::Linear)?,
+//!     Axis::new("omega", values, Scale::Linear)?,
+//! ])?;
+//! let settings = Settings::with_budget(60);
+//! let mut runs = Observations::new();
+//! loop {
+//!     let round = next_round(&lattice, &runs, &settings)?;
+//!     if round.is_empty() {
+//!         break;
+//!     }
+//!     for run in round {
+//!         let label = label(&run.values);
+//!         runs.add(run, label)?;
+//!     }
+//! }
+//! assert_eq!(runs.len(), 60);
+//! let map = probabilities(&lattice, &runs, &settings)?;
+//! let borders = Borders::new(&lattice, &map, 1)?;
+//! for crossing in &borders.crossings {
+//!     let border = 2.0 + 0.3 * crossing.values[0];
+//!     assert!(crossing.band95[0] <= border && border <= crossing.band95[1]);
+//! }
+//! # Ok::<(), phase::refine::RefineError>(())
+//! ```
+
+mod borders;
+mod choice;
+mod cholesky;
+mod curves;
+mod error;
+mod gap;
+mod lattice;
+mod map;
+pub mod model;
+mod normal;
+mod observations;
+pub mod oracle;
+mod round;
+mod settings;
+
+pub use borders::{Borders, Crossing, Width, widths};
+pub use choice::Choice;
+pub use curves::{Curve, Panel};
+pub use error::RefineError;
+pub use gap::Gap;
+pub use lattice::{Axis, Lattice, Scale};
+pub use map::ProbabilityMap;
+pub use observations::{Observations, Run, Training};
+pub use round::{
+    Finish, finished, is_narrow, missing, next_round, probabilities, resume, round_of, start,
+};
+pub use settings::{ModelKind, Settings};
+
+/// Code of a label; equal codes are equal labels. Runs that fail and runs that are unstable have
+/// codes of their own.
+pub type Code = i8;

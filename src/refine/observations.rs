@@ -1,0 +1,145 @@
+//! Runs that have been made and their labels.
+
+use super::{Code, Lattice, RefineError};
+use serde::{Deserialize, Serialize};
+use std::cmp::Ordering;
+
+/// A run: its place and its seed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    /// Value on each axis, in the units of the axes.
+    pub values: Vec<f64>,
+    /// Seed.
+    pub seed: u64,
+}
+
+impl Run {
+    /// The order of runs: by place and then by seed.
+    pub fn order(&self, other: &Self) -> Ordering {
+        let mut pairs = self.values.iter().zip(&other.values);
+        let differing = pairs.find_map(|(one, other)| match one.total_cmp(other) {
+            Ordering::Equal => None,
+            order => Some(order),
+        });
+        let of_length = self.values.len().cmp(&other.values.len());
+        differing
+            .unwrap_or(of_length)
+            .then(self.seed.cmp(&other.seed))
+    }
+}
+
+/// Runs and their labels, ordered by place and seed: nothing depends on the order in which runs
+/// end.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Observations {
+    runs: Vec<(Run, Code)>,
+}
+
+impl Observations {
+    /// No runs.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a run. A run that is there already, with the same label, is not added again.
+    ///
+    /// # Errors
+    /// If the run is there with another label.
+    pub fn add(&mut self, run: Run, label: Code) -> Result<(), RefineError> {
+        match self.runs.binary_search_by(|(other, _)| other.order(&run)) {
+            Ok(index) if self.runs[index].1 == label => Ok(()),
+            Ok(index) => Err(RefineError::Contradiction {
+                values: run.values,
+                seed: run.seed,
+                first: self.runs[index].1,
+                second: label,
+            }),
+            Err(index) => {
+                self.runs.insert(index, (run, label));
+                Ok(())
+            }
+        }
+    }
+
+    /// The label of a run, if it is there.
+    pub fn label(&self, run: &Run) -> Option<Code> {
+        let place = self.runs.binary_search_by(|(other, _)| other.order(run));
+        place.ok().map(|place| self.runs[place].1)
+    }
+
+    /// Number of runs.
+    pub fn len(&self) -> usize {
+        self.runs.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.runs.is_empty()
+    }
+
+    /// Runs and labels, by place and seed.
+    pub fn iter(&self) -> impl Iterator<Item = (&Run, Code)> {
+        self.runs.iter().map(|(run, label)| (run, *label))
+    }
+}
+
+/// Runs as models see them: places in the unit cube and labels counted from 0.
+#[derive(Clone, Debug)]
+pub struct Training {
+    axes: usize,
+    units: Vec<f64>,
+    codes: Vec<Code>,
+    labels: Vec<usize>,
+}
+
+impl Training {
+    /// The runs on these axes.
+    ///
+    /// # Errors
+    /// If there are none, or if one does not lie on the axes.
+    pub fn new(lattice: &Lattice, runs: &Observations) -> Result<Self, RefineError> {
+        if runs.is_empty() {
+            return Err(RefineError::NoRuns);
+        }
+        let mut codes: Vec<Code> = runs.iter().map(|(_, label)| label).collect();
+        codes.sort_unstable();
+        codes.dedup();
+        let mut units = Vec::new();
+        for (run, _) in runs.iter() {
+            units.extend(lattice.unit_of(&run.values)?);
+        }
+        let labels = runs.iter();
+        let labels = labels.map(|(_, label)| codes.partition_point(|code| *code < label));
+        Ok(Self {
+            axes: lattice.axes().len(),
+            units,
+            labels: labels.collect(),
+            codes,
+        })
+    }
+
+    /// Number of axes.
+    pub fn axes(&self) -> usize {
+        self.axes
+    }
+
+    /// Number of runs.
+    pub fn runs(&self) -> usize {
+        self.labels.len()
+    }
+
+    /// Where a run lies in the unit cube.
+    pub fn unit(&self, run: usize) -> &[f64] {
+        &self.units[run * self.axes..(run + 1) * self.axes]
+    }
+
+    /// The label of a run, as an index into the codes.
+    pub fn label(&self, run: usize) -> usize {
+        self.labels[run]
+    }
+
+    /// The codes of the labels that occur, ascending.
+    pub fn codes(&self) -> &[Code] {
+        &self.codes
+    }
+}

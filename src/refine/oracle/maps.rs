@@ -1,0 +1,145 @@
+//! Maps that have been published as tables of labels.
+
+use super::Oracle;
+use crate::refine::{Axis, Code, Lattice, RefineError, Run, Scale};
+use std::path::Path;
+
+/// All runs of a full map: the label of each place and seed.
+#[derive(Clone, Debug)]
+pub struct PublishedMap {
+    lattice: Lattice,
+    /// Seeds and labels of each place, by seed.
+    labels: Vec<Vec<(u64, Code)>>,
+}
+
+impl PublishedMap {
+    /// A map from a function of place and seed.
+    pub fn from_formula(
+        lattice: Lattice,
+        seeds: std::ops::RangeInclusive<u64>,
+        label: impl Fn(&[f64], u64) -> Code,
+    ) -> Self {
+        let labels = (0..lattice.places()).map(|place| {
+            let values = lattice.values(place);
+            let seeds = seeds.clone();
+            seeds.map(|seed| (seed, label(&values, seed))).collect()
+        });
+        Self {
+            labels: labels.collect(),
+            lattice,
+        }
+    }
+
+    /// Reads the table `labels.csv` of a sweep: the columns between `id` and `seed` are axes, and
+    /// `code` is the label. Axes have equal distances between neighbouring values.
+    ///
+    /// # Errors
+    /// If the file cannot be read, lacks one of the columns, or holds something else than numbers
+    /// in them; if not all combinations of the values have labels.
+    pub fn read(path: &Path) -> Result<Self, RefineError> {
+        let table = |source| RefineError::Table {
+            path: path.to_owned(),
+            source,
+        };
+        let mut reader = csv::Reader::from_path(path).map_err(table)?;
+        let headers = reader.headers().map_err(table)?.clone();
+        let column = |column: &'static str| {
+            let place = headers.iter().position(|name| name == column);
+            place.ok_or(RefineError::Column {
+                path: path.to_owned(),
+                column,
+            })
+        };
+        let (id, seed, code) = (column("id")?, column("seed")?, column("code")?);
+        let axes = id + 1..seed;
+        let mut rows: Vec<(Run, Code)> = Vec::new();
+        for (row, record) in reader.records().enumerate() {
+            let record = record.map_err(table)?;
+            let text = |column: usize| record.get(column).unwrap_or_default();
+            let bad = |column: usize| RefineError::Number {
+                path: path.to_owned(),
+                row: row + 1,
+                text: text(column).to_owned(),
+            };
+            let values = axes.clone().map(|at| text(at).parse().map_err(|_| bad(at)));
+            let run = Run {
+                values: values.collect::<Result<_, _>>()?,
+                seed: text(seed).parse().map_err(|_| bad(seed))?,
+            };
+            rows.push((run, text(code).parse().map_err(|_| bad(code))?));
+        }
+        let names: Vec<&str> = axes.map(|at| &headers[at]).collect();
+        Self::from_rows(&names, rows)
+    }
+
+    fn from_rows(names: &[&str], rows: Vec<(Run, Code)>) -> Result<Self, RefineError> {
+        let axes = names.iter().enumerate().map(|(axis, name)| {
+            let mut values: Vec<f64> = rows.iter().map(|(run, _)| run.values[axis]).collect();
+            values.sort_by(f64::total_cmp);
+            values.dedup();
+            Axis::new(name, values, Scale::Rank)
+        });
+        let lattice = Lattice::new(axes.collect::<Result<_, _>>()?)?;
+        let labels = vec![Vec::new(); lattice.places()];
+        let mut map = Self { lattice, labels };
+        for (run, code) in rows {
+            let place = map.place(&run.values);
+            map.labels[place].push((run.seed, code));
+        }
+        for (place, labels) in map.labels.iter_mut().enumerate() {
+            labels.sort_unstable();
+            if labels.is_empty() {
+                return Err(RefineError::Place {
+                    values: map.lattice.values(place),
+                    axes: names.len(),
+                });
+            }
+        }
+        Ok(map)
+    }
+
+    /// The axes and places.
+    pub fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    /// The place of these values, which must be values of the axes.
+    pub fn place(&self, values: &[f64]) -> usize {
+        let axes = self.lattice.axes().iter().zip(values);
+        let indices: Vec<usize> = axes
+            .map(|(axis, value)| axis.values().partition_point(|other| other < value))
+            .collect();
+        self.lattice.place(&indices)
+    }
+
+    /// Seeds and labels of a place.
+    pub fn at(&self, place: usize) -> &[(u64, Code)] {
+        &self.labels[place]
+    }
+
+    /// The label of most seeds of a place; of equals the one that comes first by seed.
+    pub fn label(&self, place: usize) -> Code {
+        let at = &self.labels[place];
+        let count = |code: Code| at.iter().filter(|(_, other)| *other == code).count();
+        let mut best = at[0].1;
+        for (_, code) in at {
+            if count(*code) > count(best) {
+                best = *code;
+            }
+        }
+        best
+    }
+}
+
+impl Oracle for PublishedMap {
+    fn lattice(&self) -> &Lattice {
+        &self.lattice
+    }
+
+    fn label(&self, run: &Run) -> Code {
+        let at = &self.labels[self.place(&run.values)];
+        // Seeds that the map does not have show what its first seed does.
+        let own = at.iter().find(|(seed, _)| *seed == run.seed);
+        own.unwrap_or(&at[0]).1
+    }
+}

@@ -1,0 +1,181 @@
+//! The table `[refine]` as a sweep file writes it.
+
+use super::scale;
+use crate::document::{Problem, unit};
+use crate::refine::{Choice, ModelKind, RefineError, Settings, start};
+use crate::scene::LARGEST_SEED;
+use crate::sweep::Sweep;
+use crate::sweep::load::MOST_JOBS;
+use crate::sweep::seeds::SweepSeeds;
+use crate::sweep::spacing::MOST_VALUES;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Why border seeds and refining exclude each other.
+pub(super) const AT_BORDERS: &str = "refining gives the points at borders more seeds itself, so \
+                                     that `seeds.at_borders` has no effect; remove it";
+
+/// Why a sweep without axes is not refined.
+pub(super) const NO_AXES: &str = "a sweep without axes has no borders to refine";
+
+/// Most parts of a step.
+const MOST_PARTS: usize = 100;
+
+/// Which runs of the grid are made: first a coarse grid, then rounds of runs where the label is
+/// least certain, until the borders are known to a wanted width or a budget of runs is spent.
+#[derive(Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub(in crate::sweep) struct RefineEntry {
+    /// Most runs in total, those that the results folder already holds among them. Refining ends
+    /// when they are made (default: a tenth of the points of the axes, at least the coarse grid).
+    #[schemars(range(min = 1))]
+    budget: Option<usize>,
+    /// Into how many parts every step of each axis is cut: points between those of the axes, where
+    /// runs may be made too. 100 are the most.
+    #[schemars(range(min = 1))]
+    finer: usize,
+    /// Wanted mean width of the 95 % band of every border, as a share of the axis that it crosses.
+    /// Refining ends when all are as narrow (default: none, so that the budget is spent).
+    #[schemars(transform = unit("").above(0.0).at_most(1.0))]
+    width: Option<f64>,
+    /// Number of values of each axis in the coarse grid: one number for all axes, or one for each.
+    start: Vec<usize>,
+    /// Runs in one round. Labels of a round do not change its other runs.
+    #[schemars(range(min = 1))]
+    round: usize,
+    /// Most seeds that one point is run with, from `seeds.first` on. A point that has been run is
+    /// run again only where its neighbours tell less: where labels change with the seed.
+    #[schemars(range(min = 1))]
+    pub(in crate::sweep) replicates: u64,
+    /// Share of the runs after the coarse grid that go to the points farthest from all runs, to
+    /// find regions that the coarse grid has missed.
+    #[schemars(transform = unit("").at_least(0.0).at_most(1.0))]
+    exploring: f64,
+    /// How probabilities of labels are learnt from runs.
+    model: ModelKind,
+    /// Where runs are made next.
+    choice: Choice,
+}
+
+impl Default for RefineEntry {
+    fn default() -> Self {
+        let Settings {
+            start,
+            round,
+            replicates,
+            exploring,
+            model,
+            choice,
+            ..
+        } = Settings::with_budget(1);
+        Self {
+            budget: None,
+            finer: 1,
+            width: None,
+            start,
+            round,
+            replicates,
+            exploring,
+            model,
+            choice,
+        }
+    }
+}
+
+impl RefineEntry {
+    /// The seeds of a refined sweep: the first of the file, and those that follow.
+    pub(in crate::sweep) fn seeds(
+        &self,
+        seeds: Option<&SweepSeeds>,
+        problems: &mut Vec<Problem>,
+    ) -> Vec<u64> {
+        let first = seeds.map_or(1, |seeds| seeds.first_of_refined(problems));
+        let mut refuse = |path: &str, message: String, help: &str| {
+            problems.push(Problem::new(path, message).help(help));
+            Vec::new()
+        };
+        if self.replicates > MOST_JOBS as u64 {
+            let message = format!("{} seeds of a point are too many", self.replicates);
+            let help = format!("{MOST_JOBS} jobs are the most");
+            return refuse("refine.replicates", message, &help);
+        }
+        if first.saturating_add(self.replicates) > LARGEST_SEED {
+            let message = format!("the seeds would go beyond {LARGEST_SEED}, the largest one");
+            return refuse("seeds.first", message, "begin with a lower one");
+        }
+        (first..first + self.replicates).collect()
+    }
+
+    /// Puts values between those of the axes of the sweep, and refines it. Its axes and seeds are
+    /// right.
+    pub(in crate::sweep) fn refine(&self, sweep: &mut Sweep, problems: &mut Vec<Problem>) {
+        if let Err(problem) = self.try_refine(sweep) {
+            problems.push(problem);
+        }
+    }
+
+    fn try_refine(&self, sweep: &mut Sweep) -> Result<(), Problem> {
+        if sweep.axes.is_empty() {
+            let help = "add [[axis]] with `key` and `values`, or remove the table";
+            return Err(Problem::new("refine", NO_AXES).help(help));
+        }
+        if let Some(bad) = self.start.iter().position(|count| *count == 0) {
+            let message = "the coarse grid needs at least one value of each axis";
+            return Err(Problem::new(format!("refine.start[{bad}]"), message)
+                .help("use 1 or more, such as 6"));
+        }
+        let broken = |error: RefineError| Problem::new("refine", error.to_string());
+        let axes = sweep.axes.len();
+        if self.start.len() != 1 && self.start.len() != axes {
+            let message = format!(
+                "`refine.start` has {} numbers, but the sweep has {axes} axes",
+                self.start.len()
+            );
+            let help = "give one number for all axes, or one for each";
+            return Err(Problem::new("refine.start", message).help(help));
+        }
+        if self.finer > MOST_PARTS {
+            let message = format!("{} parts of each step are too many", self.finer);
+            let help = format!("{MOST_PARTS} are the most");
+            return Err(Problem::new("refine.finer", message).help(help));
+        }
+        let of_axes = sweep.points();
+        for axis in &mut sweep.axes {
+            axis.values.sort_by(f64::total_cmp);
+            let count = axis
+                .values
+                .len()
+                .saturating_sub(1)
+                .saturating_mul(self.finer)
+                + 1;
+            if count > MOST_VALUES {
+                let message = format!("the axis `{}` would have {count} values", axis.name);
+                let help = format!("{MOST_VALUES} are the most; cut its steps into fewer parts");
+                return Err(Problem::new("refine.finer", message).help(help));
+            }
+            axis.values = scale::finer(&axis.values, self.finer).map_err(broken)?;
+        }
+        if sweep.points() > MOST_JOBS {
+            // Refused with the grid as a whole.
+            return Ok(());
+        }
+        let settings = Settings {
+            budget: self.budget.unwrap_or_else(|| of_axes.div_ceil(10)),
+            width: self.width,
+            start: self.start.clone(),
+            round: self.round,
+            replicates: self.replicates,
+            first_seed: sweep.seeds.first().copied().unwrap_or(1),
+            exploring: self.exploring,
+            model: self.model,
+            choice: self.choice,
+        };
+        let coarse = start(&sweep.lattice().map_err(broken)?, &settings).len();
+        if let Some(budget) = self.budget.filter(|budget| *budget < coarse) {
+            let message = format!("the coarse grid alone has {coarse} runs, more than {budget}");
+            let help = format!("use {coarse} or more, or a smaller `refine.start`");
+            return Err(Problem::new("refine.budget", message).help(help));
+        }
+        sweep.refine_with(settings, true).map_err(broken)
+    }
+}

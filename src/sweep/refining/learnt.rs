@@ -1,0 +1,91 @@
+//! What a refined sweep has learnt from its runs, and the tables that tell it.
+
+use super::borders;
+use crate::classify::{Family, LabelTable};
+use crate::refine::{
+    Borders, Code, Lattice, Observations, ProbabilityMap, RefineError, Run, probabilities,
+};
+use crate::store::{self, BorderRow, StoreError};
+use crate::sweep::{Folder, Sweep};
+
+/// Code of runs that failed: they have no record, and a label of their own.
+pub const FAILED: Code = i8::MIN;
+
+/// Name of the label with a code.
+pub fn label_name(family: &Family, code: Code) -> &'static str {
+    let mut labels = family.labels.iter();
+    let label = labels.find(|label| label.code == code);
+    label.map_or("failed", |label| label.name)
+}
+
+/// What a refined sweep has learnt from its runs.
+#[derive(Clone, Debug)]
+pub struct Learnt {
+    /// All points of its grid.
+    pub lattice: Lattice,
+    /// The runs and their labels.
+    pub runs: Observations,
+    /// The probability of each label at each point.
+    pub map: ProbabilityMap,
+}
+
+impl Learnt {
+    /// What a sweep learns from the rows of a table that are of its runs. None if the sweep is not
+    /// refined.
+    ///
+    /// # Errors
+    /// If there are no such rows, or if the grid cannot be refined.
+    pub fn of(sweep: &Sweep, table: &LabelTable) -> Result<Option<Self>, RefineError> {
+        let Some(refining) = &sweep.refine else {
+            return Ok(None);
+        };
+        let lattice = sweep.lattice()?;
+        let chosen = refining.runs();
+        let mut runs = Observations::new();
+        for row in &table.rows {
+            let run = Run {
+                values: row.values.clone(),
+                seed: row.seed,
+            };
+            if chosen.binary_search_by(|it| it.order(&run)).is_ok() {
+                runs.add(run, row.verdict.label.code)?;
+            }
+        }
+        for run in &refining.failed {
+            if runs.label(run).is_none() {
+                runs.add(run.clone(), FAILED)?;
+            }
+        }
+        let map = probabilities(&lattice, &runs, &refining.settings)?;
+        Ok(Some(Self { lattice, runs, map }))
+    }
+
+    /// The borders along an axis.
+    ///
+    /// # Errors
+    /// If there is no such axis.
+    pub fn borders(&self, axis: usize) -> Result<Borders, RefineError> {
+        Borders::new(&self.lattice, &self.map, axis)
+    }
+
+    /// Writes `refined.csv`, the probability of each label at each point, and `borders.csv`, the
+    /// borders with their bands.
+    ///
+    /// # Errors
+    /// If a table cannot be written.
+    pub fn write(&self, folder: &Folder, sweep: &Sweep, family: &Family) -> Result<(), StoreError> {
+        let axes: Vec<&str> = sweep.axes.iter().map(|axis| axis.name.as_str()).collect();
+        let name = |code: Code| label_name(family, code);
+        let mut codes: Vec<Code> = family.labels.iter().map(|label| label.code).collect();
+        codes.extend(self.map.codes().iter().filter(|code| **code == FAILED));
+        let path = folder.refined();
+        store::write_probabilities(&axes, &self.lattice, &self.map, (&codes, &name), &path)?;
+        let rows: Vec<BorderRow> = sweep
+            .axes_of_borders()
+            .into_iter()
+            .filter_map(|axis| self.borders(axis).ok())
+            .flat_map(|it| borders::rows(sweep, &it, &name))
+            .collect();
+        store::write_borders(&axes, &rows, &folder.borders())
+    }
+}

@@ -1,0 +1,184 @@
+//! Refined sweeps: a coarse grid of runs, then rounds where the label is least certain.
+
+mod borders;
+mod entry;
+mod learnt;
+mod refinement;
+mod scale;
+
+pub(super) use entry::RefineEntry;
+pub use learnt::{FAILED, Learnt, label_name};
+pub use refinement::{Refinement, RefinementError, Step};
+
+use super::Sweep;
+use super::job::{Job, PointError};
+use crate::refine::{Lattice, RefineError, Run, Settings, Width, start};
+use crate::scene::LARGEST_SEED;
+use serde::{Deserialize, Serialize};
+
+/// How a sweep is refined, and what has been run of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Refining {
+    /// The table `[refine]`, with all defaults filled in.
+    pub settings: Settings,
+    /// Runs that were in the folder when refining began; they count as part of the budget.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub given: Vec<Run>,
+    /// Runs that refining has chosen, in its order: the coarse grid first.
+    pub chosen: Vec<Run>,
+    /// Of all these, runs that failed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub failed: Vec<Run>,
+    /// How well each pair of neighbouring labels is told apart, after the last round that is done.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub widths: Vec<Width>,
+}
+
+impl Refining {
+    /// Refining that has not begun: the coarse grid is chosen.
+    fn new(settings: Settings, lattice: &Lattice) -> Self {
+        Self {
+            given: Vec::new(),
+            chosen: start(lattice, &settings),
+            failed: Vec::new(),
+            widths: Vec::new(),
+            settings,
+        }
+    }
+
+    /// All runs, by place and seed.
+    pub fn runs(&self) -> Vec<Run> {
+        let mut runs: Vec<Run> = self.given.iter().chain(&self.chosen).cloned().collect();
+        runs.sort_by(Run::order);
+        runs.dedup();
+        runs
+    }
+
+    /// Its settings alone.
+    pub fn without_runs(&self) -> Self {
+        Self {
+            settings: self.settings.clone(),
+            given: Vec::new(),
+            chosen: Vec::new(),
+            failed: Vec::new(),
+            widths: Vec::new(),
+        }
+    }
+
+    /// The border that is known worst: that with the largest mean width.
+    pub fn widest(&self) -> Option<&Width> {
+        let widths = self.widths.iter();
+        widths.max_by(|one, other| one.mean.total_cmp(&other.mean))
+    }
+}
+
+impl Sweep {
+    /// All places where a refined sweep may have runs: its grid, each axis in the scale in which
+    /// its values are evenly spaced.
+    ///
+    /// # Errors
+    /// If there are no axes, or if the values of one do not ascend.
+    pub fn lattice(&self) -> Result<Lattice, RefineError> {
+        let axes = self.axes.iter();
+        let axes = axes.map(|axis| {
+            let scale = scale::scale_of(&axis.values);
+            crate::refine::Axis::new(&axis.name, axis.values.clone(), scale)
+        });
+        Lattice::new(axes.collect::<Result<_, _>>()?)
+    }
+
+    /// Refines a sweep whose file has no table `[refine]`, with the defaults. A place has as many
+    /// seeds as the file has, or the default number if that is one.
+    ///
+    /// # Errors
+    /// Why it cannot be refined.
+    pub fn refine_by_default(&mut self) -> Result<(), String> {
+        if self.axes.is_empty() {
+            return Err(entry::NO_AXES.to_owned());
+        }
+        let is_row = |pair: &[u64]| pair[0] + 1 == pair[1];
+        let (Some(&first), true) = (self.seeds.first(), self.seeds.windows(2).all(is_row)) else {
+            return Err("refining needs seeds that follow each other".to_owned());
+        };
+        if !self.border_seeds.is_empty() {
+            return Err(entry::AT_BORDERS.to_owned());
+        }
+        let jobs = self.points().saturating_mul(self.seeds.len());
+        let mut settings = Settings::with_budget(jobs.div_ceil(10));
+        if self.seeds.len() > 1 {
+            settings.replicates = self.seeds.len() as u64;
+        }
+        settings.first_seed = first;
+        self.refine_with(settings, true)
+            .map_err(|error| error.to_string())
+    }
+
+    /// Begins the seeds of a refined sweep with another one.
+    ///
+    /// # Errors
+    /// If the seeds would go beyond the largest one.
+    pub fn refine_from_seed(&mut self, first: u64) -> Result<(), String> {
+        let Some(refining) = &self.refine else {
+            return Ok(());
+        };
+        let settings = Settings {
+            first_seed: first,
+            ..refining.settings.clone()
+        };
+        if first.saturating_add(settings.replicates) > LARGEST_SEED {
+            return Err(format!(
+                "the seeds would go beyond {LARGEST_SEED}, the largest one; begin with a lower one"
+            ));
+        }
+        self.refine_with(settings, false)
+            .map_err(|error| error.to_string())
+    }
+
+    /// Refines the sweep with these settings; `at_least_start` raises the budget to the number of
+    /// runs of the coarse grid.
+    fn refine_with(
+        &mut self,
+        mut settings: Settings,
+        at_least_start: bool,
+    ) -> Result<(), RefineError> {
+        for axis in &mut self.axes {
+            axis.values.sort_by(f64::total_cmp);
+        }
+        let lattice = self.lattice()?;
+        if at_least_start {
+            settings.budget = settings.budget.max(start(&lattice, &settings).len());
+        }
+        settings.check(self.axes.len())?;
+        let first = settings.first_seed;
+        self.seeds = (first..first.saturating_add(settings.replicates)).collect();
+        self.refine = Some(Refining::new(settings, &lattice));
+        Ok(())
+    }
+
+    /// The axes along which borders are crossed: the vertical one of the diagram first.
+    pub fn axes_of_borders(&self) -> Vec<usize> {
+        let place = |name: &Option<String>| {
+            let name = name.as_ref()?;
+            let mut axes = self.axes.iter();
+            axes.position(|axis| axis.name == *name || axis.key == *name)
+        };
+        let [x, y, panels] = [&self.plot.x, &self.plot.y, &self.plot.panels].map(place);
+        let all = 0..self.axes.len();
+        let free = |axis: &usize| ![x, panels].contains(&Some(*axis));
+        let before = usize::from(x.is_none() && self.axes.len() > 1);
+        let first = y.or_else(|| all.clone().filter(free).nth(before));
+        let first = first.unwrap_or(0);
+        let others = all.filter(|axis| *axis != first);
+        std::iter::once(first).chain(others).collect()
+    }
+
+    /// The jobs of runs of a refined sweep, those of points and seeds that the sweep still has.
+    pub(super) fn jobs_of_runs(&self, runs: &[Run]) -> Result<Vec<Job>, PointError> {
+        let is_there = |run: &&Run| {
+            let mut values = self.axes.iter().zip(&run.values);
+            self.seeds.contains(&run.seed) && values.all(|(axis, it)| axis.values.contains(it))
+        };
+        let runs = runs.iter().filter(is_there);
+        self.jobs_at(runs.map(|run| (run.values.clone(), run.seed)))
+    }
+}

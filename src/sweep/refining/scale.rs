@@ -1,0 +1,82 @@
+//! In which scale the values of an axis are evenly spaced, and values between them.
+
+use crate::refine::{Axis, RefineError, Scale};
+use crate::sweep::spacing;
+
+/// Largest difference between steps that count as equal, as a share of one.
+const UNEVEN: f64 = 1e-6;
+
+/// Whether values have equal differences, equal ratios, or neither.
+pub(super) fn scale_of(values: &[f64]) -> Scale {
+    let steps = |forward: fn(f64) -> f64| -> Vec<f64> {
+        let pairs = values.windows(2);
+        pairs
+            .map(|pair| forward(pair[1]) - forward(pair[0]))
+            .collect()
+    };
+    let is_even = |steps: Vec<f64>| {
+        let mean = steps.iter().sum::<f64>() / steps.len().max(1) as f64;
+        steps
+            .iter()
+            .all(|step| (step - mean).abs() <= UNEVEN * mean.abs())
+    };
+    if is_even(steps(|value| value)) {
+        Scale::Linear
+    } else if values.iter().all(|value| *value > 0.0) && is_even(steps(libm::log)) {
+        Scale::Log
+    } else {
+        Scale::Rank
+    }
+}
+
+/// Ascending values with every step between them cut into `parts` equal ones in their scale.
+pub(super) fn finer(values: &[f64], parts: usize) -> Result<Vec<f64>, RefineError> {
+    let scale = scale_of(values);
+    let axis = Axis::new("", values.to_vec(), scale)?.finer(parts);
+    let largest = values
+        .iter()
+        .fold(0.0, |most: f64, value| most.max(value.abs()));
+    let clean = |(place, value): (usize, &f64)| match (place % parts, scale) {
+        // Those of the file stay as they are.
+        (0, _) => *value,
+        (_, Scale::Log) => spacing::clean(*value, *value, 12),
+        (_, Scale::Linear | Scale::Rank) => spacing::clean(*value, largest, 15),
+    };
+    Ok(axis.values().iter().enumerate().map(clean).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spacings_are_seen() {
+        assert_eq!(scale_of(&spacing::steps(0.002, 0.0001, 40)), Scale::Linear);
+        assert_eq!(scale_of(&spacing::logarithmic(1e-3, 7.0, 23)), Scale::Log);
+        assert_eq!(scale_of(&[0.0, 4.0, 8.0, 16.0, 40.0]), Scale::Rank);
+        assert_eq!(scale_of(&[1.0, 2.0, 4.0, 9.0]), Scale::Rank);
+        assert_eq!(scale_of(&[3.0]), Scale::Linear);
+        assert_eq!(scale_of(&[3.0, 9.0]), Scale::Linear);
+    }
+
+    #[test]
+    fn values_between_are_clean_and_those_of_the_file_stay() {
+        let values = spacing::steps(0.002, 0.0001, 4);
+        let found = finer(&values, 2).unwrap();
+        assert_eq!(
+            found,
+            [
+                0.002, 0.00205, 0.0021, 0.00215, 0.0022, 0.00225, 0.0023, 0.00235, 0.0024
+            ]
+        );
+        assert_eq!(scale_of(&found), Scale::Linear);
+        let found = finer(&[1e-3, 0.1, 10.0], 4).unwrap();
+        assert_eq!(found.len(), 9);
+        assert_eq!((found[2], found[4], found[6]), (1e-2, 0.1, 1.0));
+        assert_eq!(
+            finer(&[0.0, 1.0, 8.0], 2).unwrap(),
+            [0.0, 0.5, 1.0, 4.5, 8.0]
+        );
+        assert_eq!(finer(&[2.0], 3).unwrap(), [2.0]);
+    }
+}

@@ -1,0 +1,7 @@
+//! Which runs a phase diagram needs: the library, and refined sweeps.
+
+mod blind;
+mod interface;
+mod oracle;
+mod properties;
+mod sweeps;

@@ -1,0 +1,251 @@
+//! Properties that hold for all maps.
+
+use phase::refine::{
+    Axis, Borders, Choice, Code, Lattice, ModelKind, Observations, Run, Scale, Settings,
+    next_round, probabilities, resume,
+};
+use proptest::prelude::*;
+
+fn square(count: usize) -> Lattice {
+    let axis = |name| {
+        // Distances are exact, so that mirrored places have the same.
+        let values = (0..=count).map(|k| k as f64 / count as f64);
+        Axis::new(name, values.collect(), Scale::Linear).unwrap()
+    };
+    Lattice::new(vec![axis("x"), axis("y")]).unwrap()
+}
+
+/// Two lines part three labels.
+fn label(values: &[f64], tilt: f64, height: f64) -> Code {
+    let (x, y) = (values[0], values[1]);
+    if y > height + tilt * (x - 0.5) {
+        3
+    } else if x > 0.4 {
+        2
+    } else {
+        1
+    }
+}
+
+fn observed(lattice: &Lattice, places: &[usize], tilt: f64, height: f64) -> Observations {
+    let mut runs = Observations::new();
+    for place in places {
+        let values = lattice.values(*place);
+        let label = label(&values, tilt, height);
+        runs.add(Run { values, seed: 1 }, label).unwrap();
+    }
+    runs
+}
+
+/// All runs of a replay of so many runs, from those given.
+fn replayed(lattice: &Lattice, mut runs: Observations, settings: &Settings) -> Observations {
+    loop {
+        let round = next_round(lattice, &runs, settings).unwrap();
+        if round.is_empty() {
+            return runs;
+        }
+        // Workers end in any order.
+        for run in round.into_iter().rev() {
+            let label = label(&run.values, 0.3, 0.6);
+            runs.add(run, label).unwrap();
+        }
+    }
+}
+
+fn kinds() -> impl Strategy<Value = (ModelKind, Choice)> {
+    let models = prop::sample::select(ModelKind::ALL.to_vec());
+    (models, prop::sample::select(Choice::ALL.to_vec()))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn probabilities_are_probabilities(
+        places in prop::collection::vec(0..289_usize, 2..40),
+        (model, _) in kinds(),
+        tilt in -1.0..1.0_f64,
+    ) {
+        let lattice = square(16);
+        let runs = observed(&lattice, &places, tilt, 0.5);
+        let settings = Settings { model, ..Settings::with_budget(100) };
+        let map = probabilities(&lattice, &runs, &settings).unwrap();
+        for place in 0..map.places() {
+            let at = map.at(place);
+            prop_assert!(at.iter().all(|p| (0.0..=1.0).contains(p)));
+            prop_assert!((at.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+            prop_assert!(map.information(place) >= 0.0);
+        }
+    }
+
+    #[test]
+    fn the_order_in_which_runs_end_does_not_matter(
+        places in prop::collection::vec(0..289_usize, 20..40),
+        (model, choice) in kinds(),
+    ) {
+        let lattice = square(16);
+        let mut settings = Settings { model, choice, ..Settings::with_budget(100) };
+        settings.start = vec![1];
+        let runs = observed(&lattice, &places, 0.3, 0.5);
+        let reversed: Vec<usize> = places.into_iter().rev().collect();
+        let other = observed(&lattice, &reversed, 0.3, 0.5);
+        prop_assert_eq!(
+            next_round(&lattice, &runs, &settings).unwrap(),
+            next_round(&lattice, &other, &settings).unwrap()
+        );
+    }
+
+    #[test]
+    fn a_mirrored_map_is_chosen_in_the_mirror(
+        places in prop::collection::vec(0..289_usize, 25..40),
+        model in prop::sample::select(ModelKind::ALL.to_vec()),
+        tilt in 0.1..1.0_f64,
+    ) {
+        let lattice = square(16);
+        let mut settings = Settings { model, ..Settings::with_budget(100) };
+        settings.exploring = 0.0;
+        settings.start = vec![1];
+        settings.round = 1;
+        let runs = observed(&lattice, &places, tilt, 0.45);
+        let mut mirrored = Observations::new();
+        let flip = |run: &Run| Run {
+            values: vec![1.0 - run.values[0], run.values[1]],
+            seed: run.seed,
+        };
+        for (run, label) in runs.iter() {
+            mirrored.add(flip(run), label).unwrap();
+        }
+        // Rounding differs in the mirror, so that the choice may fall on another place of nearly
+        // equal margin.
+        let [map, other] = [&runs, &mirrored].map(|runs| {
+            probabilities(&lattice, runs, &settings).unwrap()
+        });
+        for place in 0..lattice.places() {
+            let indices = lattice.indices(place);
+            let twin = lattice.place(&[16 - indices[0], indices[1]]);
+            for (one, two) in map.at(place).iter().zip(other.at(twin)) {
+                prop_assert!((one - two).abs() < 1e-6, "{one} {two}");
+            }
+        }
+        let margin = |run: &Run| {
+            let indices: Vec<usize> = run.values.iter().map(|it| (it * 16.0) as usize).collect();
+            let mut at = map.at(lattice.place(&indices)).to_vec();
+            at.sort_by(f64::total_cmp);
+            at[at.len() - 1] - if at.len() > 1 { at[at.len() - 2] } else { 0.0 }
+        };
+        let round = next_round(&lattice, &runs, &settings).unwrap();
+        let twins = next_round(&lattice, &mirrored, &settings).unwrap();
+        if round[0].values[0] != 0.5 && round[0].values[0] != 0.0 {
+            prop_assert!((margin(&round[0]) - margin(&flip(&twins[0]))).abs() < 1e-5);
+        }
+    }
+}
+
+#[test]
+fn a_replay_that_goes_on_from_some_runs_is_the_same() {
+    let lattice = square(20);
+    for choice in Choice::ALL {
+        let mut settings = Settings {
+            choice,
+            ..Settings::with_budget(68)
+        };
+        let all = replayed(&lattice, Observations::new(), &settings);
+        assert_eq!(all, replayed(&lattice, Observations::new(), &settings));
+        // Stopped after two rounds, and in the middle of the start.
+        for budget in [52, 20] {
+            settings.budget = budget;
+            let some = replayed(&lattice, Observations::new(), &settings);
+            assert_eq!(some.len(), budget);
+            settings.budget = 68;
+            assert_eq!(
+                replayed(&lattice, some, &settings),
+                all,
+                "{choice:?} {budget}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_stop_inside_a_round_changes_nothing() {
+    let lattice = square(20);
+    let settings = Settings::with_budget(68);
+    let all = replayed(&lattice, Observations::new(), &settings);
+    assert_eq!(resume(&lattice, &all, &settings).unwrap(), []);
+    let at = |run: &Run| label(&run.values, 0.3, 0.6);
+    // Every third run of the round that is open was made, and the stop is at several rounds.
+    for budget in [0, 36, 52, 60] {
+        let mut known = Observations::new();
+        if budget > 0 {
+            let settings = Settings::with_budget(budget);
+            known = replayed(&lattice, known, &settings);
+        }
+        let round = next_round(&lattice, &known, &settings).unwrap();
+        for run in round.iter().step_by(3) {
+            known.add(run.clone(), at(run)).unwrap();
+        }
+        let missing = resume(&lattice, &known, &settings).unwrap();
+        assert_eq!(missing.len(), round.len() - round.len().div_ceil(3));
+        for run in missing {
+            let label = at(&run);
+            known.add(run, label).unwrap();
+        }
+        assert_eq!(replayed(&lattice, known, &settings), all, "{budget}");
+    }
+}
+
+#[test]
+fn more_runs_make_bands_narrower() {
+    let lattice = square(24);
+    let width = |budget| {
+        let settings = Settings::with_budget(budget);
+        let runs = replayed(&lattice, Observations::new(), &settings);
+        let map = probabilities(&lattice, &runs, &settings).unwrap();
+        let borders = Borders::new(&lattice, &map, 1).unwrap();
+        let widths = borders.widths();
+        let of_all: f64 = widths.iter().map(|it| it.mean * it.crossings as f64).sum();
+        of_all / borders.crossings.len() as f64
+    };
+    let widths = [36, 80, 140].map(width);
+    assert!(
+        widths[0] > 1.2 * widths[1] && widths[1] > 1.2 * widths[2],
+        "{widths:?}"
+    );
+}
+
+#[test]
+fn replicates_go_where_seeds_disagree() {
+    // Below 0.5 the label is certain, above it changes with the seed.
+    let lattice = square(10);
+    let mut settings = Settings::with_budget(200);
+    settings.replicates = 3;
+    settings.exploring = 0.0;
+    let mut runs = Observations::new();
+    loop {
+        let round = next_round(&lattice, &runs, &settings).unwrap();
+        if round.is_empty() {
+            break;
+        }
+        for run in round {
+            let parity = (run.values[0] * 37.0 + run.values[1] * 23.0) as u64 + run.seed;
+            let label = if run.values[1] < 0.5 {
+                1
+            } else {
+                2 + (parity % 2) as Code
+            };
+            runs.add(run, label).unwrap();
+        }
+    }
+    let again = |is_low: bool| {
+        let extra = runs
+            .iter()
+            .filter(|(run, _)| run.seed > 1 && (run.values[1] < 0.45) == is_low);
+        extra.count()
+    };
+    assert!(
+        again(false) > 4 * again(true),
+        "{} {}",
+        again(false),
+        again(true)
+    );
+}

@@ -1,0 +1,357 @@
+//! Refined sweeps through the program: the runs, the tables, the words.
+
+use crate::support::{TinySweep, Workplace, wait_until};
+use phase::classify::{LabelTable, TANK};
+use phase::refine::Finish;
+use phase::sweep::{FAILED, Folder, Learnt, Refinement, Step, Sweep};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Settled at rest and in slow air, pinned in fast air: 3 x 9 points.
+fn tiny(duration: f64, more: &str) -> String {
+    let omegas = (0..9).map(f64::from).collect();
+    let sweep = TinySweep {
+        omegas,
+        duration,
+        ..TinySweep::default()
+    };
+    let radius = "[[axis]]\nkey = \"spheres.radius\"\nvalues = [0.003, 0.0035, 0.004]\n";
+    let text = sweep.text();
+    text.replace("[seeds]\nlist = [1, 2]", &format!("{radius}{more}"))
+}
+
+const REFINE: &str =
+    "[refine]\nbudget = 14\nstart = [3, 2]\nround = 3\nreplicates = 2\n[plot]\nx = \"radius\"\n";
+
+fn sweep(place: &Workplace, text: &str, results: &str, more: &[&str]) -> String {
+    place.write("tiny.toml", text);
+    let arguments = ["sweep", "tiny.toml", "--out", results];
+    let answer = place.phase(&[&arguments[..], more].concat()).code(0);
+    answer.stdout + &answer.stderr
+}
+
+/// The same without figures.
+fn bare(place: &Workplace, text: &str, results: &str, more: &[&str]) -> String {
+    sweep(place, text, results, &[more, &["--no-plot"]].concat())
+}
+
+/// Cells of a table by rows, without the header.
+fn rows(place: &Workplace, table: &str) -> Vec<Vec<String>> {
+    let text = place.read(table);
+    let cells = |line: &str| line.split(',').map(str::to_owned).collect();
+    text.lines().skip(1).map(cells).collect()
+}
+
+#[test]
+fn a_coarse_grid_and_rounds_spend_the_budget() {
+    let place = Workplace::new();
+    let said = sweep(&place, &tiny(2.0, REFINE), "results", &[]);
+    for text in [
+        "14 jobs: 14 run now",
+        "round 1: 6 runs of at most 14; ",
+        "round 2: 9 runs of at most 14; ",
+        "round 4: 14 runs of at most 14; ",
+        "refined with 14 runs: the budget of 14 runs is spent; ",
+        "across may have been missed, such as at omega = ",
+    ] {
+        assert!(said.contains(text), "no `{text}` in {said}");
+    }
+    // The coarse grid has the corners, all with the first seed.
+    let labels = rows(&place, "results/labels.csv");
+    assert_eq!(labels.len(), 14);
+    for omega in ["0.0", "4.0", "8.0"] {
+        for radius in ["0.003", "0.004"] {
+            let is_run = |row: &Vec<String>| row[1..4] == [omega, radius, "1"];
+            assert!(labels.iter().any(is_run), "{omega} {radius}");
+        }
+    }
+    assert!(rows(&place, "results/points.csv").len() <= 14);
+    let refined = rows(&place, "results/refined.csv");
+    assert_eq!(refined.len(), 9 * 3);
+    for row in &refined {
+        let probabilities: Vec<f64> = row[4..].iter().map(|it| it.parse().unwrap()).collect();
+        assert_eq!(probabilities.len(), TANK.labels.len());
+        let sum = probabilities.iter().sum::<f64>();
+        assert!((sum - 1.0).abs() < 1e-9, "{row:?}");
+    }
+    let at = |omega: &str| refined.iter().find(|row| row[0] == omega).unwrap()[2].clone();
+    assert_eq!(at("8.0"), "pinned");
+    assert_ne!(at("0.0"), "pinned");
+    let header = place.read("results/borders.csv");
+    assert!(header.starts_with(
+        "omega,radius,along,below,above,low_68,high_68,low_95,high_95,width,critical_rotation\n"
+    ));
+    // Along omega, the vertical axis, first: each radius crosses the border.
+    let borders = rows(&place, "results/borders.csv");
+    let along: Vec<&Vec<String>> = borders.iter().filter(|row| row[2] == "omega").collect();
+    assert!(along.len() >= 3, "{borders:?}");
+    assert_eq!(borders[0][2], "omega");
+    for row in along {
+        let number = |cell: usize| row[cell].parse::<f64>().unwrap();
+        assert!(number(7) <= number(5) && number(5) <= number(0), "{row:?}");
+        assert!(number(0) <= number(6) && number(6) <= number(8), "{row:?}");
+        assert!((0.0..=1.0).contains(&number(9)) && number(10) > 0.0);
+    }
+    for file in ["refined.svg", "refined.png", "phase.svg"] {
+        assert!(place.path("results").join(file).exists(), "{file}");
+    }
+    let svg = place.read("results/refined.svg");
+    for text in ["border", ">run<", "pinned"] {
+        assert!(svg.contains(text), "no {text} in the figure");
+    }
+    let again = sweep(&place, &tiny(2.0, REFINE), "results", &[]);
+    assert!(again.contains("14 jobs: 0 run now"), "{again}");
+    assert!(again.contains("0 of 14 labels changed"), "{again}");
+}
+
+#[test]
+fn the_figure_is_drawn_of_a_folder_and_only_of_a_refined_one() {
+    let place = Workplace::new();
+    bare(&place, &tiny(2.0, REFINE), "results", &[]);
+    assert!(!place.path("results/refined.svg").exists());
+    let plot = |folder| place.phase(&["plot", folder, "--figure", "refined"]);
+    plot("results").code(0).says("refined.svg");
+    place
+        .phase(&["plot", "results"])
+        .code(0)
+        .says("refined.png");
+    place.write("whole.toml", &TinySweep::default().text());
+    let whole = ["sweep", "whole.toml", "--out", "whole", "--no-plot"];
+    place.phase(&whole).code(0);
+    plot("whole")
+        .code(2)
+        .complains("the figure `refined` needs a refined sweep");
+}
+
+#[test]
+fn the_status_says_how_wide_borders_are() {
+    let place = Workplace::new();
+    bare(&place, &tiny(2.0, REFINE), "results", &[]);
+    let status = place.phase(&["status", "results"]).code(0);
+    status
+        .says("14 jobs, 14 done, 0 failed, 0 left")
+        .says("refined    14 runs of at most 14, ")
+        .says("to pinned: 95 % band over ");
+    place
+        .phase(&["check", "tiny.toml", "--no-trial"])
+        .code(0)
+        .says("6 to start, then rounds of 3 up to 14 in total")
+        .says("1, 2 at most");
+}
+
+/// What a folder holds but for times: the same runs, whatever was done to make them.
+fn content(place: &Workplace, results: &str) -> Vec<String> {
+    let files = [
+        "labels.csv",
+        "points.csv",
+        "refined.csv",
+        "borders.csv",
+        "sweep.json",
+    ];
+    let files = files.map(|file| place.read(&format!("{results}/{file}")));
+    [&files[..], &[format!("{:?}", place.digests(results))]].concat()
+}
+
+#[test]
+fn the_runs_are_the_same_for_any_number_of_workers() {
+    let place = Workplace::new();
+    bare(&place, &tiny(2.0, REFINE), "one", &["-j", "1"]);
+    bare(&place, &tiny(2.0, REFINE), "two", &["-j", "2"]);
+    assert_eq!(content(&place, "one"), content(&place, "two"));
+    let forced = bare(&place, &tiny(2.0, REFINE), "one", &["--force"]);
+    assert!(forced.contains("14 jobs: 14 run now"), "{forced}");
+    assert_eq!(content(&place, "one"), content(&place, "two"));
+}
+
+#[test]
+fn a_refined_sweep_that_is_killed_goes_on() {
+    let place = Workplace::new();
+    let slow = tiny(8.0, REFINE);
+    place.write("tiny.toml", &slow);
+    let arguments = [
+        "sweep",
+        "tiny.toml",
+        "--out",
+        "killed",
+        "-j",
+        "1",
+        "--no-plot",
+    ];
+    // In the coarse grid, and inside a round.
+    for records in [3, 10] {
+        let mut killed = place.start(&arguments);
+        wait_until(|| place.records("killed").len() >= records);
+        killed.kill().unwrap();
+        killed.wait().unwrap();
+    }
+    bare(&place, &slow, "killed", &[]);
+    bare(&place, &slow, "whole", &[]);
+    assert_eq!(content(&place, "killed"), content(&place, "whole"));
+}
+
+#[test]
+fn a_larger_budget_goes_on_with_the_same_runs() {
+    let place = Workplace::new();
+    bare(&place, &tiny(2.0, REFINE), "results", &[]);
+    let larger = tiny(2.0, &REFINE.replace("14", "17"));
+    let said = bare(&place, &larger, "results", &[]);
+    assert!(said.contains("17 jobs: 3 run now"), "{said}");
+    bare(&place, &larger, "whole", &[]);
+    assert_eq!(content(&place, "results"), content(&place, "whole"));
+}
+
+#[test]
+fn nothing_is_run_of_a_full_grid() {
+    let place = Workplace::new();
+    // Every point with both seeds.
+    let full = bare(&place, &tiny(2.0, "[seeds]\ncount = 2"), "results", &[]);
+    assert!(full.contains("54 jobs: 54 run now"), "{full}");
+    let said = bare(&place, &tiny(2.0, REFINE), "results", &[]);
+    assert!(said.contains("14 jobs: 0 run now"), "{said}");
+    bare(&place, &tiny(2.0, REFINE), "alone", &[]);
+    let tables = |folder: &str| content(&place, folder)[..5].to_vec();
+    assert_eq!(tables("results"), tables("alone"));
+}
+
+#[test]
+fn runs_that_are_there_count_as_data() {
+    let place = Workplace::new();
+    let few = tiny(2.0, "").replace(
+        "[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]",
+        "[1.0, 5.0]",
+    );
+    let first = bare(&place, &few, "results", &[]);
+    assert!(first.contains("6 jobs: 6 run now"), "{first}");
+    let said = bare(&place, &tiny(2.0, REFINE), "results", &[]);
+    assert!(said.contains("14 jobs: 8 run now"), "{said}");
+    assert!(said.contains("6 done before"), "{said}");
+    assert_eq!(place.records("results").len(), 14);
+    // They stay given when the sweep goes on.
+    let again = bare(&place, &tiny(2.0, REFINE), "results", &[]);
+    assert!(again.contains("14 jobs: 0 run now"), "{again}");
+}
+
+#[test]
+fn any_sweep_is_refined_when_asked() {
+    let place = Workplace::new();
+    let said = bare(&place, &tiny(2.0, ""), "results", &["--refine"]);
+    // A tenth of the grid is less than its coarse grid of 6 x 3 points.
+    assert!(said.contains("18 jobs: 18 run now"), "{said}");
+    assert!(said.contains("the budget of 18 runs is spent"), "{said}");
+    let edited = tiny(2.0, "[sieves.pinned]\nhole = 30.0");
+    place.write("edited.toml", &edited);
+    let answer = place.phase(&["classify", "results", "--sweep", "edited.toml"]);
+    answer.code(0).says("18 runs labelled").says("pinned -> ");
+    // All that is learnt follows the new labels.
+    assert!(!place.read("results/borders.csv").contains("pinned"));
+    let status = place.phase(&["status", "results"]).code(0);
+    assert!(!status.stdout.contains("pinned"), "{}", status.stdout);
+}
+
+#[test]
+fn refining_ends_when_borders_are_as_narrow_as_wanted() {
+    let place = Workplace::new();
+    let text = tiny(2.0, &REFINE.replace("budget", "width = 1.0\nbudget"));
+    let said = bare(&place, &text, "results", &[]);
+    assert!(said.contains("6 jobs: 6 run now"), "{said}");
+    assert!(
+        said.contains("the bands of all borders are as narrow as wanted (100.0 %)"),
+        "{said}"
+    );
+}
+
+#[test]
+fn finer_steps_have_points_between_those_of_the_axes() {
+    let place = Workplace::new();
+    let text = tiny(2.0, &REFINE.replace("budget", "finer = 2\nbudget"));
+    bare(&place, &text, "results", &[]);
+    let refined = rows(&place, "results/refined.csv");
+    assert_eq!(refined.len(), 17 * 5);
+    let radii: BTreeSet<&str> = refined.iter().map(|row| row[1].as_str()).collect();
+    let expected = ["0.003", "0.00325", "0.0035", "0.00375", "0.004"];
+    assert_eq!(radii.into_iter().collect::<Vec<_>>(), expected);
+}
+
+#[test]
+fn what_does_not_go_with_refining_is_refused() {
+    let place = Workplace::new();
+    place.write("tiny.toml", &tiny(2.0, REFINE));
+    let text = tiny(2.0, "");
+    let no_axes = text.split("[[axis]]").next().unwrap();
+    let no_axes = format!("{no_axes}[seeds]\ncount = 3\n");
+    place.write("alone.toml", &no_axes);
+    place.write("borders.toml", &tiny(2.0, "[seeds]\nat_borders = 3"));
+    for (arguments, message) in [
+        (&["tiny.toml", "--no-classify"][..], "refining needs labels"),
+        (
+            &["tiny.toml", "--seed", "4,5"],
+            "a refined sweep takes one --seed, the first; each point has at most 2 seeds from",
+        ),
+        (
+            &["borders.toml", "--refine"],
+            "`seeds.at_borders` has no effect; remove it",
+        ),
+        (
+            &["alone.toml", "--refine"],
+            "a sweep without axes has no borders to refine",
+        ),
+    ] {
+        let answer = place.phase(&[&["sweep"], arguments].concat());
+        answer.code(2).complains(message);
+    }
+    let said = bare(&place, &tiny(2.0, REFINE), "results", &["--seed", "5"]);
+    assert!(said.contains("14 jobs: 14 run now"), "{said}");
+    assert_eq!(rows(&place, "results/labels.csv")[0][3], "5");
+}
+
+fn load(text: &str) -> Sweep {
+    phase::sweep::from_str(text, Path::new("tiny.toml")).unwrap()
+}
+
+/// Runs without a record have failed: a label of its own, which rounds learn like any other.
+#[test]
+fn failed_runs_are_a_label() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = Folder::new(place.path());
+    folder.create().unwrap();
+    let mut sweep = load(&tiny(2.0, REFINE));
+    let mut refinement = Refinement::new(&folder, &sweep, false, 1).unwrap();
+    let mut rounds = Vec::new();
+    let end = loop {
+        match refinement.next_step(&mut sweep).unwrap() {
+            Step::Finished(end) => break end,
+            Step::Run(jobs) => {
+                rounds.push(jobs.len());
+                refinement.learn(&folder, &mut sweep, &jobs, 1).unwrap();
+            }
+        }
+    };
+    assert_eq!((end, rounds), (Finish::Budget, vec![6, 3, 3, 2]));
+    assert_eq!(sweep.refine.as_ref().unwrap().failed.len(), 14);
+    let table = LabelTable {
+        family: &TANK,
+        axes: vec!["omega".to_owned(), "radius".to_owned()],
+        rows: Vec::new(),
+    };
+    let learnt = Learnt::of(&sweep, &table).unwrap().unwrap();
+    assert_eq!(learnt.map.codes(), [FAILED]);
+    learnt.write(&folder, &sweep, &TANK).unwrap();
+    let text = std::fs::read_to_string(folder.refined()).unwrap();
+    assert!(
+        text.lines().next().unwrap().ends_with(",p_failed"),
+        "{text}"
+    );
+    assert!(text.contains(",failed,-128,"), "{text}");
+}
+
+#[test]
+fn a_sweep_survives_json_with_its_runs() {
+    let mut sweep = load(&tiny(2.0, REFINE));
+    assert_eq!(sweep.jobs().unwrap().len(), 6);
+    let point = [("omega".to_owned(), 4.0)];
+    assert_eq!(sweep.select(&point).unwrap().jobs().unwrap().len(), 2);
+    let text = serde_json::to_string(&sweep).unwrap();
+    assert_eq!(serde_json::from_str::<Sweep>(&text).unwrap(), sweep);
+    sweep.refine = None;
+    assert_eq!(sweep.jobs().unwrap().len(), 9 * 3 * 2);
+}
