@@ -1,4 +1,8 @@
-//! Means of replicates and their intervals.
+//! Means of replicates and their intervals, and trends of series in time.
+
+mod trend;
+
+pub use trend::Trend;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
