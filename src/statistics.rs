@@ -2,6 +2,7 @@
 
 mod trend;
 
+pub(crate) use trend::LEAST_VALUES;
 pub use trend::Trend;
 
 use std::f64::consts::{FRAC_PI_2, PI};
