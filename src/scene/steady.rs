@@ -1,7 +1,7 @@
 //! When a run counts as steady, and ends.
 
 use crate::document::quantities::seconds;
-use crate::document::quantity;
+use crate::document::{quantity, unit};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -27,7 +27,7 @@ pub struct Steady {
     /// Probability that one check of a run which changes by just the tolerance does not end it
     /// (default 0.95).
     #[schemars(
-        transform = quantity("", "", "confidence of steadiness").at_least(0.5).at_most(0.999_999)
+        transform = unit("").at_least(0.5).at_most(0.999_999)
     )]
     pub confidence: f64,
     /// Time between checks (s, default 0.5), rounded to whole frames.
