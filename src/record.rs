@@ -17,7 +17,8 @@ pub struct RunRecord {
     pub radius: Vec<f64>,
     /// Mass of every sphere (kg).
     pub mass: Vec<f64>,
-    /// What happened once, in order of time; only in scenes where spheres come or go.
+    /// What happened once, in order of time; only in scenes where spheres come or go, or that end
+    /// when they are steady.
     pub milestones: Vec<Milestone>,
     /// Observables of every frame.
     pub observations: Observations,
@@ -41,6 +42,20 @@ pub enum States<'a> {
 }
 
 impl RunRecord {
+    /// Whether the run became steady before its time was up; none in a scene that does not ask for
+    /// it, and of a run that a guard ended.
+    pub fn is_steady(&self) -> Option<bool> {
+        let is_asked = self.scene.steady.is_some() && self.outcome == Outcome::Completed;
+        is_asked.then(|| self.steady_since().is_some())
+    }
+
+    /// Time (s) since when the run is steady, in a scene that asks for it, if it ever was.
+    pub fn steady_since(&self) -> Option<f64> {
+        let mut milestones = self.milestones.iter();
+        let steady = milestones.find(|it| it.kind == MilestoneKind::Steady);
+        steady.map(|it| it.time)
+    }
+
     /// The finest states of all spheres that the record holds: its trajectory, or else its
     /// snapshots.
     pub fn states(&self) -> States<'_> {
@@ -104,7 +119,7 @@ impl Program {
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    /// It reached its duration.
+    /// It reached its duration, or an earlier end that its scene asks for.
     Completed,
     /// A guard ended it.
     Unstable(Instability),

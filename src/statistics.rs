@@ -1,4 +1,9 @@
-//! Means of replicates and their intervals.
+//! Means of replicates and their intervals, and trends of series in time.
+
+mod trend;
+
+pub(crate) use trend::LEAST_VALUES;
+pub use trend::Trend;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

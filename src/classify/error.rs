@@ -45,6 +45,19 @@ pub enum ClassifyError {
         /// What that list holds.
         counted: Vec<f64>,
     },
+    /// A run may end before the window of a sieve is over.
+    #[error(
+        "`sieves.{sieve}.window` is {window} s, but runs end after {steady} s without a trend; use \
+         `steady.window = {window}` in the scene, or a shorter window"
+    )]
+    SteadyTooShort {
+        /// The sieve.
+        sieve: &'static str,
+        /// Its window (s).
+        window: f64,
+        /// That of the scene's steady part (s).
+        steady: f64,
+    },
     /// The parts of a record contradict each other.
     #[error("the record contradicts itself: {0}; run the scene again")]
     Inconsistent(String),

@@ -40,6 +40,17 @@ pub struct Point {
 }
 
 impl LabelTable {
+    /// Whether runs end when they are steady, as far as any row says.
+    pub fn has_steady(&self) -> bool {
+        self.rows.iter().any(|row| row.verdict.steady.is_some())
+    }
+
+    /// Whether a run of a point was still not steady when its time was up.
+    pub fn is_unsteady(&self, point: &Point) -> bool {
+        let mut rows = point.rows.iter();
+        rows.any(|row| self.rows[*row].verdict.steady == Some(false))
+    }
+
     /// The points of the grid, in order of their first row.
     pub fn points(&self) -> Vec<Point> {
         let mut points: Vec<Point> = Vec::new();

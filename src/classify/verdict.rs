@@ -10,6 +10,9 @@ pub struct Verdict {
     pub label: Label,
     /// Whose label and measures these are.
     pub family: &'static Family,
+    /// Whether the run became steady before its time was up; none in a scene that does not ask for
+    /// it, and of an unstable run.
+    pub steady: Option<bool>,
     /// Values of the family's measures, in their order.
     pub values: Vec<Option<f64>>,
 }
@@ -20,6 +23,7 @@ impl Verdict {
         Self {
             label,
             family,
+            steady: None,
             values: vec![None; family.measures().count()],
         }
     }
@@ -55,6 +59,7 @@ pub fn classify(record: &RunRecord, sieves: &Sieves) -> Result<Verdict, Classify
     Ok(Verdict {
         label,
         family,
+        steady: record.is_steady(),
         values,
     })
 }

@@ -347,7 +347,7 @@ impl<'a> Answer<'a> {
     }
 }
 
-/// What a run was to do and did not, where spheres come and go.
+/// What a run was to do and did not.
 fn unmet(record: &RunRecord) -> Vec<String> {
     let scene = &record.scene;
     let happened = |kind| record.milestones.iter().any(|it| it.kind == kind);
@@ -369,6 +369,9 @@ fn unmet(record: &RunRecord) -> Vec<String> {
     }
     if scene.dem.door.is_some() && !happened(MilestoneKind::DoorOpened) {
         unmet.push("THE DOOR NEVER OPENED".to_owned());
+    }
+    if record.is_steady() == Some(false) {
+        unmet.push("NOT STEADY: the run reached its duration first".to_owned());
     }
     let spilled = last(&observations.spilled);
     if spilled > 0.0 {

@@ -48,7 +48,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", value_delimiter = ',', conflicts_with = "time")]
     frame: Vec<u64>,
     /// Times to show (s), of which the nearest state is taken; or, of a silo, `filled`, `at-rest`,
-    /// `door-opened` or `emptied`, which take the first state since then.
+    /// `door-opened`, `emptied` or `steady`, which take the first state since then.
     #[arg(
         long,
         value_name = "T",

@@ -134,6 +134,11 @@ impl Observer {
         self.second_look(frame, &means);
     }
 
+    /// The observables of all frames so far, but for `profile` and `rising`.
+    pub(crate) fn observations(&self) -> &Observations {
+        &self.observations
+    }
+
     /// The observables of all frames so far.
     pub fn finish(self) -> Observations {
         let frames = self.observations.frames();

@@ -8,6 +8,7 @@ use super::svg::Svg;
 use super::{Figure, PlotError, Source, palette};
 use crate::classify::Label;
 use crate::classify::Point;
+use plotters::style::WHITE;
 
 /// The phase diagram.
 pub(super) struct PhaseDiagram;
@@ -19,7 +20,7 @@ impl Figure for PhaseDiagram {
 
     fn description(&self) -> String {
         "phase diagram: the majority label at every point, paler and with a dot where seeds \
-         disagree"
+         disagree, hatched where a run did not become steady"
             .to_owned()
     }
 
@@ -40,10 +41,15 @@ impl Figure for PhaseDiagram {
             .map(|label| Entry::new(Key::Fill(fill(*label)), &label.name.replace('-', " ")))
             .collect();
         legend.extend(of_disagreement(&points));
+        let is_unsteady = |point: &Point| source.table.is_unsteady(point);
+        if points.iter().any(|point| is_unsteady(point)) {
+            let key = Key::Fill(Fill::Falling(WHITE));
+            legend.push(Entry::new(key, "not steady"));
+        }
         Diagram {
             name: self.name(),
             grid: &grid,
-            look: &|point| Some(look(point)),
+            look: &|point| Some(look(point, is_unsteady(point))),
             empty: "not run".to_owned(),
             legend,
             bar: None,
@@ -65,12 +71,18 @@ pub(super) fn fill(label: Label) -> Fill {
     }
 }
 
-fn look(point: &Point) -> Look {
+fn look(point: &Point, is_unsteady: bool) -> Look {
     if has_majority(point) {
         Look {
             // In grey a pale colour may be that of another label: the mark says that it is pale.
             fill: match fill(point.label) {
-                Fill::Color(color) => Fill::Color(palette::faded(color, point.agreement)),
+                Fill::Color(color) => {
+                    let color = palette::faded(color, point.agreement);
+                    match is_unsteady {
+                        true => Fill::Falling(color),
+                        false => Fill::Color(color),
+                    }
+                }
                 pattern => pattern,
             },
             agreement: point.agreement,

@@ -71,6 +71,8 @@ pub(super) fn outline(sheet: &Sheet<'_>, corners: Corners, style: ShapeStyle) ->
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Fill {
     Color(RGBColor),
+    /// Falling lines on a colour: a run that was still not steady at its end.
+    Falling(RGBColor),
     /// Oblique lines: no value.
     Hatch,
     /// Crossing oblique lines on white: what went numerically wrong.
@@ -86,6 +88,10 @@ const SPACING: i32 = px(5);
 pub(super) fn paint(sheet: &Sheet<'_>, corners: Corners, with: Fill) -> Drawn {
     match with {
         Fill::Color(color) => fill(sheet, corners, color),
+        Fill::Falling(color) => {
+            fill(sheet, corners, color)?;
+            oblique(sheet, corners, BLACK.mix(0.6).stroke_width(6), false)
+        }
         Fill::Hatch => {
             fill(sheet, corners, palette::EMPTY)?;
             oblique(sheet, corners, palette::HATCH.stroke_width(6), true)

@@ -4,6 +4,7 @@ mod load;
 mod models;
 mod packed;
 mod state;
+mod steady;
 
 pub(crate) use load::{Reading, base_of_document, base_of_tree, load_base_with};
 pub use models::model_of;
@@ -13,10 +14,11 @@ use crate::cpu_time;
 use crate::observe::{Observer, Snapshot};
 use crate::record::{Outcome, Program, RunRecord};
 use crate::scene::Scene;
-use crate::simulation::{BuildError, Counts, Profile, Simulation};
+use crate::simulation::{BuildError, Counts, Milestone, MilestoneKind, Profile, Simulation};
 use rayon::ThreadPoolBuildError;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
+use steady::SteadyTest;
 
 /// How far a run is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -103,6 +105,10 @@ pub struct Run {
     outcome: Outcome,
     frame: u64,
     frames: u64,
+    /// Present in a scene that ends when it is steady.
+    steady_test: Option<SteadyTest>,
+    /// Since when the run is steady, once it is (s).
+    steady_since: Option<f64>,
     /// Absent where none but that of the end is asked for.
     frames_per_snapshot: Option<u64>,
     /// Processor time that the run took before `started` (s).
@@ -146,6 +152,8 @@ impl Run {
                 snapshots: Vec::new(),
                 trajectory: Vec::new(),
             },
+            steady_test: SteadyTest::new(scene, simulation.radius(), simulation.mass()),
+            steady_since: None,
             simulation,
             outcome: Outcome::Completed,
             frame: 0,
@@ -200,9 +208,13 @@ impl Run {
         }
     }
 
-    /// Whether the run is over: its time is up, a guard is broken, or nothing more will happen.
+    /// Whether the run is over: its time is up, it is steady in a scene that asks for that, a guard
+    /// is broken, or nothing more will happen.
     pub fn ended(&self) -> bool {
-        self.frame == self.frames || self.is_unstable() || self.simulation.ended()
+        self.frame == self.frames
+            || self.steady_since.is_some()
+            || self.is_unstable()
+            || self.simulation.ended()
     }
 
     /// How far the run is.
@@ -233,6 +245,7 @@ impl Run {
             self.take_snapshot();
         }
         let cpu_seconds = self.cpu_seconds();
+        let milestones = self.milestones();
         let Results {
             observer,
             snapshots,
@@ -244,13 +257,21 @@ impl Run {
             outcome: self.outcome,
             radius: self.simulation.radius().to_vec(),
             mass: self.simulation.mass().to_vec(),
-            milestones: self.simulation.milestones().to_vec(),
+            milestones,
             observations: observer.finish(),
             snapshots,
             trajectory,
             work: self.simulation.work(),
             cpu_seconds,
         }
+    }
+
+    /// Scenes that end when they are steady have no others.
+    fn milestones(&self) -> Vec<Milestone> {
+        let kind = MilestoneKind::Steady;
+        let steady = self.steady_since.map(|time| Milestone { kind, time });
+        let milestones = self.simulation.milestones().iter().copied();
+        milestones.chain(steady).collect()
     }
 
     fn cpu_seconds(&self) -> f64 {
@@ -267,7 +288,7 @@ impl Run {
 
     /// Looks at the present frame, and keeps of it what the scene's output asks for.
     pub(crate) fn look(&mut self) {
-        let (broken, ended) = (self.is_unstable(), self.ended());
+        let (broken, mut ended) = (self.is_unstable(), self.ended());
         let time = self.simulation.time();
         let own = self.simulation.values();
         let results = &mut self.results;
@@ -275,6 +296,10 @@ impl Run {
             if !broken {
                 results.observer.observe_own(&own);
                 results.observer.observe(time, frame);
+                if let Some(test) = &self.steady_test {
+                    self.steady_since = test.since(self.frame, results.observer.observations());
+                    ended |= self.steady_since.is_some();
+                }
             }
             // That of the end is taken last of all.
             let due = |frames| self.frame.is_multiple_of(frames);

@@ -40,6 +40,9 @@ impl Run {
         (own, simulation) = postcard::take_from_bytes(state).map_err(|_| StateError::OTHER_FORM)?;
         self.simulation.restore(simulation)?;
         (self.frame, self.cpu_seconds_before, self.results) = own;
+        let observations = self.results.observer.observations();
+        let test = self.steady_test.as_ref();
+        self.steady_since = test.and_then(|it| it.since(self.frame, observations));
         self.started = cpu_time::of_this_thread();
         Ok(())
     }

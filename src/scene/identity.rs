@@ -2,7 +2,8 @@
 
 use super::{Contact, Door, Friction, Geometry, Outlet, Rest, Rolling};
 use super::{
-    DemScene, Driven, Effects, Guards, Neighbours, Output, Scene, Spheres, Spot, Start, Tank, Time,
+    DemScene, Driven, Effects, Guards, Neighbours, Output, Scene, Spheres, Spot, Start, Steady,
+    Tank, Time,
 };
 use serde::Serialize;
 
@@ -37,6 +38,8 @@ struct Motion<'a> {
     effects: &'a Effects,
     time: &'a Time,
     guards: &'a Guards,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    steady: Option<&'a Steady>,
     /// As by default.
     output: Output,
 }
@@ -45,17 +48,22 @@ fn is_empty(driven: &&[Driven]) -> bool {
     driven.is_empty()
 }
 
+impl Motion<'_> {
+    fn identity(&self) -> String {
+        // Numbers are written shortest-round-trip, so the text is canonical. It goes to the hash
+        // as it is written: a start of a million spheres would make a long one.
+        let mut hasher = blake3::Hasher::new();
+        serde_json::to_writer(&mut hasher, self).expect("a scene holds no map with odd keys");
+        hasher.finalize().to_hex()[..16].to_owned()
+    }
+}
+
 impl Scene {
     /// Sixteen hexadecimal digits that stand for everything which determines the motion: all keys
     /// but `title`, `neighbours` and `output`. Runs of equal identity have equal bits, and every
     /// random number of a run derives from it.
     pub fn identity(&self) -> String {
-        // Numbers are written shortest-round-trip, so the text is canonical. It goes to the hash
-        // as it is written: a start of a million spheres would make a long one.
-        let mut hasher = blake3::Hasher::new();
-        serde_json::to_writer(&mut hasher, &self.motion())
-            .expect("a scene holds no map with odd keys");
-        hasher.finalize().to_hex()[..16].to_owned()
+        self.motion().identity()
     }
 
     fn motion(&self) -> Motion<'_> {
@@ -69,6 +77,7 @@ impl Scene {
             spot,
             accuracy: _,
             time,
+            steady,
             output: _,
         } = self;
         let DemScene {
@@ -101,6 +110,7 @@ impl Scene {
             effects,
             time,
             guards,
+            steady: steady.as_ref(),
             output: Output::default(),
         }
     }
@@ -118,11 +128,16 @@ impl Scene {
     }
 
     /// The random stream of this run that serves one `purpose`. Streams of different
-    /// purposes or of different runs are independent.
+    /// purposes or of different runs are independent. `steady` ends a run and does not change it:
+    /// without that table it goes on with the same bits.
     pub fn random_stream(&self, purpose: &str) -> rand_pcg::Pcg64 {
         use rand::SeedableRng;
         let mut hasher = blake3::Hasher::new();
-        hasher.update(self.identity().as_bytes());
+        let without_end = Motion {
+            steady: None,
+            ..self.motion()
+        };
+        hasher.update(without_end.identity().as_bytes());
         hasher.update(purpose.as_bytes());
         rand_pcg::Pcg64::from_seed(*hasher.finalize().as_bytes())
     }

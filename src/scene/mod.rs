@@ -20,6 +20,7 @@ mod simplified;
 mod spheres;
 mod spot;
 mod start;
+mod steady;
 mod tank;
 mod time;
 mod tree;
@@ -46,6 +47,7 @@ pub use spot::{RelaxationMethod, Spot, SpotRelaxation, SpotSchedule, SpotWalk, S
 pub(crate) use start::LIST_KEY;
 use start::START_SPHERE;
 pub use start::{Start, StartSphere};
+pub use steady::Steady;
 pub use tank::Tank;
 pub(crate) use time::AUTO;
 pub use time::{Integrator, Time};
@@ -94,6 +96,9 @@ pub struct Scene {
     pub accuracy: Option<Accuracy>,
     /// Time step, duration, frames, integrator.
     pub time: Time,
+    /// When the run is steady, and ends. Absent: it ends at its duration.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steady: Option<Steady>,
     /// What is stored besides the observables of every frame. Never changes the motion.
     #[serde(default)]
     pub output: Output,
@@ -163,6 +168,7 @@ impl Scene {
             spot: None,
             accuracy: None,
             time,
+            steady: None,
             output: Output::default(),
         }
     }

@@ -23,11 +23,19 @@ pub enum MilestoneKind {
     DoorOpened,
     /// The last sphere left.
     Emptied,
+    /// The run became steady; the time is that from which it was.
+    Steady,
 }
 
 impl MilestoneKind {
     /// All kinds.
-    pub const ALL: [Self; 4] = [Self::Filled, Self::AtRest, Self::DoorOpened, Self::Emptied];
+    pub const ALL: [Self; 5] = [
+        Self::Filled,
+        Self::AtRest,
+        Self::DoorOpened,
+        Self::Emptied,
+        Self::Steady,
+    ];
 
     /// Name, as in records and reports.
     pub fn name(self) -> &'static str {
@@ -36,6 +44,7 @@ impl MilestoneKind {
             Self::AtRest => "at rest",
             Self::DoorOpened => "door opened",
             Self::Emptied => "emptied",
+            Self::Steady => "steady",
         }
     }
 }

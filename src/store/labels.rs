@@ -1,8 +1,9 @@
 //! `labels.csv`, one row per job, and `points.csv`, one row per point of the grid.
 //!
-//! Columns of `labels.csv`: `id`, the axes by their names, `seed`, `label`, its `code`, then the
-//! [measures](Family::measures) of the family by their names. What is not known is empty. Numbers
-//! are written with as many digits as it takes to read back the same bits.
+//! Columns of `labels.csv`: `id`, the axes by their names, `seed`, `label`, its `code`, `steady` if
+//! runs end when they are steady, then the [measures](Family::measures) of the family by their
+//! names. What is not known is empty. Numbers are written with as many digits as it takes to read
+//! back the same bits.
 
 use super::{StoreError, write_atomic};
 use crate::classify::{FAMILIES, Family, LabelRow, LabelTable, Verdict};
@@ -13,6 +14,9 @@ use std::path::Path;
 /// The columns between the axes and the measures.
 const VERDICT: [&str; 3] = ["seed", "label", "code"];
 
+/// The column after these in a table of runs that end when they are steady.
+const STEADY: &str = "steady";
+
 /// Writes a table of labels.
 ///
 /// # Errors
@@ -21,8 +25,9 @@ const VERDICT: [&str; 3] = ["seed", "label", "code"];
 pub fn write_labels(table: &LabelTable, path: &Path) -> Result<(), StoreError> {
     let fail = |error| StoreError::content(path, error);
     let mut writer = csv_writer();
+    let has_steady = table.has_steady();
     writer
-        .write_record(columns(table.family, &table.axes))
+        .write_record(columns(table.family, &table.axes, has_steady))
         .map_err(fail)?;
     for row in &table.rows {
         let verdict = &row.verdict;
@@ -32,8 +37,13 @@ pub fn write_labels(table: &LabelTable, path: &Path) -> Result<(), StoreError> {
             return Err(StoreError::content(path, reason));
         }
         let label = (verdict.label, verdict.label.code);
+        let steady: &[Option<bool>] = match has_steady {
+            true => &[verdict.steady],
+            false => &[],
+        };
+        let values = &verdict.values;
         writer
-            .serialize((&row.id, &row.values, row.seed, label, &verdict.values))
+            .serialize((&row.id, &row.values, row.seed, label, steady, values))
             .map_err(fail)?;
     }
     save(writer, path)
@@ -73,43 +83,59 @@ pub fn read_labels(path: &Path) -> Result<LabelTable, StoreError> {
     let content = text::read(path).map_err(|error| StoreError::reading(path, error))?;
     let mut reader = csv::Reader::from_reader(content.as_bytes());
     let header = reader.headers().map_err(|error| malformed(path, &error))?;
-    let (family, axes) = read_header(header).map_err(|reason| StoreError::text(path, 1, reason))?;
-    let names = columns(family, &axes);
+    let header = read_header(header).map_err(|reason| StoreError::text(path, 1, reason))?;
+    let Header { family, axes, .. } = &header;
+    let names = columns(family, axes, header.has_steady);
     let rows = reader
         .records()
         .map(|record| {
             let record = record.map_err(|error| malformed(path, &error))?;
-            read_row(family, &names, axes.len(), &record).map_err(|reason| {
+            read_row(&header, &names, &record).map_err(|reason| {
                 let line = record.position().map_or(1, csv::Position::line);
                 StoreError::text(path, line, reason)
             })
         })
         .collect::<Result<_, _>>()?;
+    let Header { family, axes, .. } = header;
     Ok(LabelTable { family, axes, rows })
 }
 
+/// What the header line of a table says.
+struct Header {
+    family: &'static Family,
+    axes: Vec<String>,
+    has_steady: bool,
+}
+
 /// Names of all columns.
-fn columns(family: &Family, axes: &[String]) -> Vec<String> {
+fn columns(family: &Family, axes: &[String], has_steady: bool) -> Vec<String> {
     let mut names = vec!["id".to_owned()];
     names.extend_from_slice(axes);
     names.extend(VERDICT.map(str::to_owned));
+    names.extend(has_steady.then(|| STEADY.to_owned()));
     names.extend(family.measures().map(|measure| measure.name.to_owned()));
     names
 }
 
 /// The family whose measures the header line names, and the axes.
-fn read_header(header: &StringRecord) -> Result<(&'static Family, Vec<String>), String> {
-    let read = |family: &'static Family| {
-        let others = columns(family, &[]).len();
+fn read_header(header: &StringRecord) -> Result<Header, String> {
+    let read = |family: &'static Family, has_steady: bool| {
+        let others = columns(family, &[], has_steady).len();
         let axes = header.len().checked_sub(others)?;
         let axes = header.iter().skip(1).take(axes);
         let axes: Vec<_> = axes.map(str::to_owned).collect();
-        let expected = columns(family, &axes);
-        header.iter().eq(&expected).then_some((family, axes))
+        let expected = columns(family, &axes, has_steady);
+        header.iter().eq(&expected).then_some(Header {
+            family,
+            axes,
+            has_steady,
+        })
     };
-    FAMILIES.into_iter().find_map(read).ok_or_else(|| {
+    let mut families = FAMILIES.into_iter();
+    let either = |family| read(family, false).or_else(|| read(family, true));
+    families.find_map(either).ok_or_else(|| {
         let known = FAMILIES.map(|family| {
-            let columns = columns(family, &["<axes>".to_owned()]).join(",");
+            let columns = columns(family, &["<axes>".to_owned()], false).join(",");
             format!("of a {} {columns}", family.name)
         });
         format!(
@@ -120,12 +146,7 @@ fn read_header(header: &StringRecord) -> Result<(&'static Family, Vec<String>), 
     })
 }
 
-fn read_row(
-    family: &'static Family,
-    names: &[String],
-    axes: usize,
-    record: &StringRecord,
-) -> Result<LabelRow, String> {
+fn read_row(header: &Header, names: &[String], record: &StringRecord) -> Result<LabelRow, String> {
     fn parse<T: std::str::FromStr>(name: &str, field: &str, what: &str) -> Result<T, String> {
         let parsed = field.parse();
         parsed.map_err(|_| format!("column `{name}`: `{field}` is not {what}"))
@@ -135,8 +156,10 @@ fn read_row(
         "" => Ok(None),
         _ => number(at).map(Some),
     };
-    let seed = 1 + axes;
-    let first = seed + VERDICT.len();
+    let family = header.family;
+    let seed = 1 + header.axes.len();
+    let steady = header.has_steady.then_some(seed + VERDICT.len());
+    let first = seed + VERDICT.len() + usize::from(header.has_steady);
 
     let label = family.label(&record[seed + 1]).ok_or_else(|| {
         format!(
@@ -149,6 +172,10 @@ fn read_row(
         let (code, name) = (&record[seed + 2], label.name);
         return Err(format!("label `{name}` does not have code {code}"));
     }
+    let truth = |at: usize| match &record[at] {
+        "" => Ok(None),
+        field => parse(&names[at], field, "true or false").map(Some),
+    };
     let values = (first..names.len()).map(optional);
     Ok(LabelRow {
         id: record[0].to_owned(),
@@ -156,6 +183,7 @@ fn read_row(
         verdict: Verdict {
             label,
             family,
+            steady: steady.map(truth).transpose()?.flatten(),
             values: values.collect::<Result<_, _>>()?,
         },
         values: (1..seed).map(number).collect::<Result<_, _>>()?,

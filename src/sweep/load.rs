@@ -220,18 +220,31 @@ fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
         let problem = Problem::new(format!("sieves.{name}"), message);
         problems.push(problem.help(help).at_key());
     }
-    if let Err(ClassifyError::NotCounted {
-        key,
-        value,
-        list,
-        counted,
-    }) = sweep.sieves.check(&sweep.scene)
-    {
-        let message = format!(
-            "`sieves.spout.{key}` = {value} is not one of the scene's `output.{list}` = {counted:?}"
-        );
-        let help = format!("use one of these, or add {value} to `{list}` in [output]");
-        problems.push(Problem::new(format!("sieves.spout.{key}"), message).help(help));
+    match sweep.sieves.check(&sweep.scene) {
+        Err(ClassifyError::NotCounted {
+            key,
+            value,
+            list,
+            counted,
+        }) => {
+            let message = format!(
+                "`sieves.spout.{key}` = {value} is not one of the scene's `output.{list}` = \
+                 {counted:?}"
+            );
+            let help = format!("use one of these, or add {value} to `{list}` in [output]");
+            problems.push(Problem::new(format!("sieves.spout.{key}"), message).help(help));
+        }
+        Err(error @ ClassifyError::SteadyTooShort { sieve, .. }) => {
+            let text = error.to_string();
+            let (message, help) = text.split_once("; ").unwrap_or((&text, ""));
+            let path = format!("sieves.{sieve}.window");
+            let path = match tree.pointer(&format!("/{}", path.replace('.', "/"))) {
+                Some(_) => path,
+                None => "scene".to_owned(),
+            };
+            problems.push(Problem::new(path, message).help(help));
+        }
+        _ => {}
     }
 }
 

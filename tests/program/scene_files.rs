@@ -347,8 +347,8 @@ fn every_numeric_key_is_part_of_the_identity() {
     let keys = scene.numeric_keys();
     assert!(keys.len() > 30, "{keys:?}");
     for key in &keys {
-        // Not all of them may be as large as 3.
-        let changed = [3.0, 0.25].map(|value| scene.with_values([(key.as_str(), value)]));
+        // Not all of them may be as large as 3, or as small as a quarter.
+        let changed = [3.0, 0.25, 0.75].map(|value| scene.with_values([(key.as_str(), value)]));
         let changed = changed.into_iter().find_map(Result::ok).unwrap();
         assert_ne!(changed.identity(), scene.identity(), "{key}");
     }

@@ -17,7 +17,7 @@ pub use pinned::PinnedSieve;
 pub use settle::SettleSieve;
 pub use spout::SpoutSieve;
 
-use super::{ClassifyError, Family, Label, Sieves};
+use super::{ClassifyError, Family, Label, Sieves, window};
 use crate::record::RunRecord;
 use crate::scene::Scene;
 use fluid::FluidEvidence;
@@ -55,16 +55,18 @@ pub static TANK: Family = Family {
             .is_some_and(|tank| tank.radius.is_some())
     },
     check,
-    windows: |sieves| {
-        vec![
-            ("settle", sieves.settle.window),
-            ("fluid", sieves.fluid.window),
-            ("pinned", sieves.pinned.window),
-            ("spout", sieves.spout.window),
-        ]
-    },
+    windows,
     judge,
 };
+
+fn windows(sieves: &Sieves) -> Vec<(&'static str, f64)> {
+    vec![
+        ("settle", sieves.settle.window),
+        ("fluid", sieves.fluid.window),
+        ("pinned", sieves.pinned.window),
+        ("spout", sieves.spout.window),
+    ]
+}
 
 fn check(sieves: &Sieves, scene: &Scene) -> Result<(), ClassifyError> {
     let interval = scene.time.frame_interval;
@@ -73,12 +75,34 @@ fn check(sieves: &Sieves, scene: &Scene) -> Result<(), ClassifyError> {
     sieves.pinned.check(interval)?;
     sieves.spout.check(interval)?;
     sieves.spout.column(&scene.output)?;
+    check_steady(sieves, scene)?;
     run::energy_scale(scene).map(|_| ())
+}
+
+/// The shortest steady part of a run must hold the window of every sieve.
+fn check_steady(sieves: &Sieves, scene: &Scene) -> Result<(), ClassifyError> {
+    let Some(steady) = &scene.steady else {
+        return Ok(());
+    };
+    let interval = scene.time.frame_interval;
+    let room = window::frames(steady.window, interval);
+    let windows = windows(sieves).into_iter();
+    let mut longer = windows.filter(|(_, window)| window::frames(*window, interval) > room);
+    longer.next().map_or(Ok(()), |(sieve, window)| {
+        Err(ClassifyError::SteadyTooShort {
+            sieve,
+            window,
+            steady: steady.window,
+        })
+    })
 }
 
 fn judge(record: &RunRecord, sieves: &Sieves) -> Result<(Label, Vec<Option<f64>>), ClassifyError> {
     let run = Run::new(record, sieves.spout.column(&record.scene.output)?)?;
-    let (start, settling) = sieves.settle.sift(&run);
+    let (start, settling) = match record.steady_since() {
+        Some(since) => sieves.settle.sift_steady(&run, run.frame_at(since)),
+        None => sieves.settle.sift(&run),
+    };
     let (mut fluid, mut pinned) = (FluidEvidence::default(), PinnedEvidence::default());
     let mut spout = SpoutEvidence::default();
     let mut label = Label::UNSETTLED;
@@ -113,6 +137,8 @@ mod tests {
     use super::*;
     use crate::classify::classify;
     use crate::classify::tank::synthetic::quiet;
+    use crate::record::{Milestone, MilestoneKind};
+    use crate::scene::Steady;
 
     const FRAMES: usize = 5000;
 
@@ -194,5 +220,75 @@ mod tests {
         let mut run = quiet(FRAMES);
         run.mass.clear();
         assert!(classify(&run, &Sieves::default()).is_err());
+    }
+
+    /// The quiet run as one that is steady from this frame on, or never.
+    fn steady_from(frame: Option<usize>) -> RunRecord {
+        let mut record = quiet(FRAMES);
+        record.scene.steady = Some(Steady::default());
+        let times = &record.observations.time;
+        let kind = MilestoneKind::Steady;
+        let steady = frame.map(|frame| Milestone {
+            kind,
+            time: times[frame],
+        });
+        record.milestones.extend(steady);
+        record
+    }
+
+    #[test]
+    fn sieves_look_at_the_steady_part() {
+        let sieves = Sieves::default();
+        let from = FRAMES - 1 - 2000;
+        let judge = |record: &RunRecord| classify(record, &sieves).unwrap();
+
+        // A spout before it does not count; in all of it, which is just long enough, it does.
+        let before = judge(&steady_from(Some(from)).with_rising(10, 0..FRAMES - 1));
+        assert_eq!((before.label, before.steady), (Label::SETTLED, Some(true)));
+        assert_eq!(before.value("settle_time"), Some(from as f64 * 1e-3));
+        let all = judge(&steady_from(Some(from)).with_rising(10, from + 1..FRAMES));
+        assert_eq!(all.label, Label::SMALL_SPOUT);
+
+        // A run that was steady by its own test is settled, whatever the energy does, unless a
+        // sphere flies.
+        let mut restless = steady_from(Some(from));
+        let energies = &mut restless.observations.kinetic;
+        for energy in energies.iter_mut().step_by(2) {
+            *energy = 1.0;
+        }
+        assert_eq!(judge(&restless).label, Label::SETTLED);
+        restless.observations.height_max.fill(1.0);
+        assert_eq!(judge(&restless).label, Label::UNSETTLED);
+    }
+
+    #[test]
+    fn a_run_that_reached_its_time_is_judged_as_before_and_marked() {
+        let sieves = Sieves::default();
+        let capped = steady_from(None).with_rising(10, 0..FRAMES);
+        let verdict = classify(&capped, &sieves).unwrap();
+        assert_eq!(verdict.steady, Some(false));
+        let without = classify(&quiet(FRAMES).with_rising(10, 0..FRAMES), &sieves).unwrap();
+        assert_eq!((without.label, without.steady), (Label::SMALL_SPOUT, None));
+        assert_eq!(
+            (verdict.label, &verdict.values),
+            (without.label, &without.values)
+        );
+        let unstable = classify(&capped.unstable(), &sieves).unwrap();
+        assert_eq!(unstable.steady, None);
+    }
+
+    #[test]
+    fn a_steady_part_shorter_than_a_window_is_refused() {
+        let mut scene = quiet(0).scene;
+        scene.steady = Some(Steady {
+            window: 1.9,
+            ..Steady::default()
+        });
+        let error = Sieves::default().check(&scene).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "`sieves.pinned.window` is 2 s, but runs end after 1.9 s without a trend; use \
+             `steady.window = 2` in the scene, or a shorter window"
+        );
     }
 }

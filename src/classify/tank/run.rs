@@ -55,6 +55,11 @@ impl<'a> Run<'a> {
         self.observations.frames()
     }
 
+    /// The first frame from a time (s) on.
+    pub(super) fn frame_at(&self, time: f64) -> usize {
+        self.observations.time.partition_point(|it| *it < time)
+    }
+
     /// Time of a frame (s).
     pub(super) fn time(&self, frame: usize) -> f64 {
         self.observations.time[frame]

@@ -59,7 +59,8 @@ impl Label {
 measures! {
     /// What the settle sieve says.
     struct Settling {
-        /// Time from which the run counts as steady (s): the middle of the first steady window.
+        /// Time from which the run counts as steady (s): the middle of the first steady window, or
+        /// where that of [steady] begins.
         settle_time: measured("settle time", "s"),
         /// Least mean energy change of any window in which all spheres are low enough, over the
         /// tolerance; yes up to 1. Empty if there is no such window.
@@ -95,17 +96,48 @@ impl SettleSieve {
         Ok(())
     }
 
-    /// Looks for the first steady window of a run: the first frame of the steady part.
-    pub(super) fn sift(&self, run: &Run<'_>) -> (Option<usize>, Settling) {
+    /// A run that is steady from this frame on by the scene's own test. It is settled there unless
+    /// a sphere is too high in every window since then.
+    pub(super) fn sift_steady(&self, run: &Run<'_>, from: usize) -> (Option<usize>, Settling) {
+        let (_, least) = self.first_window(run, &self.high(run), from);
+        let start = least.map(|_| from);
+        let settling = Settling {
+            settle_time: start.map(|frame| run.time(frame)),
+            settle_change: least,
+            settle_drift: None,
+        };
+        (start, settling)
+    }
+
+    /// Whether a sphere is too high (1, else 0), at each frame but the first.
+    fn high(&self, run: &Run<'_>) -> Vec<f64> {
         // Single precision, as the heights: a centre at the limit is not above it.
         let limit = self.height as f32;
         let heights = run.observations.height_max.iter().skip(1);
-        let high: Vec<f64> = heights.map(|&z| f64::from(u8::from(z > limit))).collect();
+        heights.map(|&z| f64::from(u8::from(z > limit))).collect()
+    }
 
+    /// The first window from a frame on that is steady and low, counted from that frame, and the
+    /// least evidence of any that is low.
+    fn first_window(
+        &self,
+        run: &Run<'_>,
+        high: &[f64],
+        from: usize,
+    ) -> (Option<usize>, Option<f64>) {
         let window = window::frames(self.window, run.interval);
-        let changes = window::sums(&changes(run), window).into_iter();
-        let changes = changes.map(|change| change / window as f64 / self.tolerance);
-        let (start, least) = first_steady(changes, window::sums(&high, window));
+        let changes = changes(run);
+        let [changes, high] = [&changes[..], high].map(|it| it.get(from..).unwrap_or_default());
+        let sums = window::sums(changes, window).into_iter();
+        let evidence = sums.map(|change| change / window as f64 / self.tolerance);
+        first_steady(evidence, window::sums(high, window))
+    }
+
+    /// Looks for the first steady window of a run: the first frame of the steady part.
+    pub(super) fn sift(&self, run: &Run<'_>) -> (Option<usize>, Settling) {
+        let window = window::frames(self.window, run.interval);
+        let high = self.high(run);
+        let (start, least) = self.first_window(run, &high, 0);
         // Changes and drifts are counted from the second frame.
         let middle = |window: usize| move |first: usize| 1 + first + window / 2;
         let mut start = start.map(middle(window));

@@ -6,6 +6,7 @@ mod output;
 mod silo;
 mod spot;
 mod start;
+mod steady;
 mod tank;
 mod time;
 
@@ -51,6 +52,7 @@ impl Scene {
         self.check_silo(problems);
         self.check_driven(problems);
         self.check_spot(problems);
+        self.check_steady(problems);
         self.check_neighbours(problems);
         self.check_output(problems);
     }

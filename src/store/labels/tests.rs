@@ -57,6 +57,36 @@ fn a_table_looks_as_documented() {
 }
 
 #[test]
+fn tables_of_runs_that_end_when_they_are_steady_say_which_did() {
+    let mut table = example();
+    table.rows[0].verdict.steady = Some(true);
+    table.rows[2].verdict.steady = Some(false);
+    let text = written(&table, write_labels);
+    let mut lines = text.lines();
+    let head = "id,radius,omega,seed,label,code,steady,settle_time,";
+    assert!(lines.next().unwrap().starts_with(head));
+    for start in [
+        "1,pinned,3,true,0.25,",
+        "2,small-spout,4,,,",
+        "3,pinned,3,false,0.75,",
+    ] {
+        let line = lines.next().unwrap();
+        assert!(line.contains(&format!(",40.0,{start}")), "{line}");
+    }
+    assert_eq!(in_file(&text, read_labels).unwrap(), table);
+    let wrong = in_file(&text.replace(",true,", ",perhaps,"), read_labels).unwrap_err();
+    assert!(
+        wrong
+            .to_string()
+            .contains("column `steady`: `perhaps` is not true or false"),
+        "{wrong}"
+    );
+    let points = table.points();
+    assert!(points.iter().any(|it| table.is_unsteady(it)));
+    assert!(!example().is_unsteady(&points[0]));
+}
+
+#[test]
 fn points_put_the_seeds_together() {
     assert_eq!(
         written(&example(), write_points),
@@ -203,17 +233,21 @@ fn any_row(family: &'static Family, axes: usize) -> impl Strategy<Value = LabelR
         any::<u64>(),
         prop::sample::select(family.labels),
         prop::collection::vec(prop::option::of(finite()), family.measures().count()),
+        any::<Option<bool>>(),
     )
-        .prop_map(move |(id, values, seed, label, measured)| LabelRow {
-            id,
-            values,
-            seed,
-            verdict: Verdict {
-                label,
-                family,
-                values: measured,
+        .prop_map(
+            move |(id, values, seed, label, measured, steady)| LabelRow {
+                id,
+                values,
+                seed,
+                verdict: Verdict {
+                    label,
+                    family,
+                    steady,
+                    values: measured,
+                },
             },
-        })
+        )
 }
 
 fn any_table() -> impl Strategy<Value = LabelTable> {

@@ -89,6 +89,7 @@ const READING: Reading = Reading {
     prepare: |scene| {
         scene.output = output();
         scene.time.frame_interval = scene.time.duration;
+        scene.steady = None;
     },
     check: |scene| {
         let mut scene = scene.clone();

@@ -1,0 +1,51 @@
+//! Whether runs of a scene can become steady.
+
+use super::rounded;
+use crate::document::{Problem, number};
+use crate::scene::Scene;
+use crate::statistics::LEAST_VALUES;
+
+impl Scene {
+    pub(super) fn check_steady(&self, problems: &mut Vec<Problem>) {
+        let Some(steady) = &self.steady else { return };
+        let mut refuse = |path: &str, message: String, help: String| {
+            problems.push(Problem::new(path, message).help(help));
+        };
+        if self.spot.is_some() || self.has_flow() {
+            let message = match self.spot {
+                Some(_) => "[steady] looks at energy and rotation, which spots do not have",
+                None => {
+                    "[steady] looks at the rotation and the mean height of spheres that stay, but \
+                     here they come or go"
+                }
+            };
+            let help = "remove [steady]: the run ends at its duration, or when nothing is left to \
+                        happen";
+            refuse("steady", message.to_owned(), help.to_owned());
+            return;
+        }
+        let time = &self.time;
+        let frames = steady.frames_of_window(time.frame_interval) + 1;
+        if frames < LEAST_VALUES as u64 {
+            let message = format!(
+                "`steady.window` = {} s has {frames} frames of `time.frame_interval` = {} s, too \
+                 few to tell a trend",
+                number(steady.window),
+                number(time.frame_interval),
+            );
+            let least = (LEAST_VALUES - 1) as f64 * time.frame_interval;
+            let help = format!("use {} s or more, or a shorter interval", rounded(least));
+            refuse("steady.window", message, help);
+        }
+        if steady.window > time.duration {
+            let message = format!(
+                "`steady.window` = {} s is longer than the run, `time.duration` = {} s, which could \
+                 never become steady",
+                number(steady.window),
+                number(time.duration),
+            );
+            let help = "use a longer duration: the run ends as soon as it is steady";
+            refuse("steady.window", message, help.to_owned());
+        }
+    }
+}
