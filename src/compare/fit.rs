@@ -22,9 +22,9 @@ const PARTS: u32 = 200;
 /// * w = b Pe / d: a spot that steps sqrt(2 b dz) aside moves spheres by a w-th of it, so that they
 ///   diffuse with the length b / w while they drop
 /// * r_s: the length of the velocity correlation, which is that of the common volume of two spots
-/// * lambda = Q w V_p / (phi V_s): Q spheres leave per time, and a spot carries a w-th of the volume
-///   of the spheres in it, with the volume V_s of a spot within the walls, V_p of a sphere, and the
-///   packing fraction phi of the flow
+/// * lambda = Q w V_p / (phi V_s): Q spheres leave per time, and a spot carries a w-th of the
+///   volume of the spheres in it, with the volume V_s of a spot within the walls, V_p of a sphere,
+///   and the packing fraction phi of the flow
 /// * mu = Q V_p / (dz S): the density of a layer drops by the volume that the spots in it carry;
 ///   S (m2) is the integral of the drop of the packing fraction over the area of the box
 ///

@@ -22,7 +22,9 @@ pub struct Steady {
     #[schemars(transform = seconds("T_{steady}", "least steady time"))]
     pub window: f64,
     /// Largest change over that time that does not matter, as a share of the scale (default 0.05).
-    #[schemars(transform = quantity("δ", "", "change that does not matter").above(0.0).at_most(1.0))]
+    #[schemars(
+        transform = quantity("δ", "", "change that does not matter").above(0.0).at_most(1.0)
+    )]
     pub tolerance: f64,
     /// Probability that one check of a run which changes by just the tolerance does not end it
     /// (default 0.95).

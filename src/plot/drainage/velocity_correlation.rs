@@ -8,7 +8,7 @@ use crate::measure::ProfilePoint;
 /// How velocities across the flow are correlated.
 pub(super) static VELOCITY_CORRELATION: Overlay = Overlay {
     name: "velocity-correlation",
-    description: "correlation of the velocities of two spheres across the flow, over their distance",
+    description: "correlation of two spheres' velocities across the flow, over their distance",
     labels: [
         "distance over diameter $r$ / $d$",
         "correlation of velocities $<u_i u_j>$ / $<u²>$",

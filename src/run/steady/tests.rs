@@ -187,7 +187,10 @@ fn falling(steady: &str) -> Scene {
     let scene: Scene = toml::from_str(&format!(
         r#"
         spheres = {{ count = 8, radius = 0.004, density = 3750.0 }}
-        contact = {{ law = "hertz", young_modulus = 5e5, poisson_ratio = 0.3, dissipation_time = 1e-3 }}
+        contact.law = "hertz"
+        contact.young_modulus = 5e5
+        contact.poisson_ratio = 0.3
+        contact.dissipation_time = 1e-3
         tank = {{ radius = 0.03, floor = 0.0 }}
         start = {{ kind = "random", z_min = 0.01, z_max = 0.05 }}
         gravity = {{ acceleration = 9.8 }}

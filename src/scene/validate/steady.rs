@@ -39,8 +39,8 @@ impl Scene {
         }
         if steady.window > time.duration {
             let message = format!(
-                "`steady.window` = {} s is longer than the run, `time.duration` = {} s, which could \
-                 never become steady",
+                "`steady.window` = {} s is longer than the run, `time.duration` = {} s, which \
+                 could never become steady",
                 number(steady.window),
                 number(time.duration),
             );
