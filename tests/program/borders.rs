@@ -190,11 +190,6 @@ fn labels_count_without_their_records() {
     std::fs::remove_dir_all(place.path("kept/records")).unwrap();
     place.write("tiny.toml", &tiny("at_borders = 4").text());
     let arguments = ["sweep", "tiny.toml", "--out", "kept", "--no-plot"];
-    // Without being asked for, no label is lost.
-    place
-        .phase(&arguments)
-        .code(2)
-        .complains("labels would be lost");
     let kept = place.phase(&[&arguments[..], &["--keep-labels", "--json"]].concat());
     let kept: serde_json::Value = serde_json::from_str(&kept.code(0).stdout).unwrap();
     assert_eq!([&kept["jobs"], &kept["run_now"]], [12, 4]);
