@@ -195,7 +195,7 @@ const STEPS: u64 = 1000;
 
 #[test]
 fn many_spheres_that_leave_have_the_same_bits_on_any_threads_and_resumed() {
-    for integrator in INTEGRATORS {
+    for integrator in [Integrator::SymplecticEuler, Integrator::AdaptiveVerlet] {
         let scene = draining(integrator, integrator == Integrator::SymplecticEuler);
         let mut one = Simulation::new(&scene).unwrap();
         one.advance(STEPS).unwrap();

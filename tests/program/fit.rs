@@ -93,6 +93,7 @@ fn wide() -> String {
 /// remove all overlaps, which holds spheres back. One seed; of seeds 1 to 4 the ratios of the outflow
 /// were .69, .68, .72 and .74.
 #[test]
+#[ignore = "the packing of 4,500 spheres: half a minute"]
 fn fitted_spots_drain_alike() {
     let place = Workplace::new();
     place.write("wide.toml", &wide());
