@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
-# Runs the drainages of analysis/spot.md, two hours of one core. It may be interrupted, and goes on.
+# Runs the drainages of analysis/spot.md, about two hours of one core. It may be interrupted, and goes on.
 #
-#   analysis/drainage.sh [FOLDER [RUN...]]      records go to FOLDER (scratch/spot); all runs, or those
+#   analysis/drainage.sh [FOLDER [RUN...]]
+#
+# Records go to FOLDER (scratch/spot). Without names all runs are made.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 phase=${PHASE:-target/release/phase}

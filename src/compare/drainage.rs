@@ -105,13 +105,10 @@ impl<'a> Drainage<'a> {
 
 /// When the opening opened (s); none if its door is closed to the end.
 fn opened(record: &RunRecord) -> Option<f64> {
-    let is_opening = |kind| kind == MilestoneKind::DoorOpened;
-    let milestones = record.milestones.iter();
-    let mut opened = milestones
-        .filter(|it| is_opening(it.kind))
-        .map(|it| it.time);
-    match record.scene.dem.door {
-        Some(_) => opened.next(),
-        None => Some(0.0),
+    if record.scene.dem.door.is_none() {
+        return Some(0.0);
     }
+    let mut milestones = record.milestones.iter();
+    let opening = milestones.find(|it| it.kind == MilestoneKind::DoorOpened);
+    opening.map(|it| it.time)
 }

@@ -89,7 +89,7 @@ pub(super) fn is_one(numbers: &[u32], fixed: usize) -> bool {
 }
 
 /// Whether no two of the moving spheres have the same number.
-pub(super) fn is_part_of_one(numbers: &[u32], fixed: usize) -> bool {
+pub(super) fn are_distinct(numbers: &[u32], fixed: usize) -> bool {
     let mut numbers = numbers.get(fixed..).unwrap_or_default().to_vec();
     numbers.sort_unstable();
     numbers.windows(2).all(|two| two[0] < two[1])

@@ -33,7 +33,7 @@ fn a_silo_of_discrete_elements_opens_and_drains() {
     let gone = left.last().unwrap();
     assert!((20.0..300.0).contains(gone), "{gone} of 400 left");
     assert_eq!(drainage.since_opening(drainage.start().time), 0.0);
-    // An interrupted run, on two threads that this small scene does not use, has the same content.
+    // So small a scene does not use the two threads: the content is the same.
     place
         .phase(&[
             "run",
@@ -56,8 +56,8 @@ fn a_silo_of_discrete_elements_opens_and_drains() {
         let same = row["difference"].is_null() || row["difference"] == 0.0;
         assert!(is_time || same, "{row}");
     }
-    let labels = place.phase(&["plot", "run.h5", "--figure", "outflow,velocity-correlation"]);
-    labels.code(0);
+    let drawn = place.phase(&["plot", "run.h5", "--figure", "outflow,velocity-correlation"]);
+    drawn.code(0);
 }
 
 #[test]

@@ -59,7 +59,6 @@ impl Process {
         let active = feed.is_some()
             || scene.dem.door.is_some()
             || scene.dem.rest.is_some()
-            || scene.dem.outlet.is_some()
             || scene.outlet_height().is_some();
         active.then(|| {
             let fixed = scene

@@ -179,7 +179,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let present = &self.particles;
         let Setup { sorted, flows, .. } = self.setup;
         let ordered = match (sorted, flows) {
-            (_, true) => order::is_part_of_one(&particles.number, particles.fixed),
+            (_, true) => order::are_distinct(&particles.number, particles.fixed),
             (true, false) => {
                 count == present.len()
                     && particles.fixed == present.fixed
