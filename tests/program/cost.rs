@@ -25,18 +25,21 @@ fn json(place: &Workplace, arguments: &[&str]) -> Value {
     serde_json::from_str(&answer.stdout).unwrap()
 }
 
-/// What else the machine does only ever adds time, so the least of several runs is compared, of
-/// both commands in turn. The comparison is repeated until 24 runs of each: a false alarm takes a
-/// machine on which none of the 24 on one side went undisturbed, and one on the other did. What is
-/// wrong by more than the tolerance in the least disturbed runs fails all three comparisons.
+/// Other work on the machine adds to the processor time of a run, up to a fifth of it for seconds on
+/// end. So both commands take turns, and two estimates of the ratio of their times count: of the
+/// least times, and the median of the rounds. A false alarm takes three comparisons, after 8, 16
+/// and 24 rounds, in which both are wrong by more than the tolerance. A part that is missing or
+/// counted twice, and takes more than the tolerance, fails all three.
 #[test]
 fn the_total_is_what_a_run_takes() {
+    const TOLERANCE: f64 = 0.08;
     let place = Workplace::new();
     let text = std::fs::read_to_string("sweeps/scenes/realistic.toml").unwrap();
     let short = text.replace("duration = 5.0", "duration = 1.0");
     assert_ne!(text, short);
     place.write("tank.toml", &short);
     let (mut cost, mut run) = (f64::INFINITY, f64::INFINITY);
+    let mut ratios = Vec::new();
     for round in 1..=24 {
         let answer = json(&place, &["cost", "tank.toml", "--json"]);
         assert_eq!(answer["tried"][0]["whole"], true);
@@ -47,14 +50,17 @@ fn the_total_is_what_a_run_takes() {
                 total *= 1.0 - part["share"].as_f64().unwrap();
             }
         }
-        cost = cost.min(total);
         let answer = json(&place, &["run", "tank.toml", "--json"]);
-        run = run.min(answer["cpu_seconds"].as_f64().unwrap());
-        if round % 8 == 0 && (cost / run - 1.0).abs() < 0.05 {
+        let seconds = answer["cpu_seconds"].as_f64().unwrap();
+        [cost, run] = [cost.min(total), run.min(seconds)];
+        ratios.push(total / seconds);
+        ratios.sort_by(f64::total_cmp);
+        let estimates = [cost / run, ratios[ratios.len() / 2]];
+        if round % 8 == 0 && estimates.iter().any(|it| (it - 1.0).abs() < TOLERANCE) {
             return;
         }
     }
-    panic!("the parts add up to {cost} s, and a run takes {run} s");
+    panic!("the parts add up to {cost} s, and a run takes {run} s; ratios: {ratios:?}");
 }
 
 #[test]
