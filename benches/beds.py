@@ -1,6 +1,7 @@
 """Beds of spheres at rest: in an open tank, of any size, made by `phase` from `bed.toml`, or in a box."""
 
 import csv
+import itertools
 import math
 import os
 from collections import deque
@@ -19,10 +20,13 @@ MASS = 4 / 3 * math.pi * RADIUS**3 * DENSITY
 class Bed:
     """Spheres at rest: their places, and the files from which programs start with them."""
 
+    columns = ["x", "y", "z"]
     radius, density, dt, laws, weight = RADIUS, DENSITY, DT, ["mindlin", "coulomb"], 9.8 * MASS
     # The most kinetic energy of a sphere at rest, over its weight times its radius. A deep bed creeps where nothing
     # but viscous friction holds it: some centimetres in a second in LAMMPS.
     stir = {"mindlin": 1e-3, "coulomb": 1e-2}
+    # Spheres that may leave while steps are measured.
+    leaving = 0
 
     def __init__(self, size, phase, folder):
         """A size is a number of spheres, or NUMBER=RECORD.h5 of as many that have come to rest."""
@@ -49,7 +53,7 @@ class Bed:
         output([phase, "export", record, "--to", "csv", "--out", self.folder / "settled"])
         self.spheres = self.last_spheres(self.folder / "settled")
         with open(self.folder / "bed.csv", "w") as file:
-            file.write("x,y,z\n" + "".join("%r,%r,%r\n" % place for place in self.spheres))
+            csv.writer(file, lineterminator="\n").writerows([self.columns] + self.spheres)
         self.write_lammps(sides)
 
     @staticmethod
@@ -62,15 +66,20 @@ class Bed:
     def last_spheres(self, folder):
         tables = sorted(folder.glob("*.csv"))
         rows = csv.DictReader(open([path for path in tables if "observ" not in path.name][-1]))
-        return [tuple(float(row[axis]) for axis in "xyz") for row in deque(rows, maxlen=self.count)]
+        last = deque((list(state) for _, state in itertools.groupby(rows, lambda row: row["time"])), maxlen=1).pop()
+        return [tuple(float(row[column]) for column in self.columns) for row in last]
 
     def write_lammps(self, sides):
-        (x, y), top = sides, max(z for _, _, z in self.spheres) + 20 * self.radius
-        head = f"bed\n\n{self.count} atoms\n1 atom types\n\n{-x} {x} xlo xhi\n{-y} {y} ylo yhi\n"
-        head += f"{-self.radius} {top} zlo zhi\n\nAtoms\n\n"
+        (x, y), top = sides, max(sphere[2] for sphere in self.spheres) + 20 * self.radius
+        head = f"bed\n\n{len(self.spheres)} atoms\n1 atom types\n\n{-x} {x} xlo xhi\n{-y} {y} ylo yhi\n"
+        head += f"{-2 * self.radius} {top} zlo zhi\n\nAtoms\n\n"
         atom = "%d 1 %r %r %r %r %r\n"
-        lines = (atom % (i, 2 * self.radius, self.density, *place) for i, place in enumerate(self.spheres, 1))
-        (self.folder / "bed.data").write_text(head + "".join(lines))
+        numbered = list(enumerate(self.spheres, 1))
+        text = head + "".join(atom % (i, 2 * self.radius, self.density, *sphere[:3]) for i, sphere in numbered)
+        if len(self.columns) > 3:
+            motion = "%d" + 6 * " %r" + "\n"
+            text += "\nVelocities\n\n" + "".join(motion % (i, *sphere[3:]) for i, sphere in numbered)
+        (self.folder / "bed.data").write_text(text)
 
     def lammps(self, law):
         """LAMMPS's input for it, and its variables."""
@@ -81,7 +90,7 @@ class Bed:
         return "in.bed.lammps", variables | dict(gamma=2 * damping, gamma_wall=damping)
 
     def scene(self, law, steps):
-        """The scene of the measurement, of one frame, from the spheres at rest."""
+        """The scene of the measurement, of one frame, from the spheres that are given."""
         text = self.of_one_frame(law, steps)
         start, end = text.index("[start]"), text.index("[gravity]")
         path = self.folder / f"{law}-{steps}.toml"
@@ -115,3 +124,26 @@ class Box(Bed):
         changes = {"duration = 60.0": f"duration = {steps * self.dt!r}"}
         changes |= {"frame_interval = 0.05": f"frame_interval = {steps * self.dt!r}"}
         return self.replaced(self.text, changes)
+
+
+class Drainage(Box):
+    """The same box while it drains, from the last state of a record of `dem-drainage.toml`, with all its motion."""
+
+    columns = ["x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"]
+    # Spheres that fall out are the fastest.
+    stir, leaving = {"silbert": 10.0}, 50
+
+    def __init__(self, record, phase, folder):
+        self.folder, self.density = folder, 6 / math.pi
+        text = (FOLDER.parent / "sweeps/scenes/dem-drainage.toml").read_text()
+        self.text = self.replaced(text, {"snapshot_interval = 2.0": "snapshot_interval = 0.0"})
+        self.take(phase, record, [25.0, 4.0])
+        self.count = len(self.spheres)
+        self.text = self.replaced(self.text, {"count = 55000": f"count = {self.count}"})
+
+    def lammps(self, law):
+        return "in.drainage.lammps", dict(skin=0.1)
+
+    def of_one_frame(self, law, steps):
+        changes = {"duration = 200.0": f"duration = {steps * self.dt!r}"}
+        return self.replaced(self.text, changes | {"frame_interval = 0.1": f"frame_interval = {steps * self.dt!r}"})
