@@ -16,6 +16,8 @@ pub struct Quantity {
     pub name: &'static str,
     /// Unit; lengths are over the diameter of the spheres, and have none.
     pub unit: &'static str,
+    /// Whether it describes the flow, so that its error counts where drainages are compared.
+    pub is_of_flow: bool,
     /// Measures it, with its interval of 95 % over blocks of time, infinite where nothing tells its
     /// scatter. None where it is undefined.
     pub measure: fn(&Drainage<'_>) -> Option<Estimate>,
@@ -26,41 +28,49 @@ pub static QUANTITIES: [Quantity; 16] = [
     Quantity {
         name: "outflow",
         unit: "1/s",
+        is_of_flow: true,
         measure: outflow,
     },
     Quantity {
         name: "diffusion length of the flow b / d",
         unit: "",
+        is_of_flow: true,
         measure: diffusion_length,
     },
     Quantity {
         name: "height z0 / d from which the flow widens",
         unit: "",
+        is_of_flow: false,
         measure: origin,
     },
     Quantity {
         name: "packing fraction at the start",
         unit: "",
+        is_of_flow: false,
         measure: |drainage| exact(packing_fraction(drainage, drainage.start())),
     },
     Quantity {
         name: "packing fraction in the flow",
         unit: "",
+        is_of_flow: true,
         measure: |drainage| over_blocks(drainage, |state| packing_fraction(drainage, state)),
     },
     Quantity {
         name: "share of spheres in crystals, in the flow",
         unit: "",
+        is_of_flow: true,
         measure: |drainage| over_blocks(drainage, |state| solid_share(drainage, state)),
     },
     Quantity {
         name: "packing badness, of pairs",
         unit: "",
+        is_of_flow: true,
         measure: badness_of,
     },
     Quantity {
         name: "packing badness, as printed",
         unit: "",
+        is_of_flow: false,
         measure: |drainage| {
             over_blocks(drainage, |state| {
                 Some(badness(drainage, state).as_printed())
@@ -70,21 +80,25 @@ pub static QUANTITIES: [Quantity; 16] = [
     Quantity {
         name: "least distance / d",
         unit: "",
+        is_of_flow: false,
         measure: least_distance,
     },
     Quantity {
         name: "Peclet number across the flow",
         unit: "",
+        is_of_flow: true,
         measure: |drainage| spreading(drainage).peclet.map(|it| it[0]),
     },
     Quantity {
         name: "Peclet number along the flow",
         unit: "",
+        is_of_flow: false,
         measure: |drainage| spreading(drainage).peclet.map(|it| it[1]),
     },
     Quantity {
         name: "length of velocity correlation R / d",
         unit: "",
+        is_of_flow: true,
         measure: |drainage| {
             let radius = correlation_radius(drainage)?;
             Some(over_diameter(drainage, radius))
@@ -93,21 +107,25 @@ pub static QUANTITIES: [Quantity; 16] = [
     Quantity {
         name: "index of mixing at the end",
         unit: "",
+        is_of_flow: true,
         measure: |drainage| exact(mixing(drainage, last(drainage))),
     },
     Quantity {
         name: "angle of the surface at the end",
         unit: "°",
+        is_of_flow: true,
         measure: angle,
     },
     Quantity {
         name: "height of the stagnant zone / d",
         unit: "",
+        is_of_flow: false,
         measure: stagnant,
     },
     Quantity {
         name: "processor time",
         unit: "s",
+        is_of_flow: false,
         measure: |drainage| exact(Some(drainage.record.cpu_seconds)),
     },
 ];

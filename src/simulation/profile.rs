@@ -24,6 +24,10 @@ pub struct Profile {
     reading: f64,
     /// Times of the parts in the steps that were measured (s).
     looked_at: Vec<f64>,
+    /// Times of the parts that are measured each time (s).
+    whole: Vec<f64>,
+    /// When such a part began (s).
+    begun: f64,
     /// The part that takes all of the time when no step was measured.
     rest: usize,
     /// The latest reading, while a step is measured (s).
@@ -51,6 +55,8 @@ impl Profile {
         Self {
             reading: trials / f64::from(TRIALS),
             looked_at: vec![0.0; parts],
+            whole: vec![0.0; parts],
+            begun: 0.0,
             rest,
             latest: None,
             readings: 0,
@@ -78,12 +84,15 @@ impl Profile {
     /// The time in the engine, divided into its parts.
     pub fn parts(&self) -> Vec<f64> {
         let all: f64 = self.looked_at.iter().sum();
-        if all > 0.0 {
-            let of_all = |part: &f64| part * self.seconds() / all;
-            return self.looked_at.iter().map(of_all).collect();
+        let others = (self.seconds() - self.whole.iter().sum::<f64>()).max(0.0);
+        let mut parts = self.whole.clone();
+        match all > 0.0 {
+            true => {
+                let looked_at = parts.iter_mut().zip(&self.looked_at);
+                looked_at.for_each(|(part, seconds)| *part += seconds * others / all);
+            }
+            false => parts[self.rest] += others,
         }
-        let mut parts = vec![0.0; self.looked_at.len()];
-        parts[self.rest] = self.seconds();
         parts
     }
 
@@ -105,9 +114,19 @@ impl Profile {
     }
 
     /// Begins a step that moves this number of spheres, and decides whether to measure it.
-    #[inline(never)]
     pub fn begin(&mut self, step: u64, spheres: usize) {
-        self.work += spheres as u64;
+        self.count(spheres as u64);
+        self.sample(step, spheres);
+    }
+
+    /// Counts work.
+    pub fn count(&mut self, work: u64) {
+        self.work += work;
+    }
+
+    /// Decides whether to measure a step of this number of spheres.
+    #[inline(never)]
+    pub fn sample(&mut self, step: u64, spheres: usize) {
         // The clock is read a dozen times for 128 spheres, half a microsecond each, in a step of
         // some 50 ns per sphere: with one step of 16 at most that adds some percent to it.
         let period = (8192 / spheres.max(1) as u64).clamp(16, 256);
@@ -118,6 +137,19 @@ impl Profile {
             self.readings += 1;
             cpu_time::of_this_thread()
         });
+    }
+
+    /// Begins what is measured each time, between the steps that are measured in part.
+    pub fn begin_whole(&mut self) {
+        self.readings += 1;
+        self.begun = cpu_time::of_this_thread();
+    }
+
+    /// Ends it: it was all of one part.
+    pub fn end_whole(&mut self, part: usize) {
+        self.readings += 1;
+        let seconds = cpu_time::of_this_thread() - self.begun - self.reading;
+        self.whole[part] += seconds.max(0.0);
     }
 
     /// Ends a part of a step.

@@ -3,12 +3,13 @@
 use super::parameters::{
     Influence, Orifice, Parameters, Relaxation, Schedule, Walk as WalkParameters,
 };
+use super::profile;
 use super::{Failure, Guard as SpotGuard, Simulation as Spots};
 use crate::particles::vector::Vector;
 use crate::scene::{RelaxationMethod, Scene, Spot, SpotRelaxation, SpotSchedule, Tank};
 use crate::simulation::{
     BuildError, Column, Counts, Flow, Frame, FrameView, Guard, Instability, Milestone,
-    MilestoneKind, Model, PartOfStep, Simulation, StateError,
+    MilestoneKind, Model, PartOfStep, Profile, Simulation, StateError,
 };
 use crate::start;
 use rayon::ThreadPoolBuildError;
@@ -36,15 +37,7 @@ impl Model for SpotModel {
 
     fn parts_of(&self, scene: &Scene) -> Vec<PartOfStep> {
         let relaxes = |spot: &Spot| spot.relaxation.method != RelaxationMethod::Off;
-        let part = |name, is_present| PartOfStep {
-            name,
-            is_present,
-            is_between_steps: false,
-        };
-        vec![
-            part("spots", true),
-            part("relaxation", scene.spot.as_ref().is_some_and(relaxes)),
-        ]
+        profile::parts(scene.spot.as_ref().is_some_and(relaxes))
     }
 
     fn build(&self, scene: &Scene) -> Result<Box<dyn Simulation>, BuildError> {
@@ -267,6 +260,14 @@ impl Simulation for Drainage {
 
     fn use_threads(&mut self, threads: usize) -> Result<(), ThreadPoolBuildError> {
         self.simulation.use_threads(threads)
+    }
+
+    fn keep_profile(&mut self) {
+        self.simulation.keep_profile();
+    }
+
+    fn profile(&self) -> Option<&Profile> {
+        self.simulation.profile()
     }
 }
 

@@ -79,6 +79,7 @@ impl Simulation {
             return Ok(false);
         };
         self.counts.moves += 1;
+        self.scratch.clock.count_move();
         self.counts.relaxations += u64::from(relaxed);
         self.count_left();
         Ok(true)

@@ -3,6 +3,7 @@
 use super::arrangement::Arrangement;
 use super::guard::Fault;
 use super::model::Model;
+use super::profile::Part;
 use super::region::NOWHERE;
 use super::relax::{Eight, Region, displacements};
 use super::simulation::Simulation;
@@ -27,6 +28,7 @@ impl Simulation {
     /// Removes overlaps of all spheres at once.
     pub(super) fn relax_all(&mut self) -> Result<(), Fault> {
         self.sort_if_stale()?;
+        self.scratch.clock.begin_whole();
         let Self {
             model,
             arrangement,
@@ -50,6 +52,7 @@ impl Simulation {
         model.keep_above_floor(&low, position, &mut scratch.left);
         self.counts.global_relaxations += 1;
         self.count_left();
+        self.scratch.clock.end_whole(Part::Relaxation);
         Ok(())
     }
 }

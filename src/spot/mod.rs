@@ -20,6 +20,7 @@ mod moves;
 mod neighbours;
 pub mod packing;
 mod parameters;
+mod profile;
 mod random;
 mod region;
 mod relax;

@@ -3,6 +3,7 @@
 use super::arrangement::{Arrangement, Sorting};
 use super::guard::{Fault, Guard};
 use super::parameters::{Influence, Parameters};
+use super::profile::Clock;
 use super::region::{NOWHERE, collect};
 use super::relax::{Eight, Region, displacements};
 use super::silo::Silo;
@@ -37,6 +38,8 @@ pub(crate) struct Scratch {
     /// Slots and last places of the spheres that have left through the orifice.
     pub(crate) left: Vec<(u32, Vector)>,
     pub(crate) wear: Wear,
+    /// What its parts take, if that is asked for.
+    pub(crate) clock: Clock,
 }
 
 impl Model {

@@ -4,6 +4,7 @@ use super::arrangement::Arrangement;
 use super::guard::Fault;
 use super::model::{Model, Scratch};
 use super::parameters::Relaxation;
+use super::profile::Part;
 use super::walk::Spot;
 use crate::particles::vector::Vector;
 
@@ -18,6 +19,7 @@ impl Model {
         spot: &mut Spot,
         [way, chance]: [f64; 2],
     ) -> Result<Option<bool>, Fault> {
+        scratch.clock.begin_move();
         scratch.moved.clear();
         scratch.relaxed.clear();
         let from = spot.position;
@@ -41,8 +43,10 @@ impl Model {
             Relaxation::AtRandom { ratio } => chance * f64::from(ratio) < 1.0,
             Relaxation::Counted { ratio } => spot.moves.is_multiple_of(ratio),
         };
+        scratch.clock.mark(Part::Spots);
         if relaxes {
             self.relax(arrangement, position, scratch, centre)?;
+            scratch.clock.mark(Part::Relaxation);
         }
         Ok(Some(relaxes))
     }

@@ -5,6 +5,7 @@ use super::guard::{Failure, Fault};
 use super::model::{Model, Scratch};
 use super::neighbours::Neighbours;
 use super::parameters::{Parameters, Schedule};
+use super::profile::{Clock, Part};
 use super::random::Stream;
 use super::region::NOWHERE;
 use super::slack::Wear;
@@ -13,6 +14,7 @@ use super::threads::Workers;
 use super::walk::Spot;
 use crate::particles::block::ROWS;
 use crate::particles::vector::Vector;
+use crate::simulation::Profile;
 use rayon::ThreadPoolBuildError;
 
 /// Names of the streams of random numbers: of spots, and of relaxations.
@@ -85,12 +87,25 @@ impl Simulation {
     ///
     /// If a guard breaks. The state is then that of no time, and of use to nothing but looking.
     pub fn advance_to(&mut self, time: f64) -> Result<(), Failure> {
-        match self.model.parameters.schedule {
-            Schedule::Events => self.events_until(time)?,
-            Schedule::StepsInRandomOrder | Schedule::StepsNewestFirst => self.steps_until(time)?,
-        }
+        self.scratch.clock.enter();
+        let advanced = match self.model.parameters.schedule {
+            Schedule::Events => self.events_until(time),
+            Schedule::StepsInRandomOrder | Schedule::StepsNewestFirst => self.steps_until(time),
+        };
+        self.scratch.clock.leave();
+        advanced?;
         self.time = self.time.max(time);
         Ok(())
+    }
+
+    /// Begins to measure what the parts of a drainage take. Never changes the motion.
+    pub(super) fn keep_profile(&mut self) {
+        self.scratch.clock = Clock::started();
+    }
+
+    /// What was measured.
+    pub(super) fn profile(&self) -> Option<&Profile> {
+        self.scratch.clock.profile()
     }
 
     /// Up to which time everything has happened (s).
@@ -239,6 +254,7 @@ impl Simulation {
     }
 
     fn sort(&mut self) -> Result<(), Fault> {
+        self.scratch.clock.begin_whole();
         let spheres = self.arrangement.spheres;
         let mut ids = Vec::with_capacity(spheres);
         let mut position = Vec::with_capacity(spheres + ROWS);
@@ -256,6 +272,7 @@ impl Simulation {
         self.position = position;
         self.scratch.wear = Wear::default();
         self.counts.sorts += 1;
+        self.scratch.clock.end_whole(Part::Order);
         Ok(())
     }
 

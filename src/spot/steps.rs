@@ -168,6 +168,7 @@ impl Simulation {
                 Some((moved, relaxed)) => {
                     self.spots[spot] = moved;
                     self.counts.moves += 1;
+                    self.scratch.clock.count_move();
                     self.counts.relaxations += u64::from(relaxed);
                 }
                 None => {

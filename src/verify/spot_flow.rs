@@ -2,9 +2,11 @@
 
 use super::bench::Bench;
 use super::{Family, Measured, VerifyError, named};
+use crate::particles::vector::Vector;
 use crate::spot::packing::random_packing;
 use crate::spot::{Orifice, Parameters, Relaxation, Schedule, Simulation};
 use serde::Deserialize;
+use std::f64::consts::PI;
 
 /// Spots enter a box at a constant rate and rise, until before the first is at the top. Spheres
 /// follow them, and their overlaps are removed all at once.
@@ -24,12 +26,18 @@ pub struct SpotFlow {
     all_at_once: bool,
     /// When spots are looked at (s).
     time: f64,
+    /// From when on the flow of spheres is measured, to the same time (s).
+    flow_from: Option<f64>,
     seed: u64,
 }
 
 /// Heights between which spots are counted (m): above the first step, and below the front.
 const LOWEST: f64 = 0.5;
 const BELOW_FRONT: f64 = 0.85;
+/// The layer in which the flow is measured (m), and the half width of its middle, in which spheres
+/// are as dense as far from walls.
+const LAYER: [f64; 2] = [2.0, 4.0];
+const MIDDLE: f64 = 6.0;
 
 impl Family for SpotFlow {
     fn name(&self) -> &'static str {
@@ -43,6 +51,13 @@ impl Family for SpotFlow {
         let packing = packing.map_err(|error| spots(&error))?;
         let mut simulation =
             Simulation::new(parameters, &packing, self.seed).map_err(|error| spots(&error))?;
+        let before = match self.flow_from {
+            None => None,
+            Some(time) => {
+                simulation.advance_to(time).map_err(|error| spots(&error))?;
+                Some(simulation.positions())
+            }
+        };
         simulation
             .advance_to(self.time)
             .map_err(|error| spots(&error))?;
@@ -58,7 +73,7 @@ impl Family for SpotFlow {
         let variances = counted
             .iter()
             .map(|place| place.x * place.x / (across * across * place.z / up));
-        Ok(named([
+        let mut measured = named([
             ("spots_per_height", per_height),
             (
                 "front_speed",
@@ -69,11 +84,51 @@ impl Family for SpotFlow {
                 "spheres",
                 (simulation.spheres_inside() + simulation.spheres_left()) as f64,
             ),
-        ]))
+        ]);
+        if let (Some(before), Some(from)) = (before, self.flow_from) {
+            let [flux, spread] = self.flow(&simulation, &before, self.time - from);
+            measured.extend(named([
+                ("flux_over_balance", flux),
+                ("flow_spread", spread),
+            ]));
+        }
+        Ok(measured)
     }
 }
 
 impl SpotFlow {
+    /// Spheres that sink through a layer per second, over what spots carry, lambda n V_s / w with
+    /// the number density n of the spheres and the volume V_s of a spot; and the second moment of
+    /// their displacements along x over that of the walk and the ball of a spot,
+    /// (z / dz) dx^2 + r_s^2 / 5.
+    fn flow(&self, simulation: &Simulation, before: &[Option<Vector>], time: f64) -> [f64; 2] {
+        let parameters = simulation.parameters();
+        let [low, high] = LAYER;
+        let (mut sum, mut moment, mut middle) = (0.0, 0.0, 0.0);
+        for (before, after) in before.iter().zip(simulation.positions()) {
+            let (Some(before), Some(after)) = (before, after) else {
+                continue;
+            };
+            if (low..high).contains(&before.z) {
+                let sunk = before.z - after.z;
+                sum += sunk;
+                moment += sunk * before.x * before.x;
+                middle += f64::from(u8::from(before.x.abs().max(before.y.abs()) < MIDDLE));
+            }
+        }
+        let density = middle / (4.0 * MIDDLE * MIDDLE * (high - low));
+        let radius = parameters.spot_radius;
+        let volume = 4.0 / 3.0 * PI * radius * radius * radius;
+        let carried = parameters.insertion_rate * density * volume / parameters.displacement_ratio;
+        let [across, up] = self.step;
+        let walked = across * across * 0.5 * (low + high) / up;
+        let flux = sum / ((high - low) * time);
+        [
+            flux / carried,
+            moment / sum / (walked + radius * radius / 5.0),
+        ]
+    }
+
     fn parameters(&self) -> Parameters {
         let [across, up] = self.step;
         Parameters {

@@ -1,7 +1,7 @@
 //! What `phase cost` says: it adds up to what a run takes, counts nothing that is not there, and
 //! changes no bit.
 
-use crate::support::{TinySweep, Workplace, silo_file};
+use crate::support::{TinySweep, Workplace, drainage_file, silo_file};
 use phase::cost::{OBSERVERS, RECORD, RunCost, START, SweepCost};
 use phase::dem::Part;
 use phase::record::Outcome;
@@ -61,6 +61,32 @@ fn the_total_is_what_a_run_takes() {
         }
     }
     panic!("the parts add up to {cost} s, and a run takes {run} s; ratios: {ratios:?}");
+}
+
+/// All of the time once counted as that of relaxation, also where there was none.
+#[test]
+fn drainages_by_spots_are_divided_into_their_parts() {
+    let place = Workplace::new();
+    let cost = |method: &str| {
+        let text = drainage_file() + &format!("relaxation = {{ method = \"{method}\" }}\n");
+        place.write("spots.toml", &text);
+        let answer = json(&place, &["cost", "spots.toml", "--json"]);
+        let run = json(&place, &["run", "spots.toml", "--json"]);
+        assert_eq!(answer["sphere_steps"], run["sphere_steps"], "{method}");
+        let parts = answer["parts"].as_array().unwrap();
+        ["spots", "relaxation", "order of spheres"].map(|name| {
+            let part = parts.iter().find(|it| it["part"] == name).unwrap();
+            part["share"].as_f64().unwrap()
+        })
+    };
+    // A move takes a tenth of what a relaxation does; relaxing all is rarer by hundreds of moves.
+    let [every, all, never] = ["every-move", "global", "off"].map(cost);
+    for shares in [every, all, never] {
+        assert!(shares[0] > 0.0 && shares[2] > 0.0, "{shares:?}");
+    }
+    assert!(every[1] > 2.0 * every[0], "{every:?}");
+    assert!(all[1] > 0.0 && all[1] < 2.0 * all[0], "{all:?}");
+    assert_eq!(never[1], 0.0);
 }
 
 #[test]

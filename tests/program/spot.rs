@@ -207,6 +207,7 @@ fn records_are_drawn_beside_each_other() {
         "diffusion",
         "retention",
         "residence",
+        "cost-error",
     ] {
         let arguments = [
             "plot", "full.h5", "off.h5", "--figure", figure, "--times", "1,8",
@@ -236,6 +237,10 @@ fn records_are_drawn_beside_each_other() {
         ])
         .code(2)
         .complains("once for each");
+    place
+        .phase(&["plot", "full.h5", "--figure", "cost-error"])
+        .code(2)
+        .complains("two runs or more, the first of which is the reference");
     // Too narrow for columns of the surface, too low for two layers.
     for figure in ["surface-angle", "mixing"] {
         place

@@ -4,6 +4,7 @@
 
 mod badness;
 mod bond_angles;
+mod cost_error;
 mod cross_profile;
 mod diffusion;
 mod mixing;
@@ -23,7 +24,7 @@ use crate::record::RunRecord;
 use overlay::{Curve, Lines, Overlay};
 
 /// All of them.
-pub(super) static FIGURES: [&dyn Figure; 13] = [
+pub(super) static FIGURES: [&dyn Figure; 14] = [
     &outflow::OUTFLOW,
     &velocity_profile::VelocityProfiles,
     &cross_profile::CROSS_PROFILE,
@@ -32,6 +33,7 @@ pub(super) static FIGURES: [&dyn Figure; 13] = [
     &radial_distribution::RADIAL_DISTRIBUTION,
     &bond_angles::BOND_ANGLES,
     &badness::BADNESS,
+    &cost_error::CostError,
     &mixing::MIXING,
     &diffusion::DIFFUSION,
     &velocity_correlation::VELOCITY_CORRELATION,

@@ -1,0 +1,213 @@
+//! Error against cost: how far the measures of each drainage are from those of the first, over the
+//! processor time that it takes.
+
+use super::overlay::color;
+use super::{Drainage, drainage};
+use crate::classify::{DRAINAGE, Family};
+use crate::compare::{QUANTITIES, Quantity};
+use crate::plot::chart::{self, Bar, Chart, Line, Panel};
+use crate::plot::page::columns;
+use crate::plot::style::px;
+use crate::plot::svg::Svg;
+use crate::plot::{Figure, PlotError, Source, choice, palette, scale};
+use crate::scene::Units;
+use crate::statistics::Estimate;
+use plotters::style::RGBColor;
+
+/// Error against cost.
+pub(super) struct CostError;
+
+/// Room beyond the data, as a factor.
+const BEYOND: f64 = 1.5;
+/// Colour of the line at the cost of the reference.
+const COST: RGBColor = RGBColor(0x50, 0x50, 0x50);
+
+impl Figure for CostError {
+    fn name(&self) -> &'static str {
+        "cost-error"
+    }
+
+    fn description(&self) -> String {
+        "how far measures are from those of the first run, against processor time".to_owned()
+    }
+
+    fn default_runs(&self) -> Option<&'static str> {
+        Some("a typical run of every state")
+    }
+
+    fn family(&self) -> Option<&'static Family> {
+        Some(&DRAINAGE)
+    }
+
+    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
+        let runs = choice::runs(source, choice::states)?;
+        let (common, places) = choice::places(&runs);
+        let mut units = Units::Si;
+        let measured = runs
+            .iter()
+            .map(|run| {
+                let record = run.record()?;
+                let drainage = drainage(&record, source, self.name())?;
+                units = drainage.units();
+                Ok(Measured::of(&drainage))
+            })
+            .collect::<Result<Vec<_>, PlotError>>()?;
+        let (reference, others) = match measured.split_first() {
+            Some((reference, others)) if !others.is_empty() => (reference, others),
+            _ => {
+                return Err(PlotError::Scene {
+                    figure: self.name(),
+                    needs: "two runs or more, the first of which is the reference",
+                });
+            }
+        };
+        let panels = panels(reference, others).ok_or(PlotError::NoMeasures)?;
+        let time = units.of_time();
+        Chart {
+            name: self.name(),
+            common,
+            columns: columns(panels.len()),
+            height: px(170),
+            panels,
+            x_label: format!("processor time (s) per {time} of the run"),
+            y_label: "difference from the reference, over its value".to_owned(),
+            legend: legend(places, reference, others),
+            notes: vec![
+                "Bars: 95 % over blocks of time, of both runs; where nothing tells the scatter, \
+                 there is none. A difference below the interval of the reference cannot be told."
+                    .to_owned(),
+            ],
+        }
+        .draw(source)
+    }
+}
+
+/// What a run costs, and its values of the quantities that are shown.
+struct Measured {
+    /// Processor time (s) per second of the run.
+    cost: f64,
+    values: Vec<Option<Estimate>>,
+}
+
+impl Measured {
+    fn of(drainage: &Drainage<'_>) -> Self {
+        let end = drainage.states().last().map_or(f64::NAN, |it| it.time);
+        Self {
+            cost: drainage.record.cpu_seconds / end,
+            values: shown().map(|it| (it.measure)(drainage)).collect(),
+        }
+    }
+}
+
+fn shown() -> impl Iterator<Item = &'static Quantity> {
+    QUANTITIES.iter().filter(|it| it.is_of_flow)
+}
+
+/// The reference and each other run, by colour.
+fn legend(
+    places: Vec<Vec<String>>,
+    reference: &Measured,
+    others: &[Measured],
+) -> Vec<(RGBColor, String)> {
+    let mut names = places.into_iter().map(|it| it.join(", "));
+    let first = names.next().unwrap_or_default();
+    let time = scale::rounded(reference.cost, 2);
+    let head = [
+        (COST, format!("cost of the reference, {time} s: {first}")),
+        (palette::GUIDE, "interval of the reference".to_owned()),
+    ];
+    let named = names.zip(others).enumerate();
+    let named = named.map(|(index, (name, run))| {
+        let gain = scale::rounded(reference.cost / run.cost, 2);
+        let word = format!("{name}, reference / {gain}");
+        (color(index, others.len()), word)
+    });
+    head.into_iter().chain(named).collect()
+}
+
+/// A panel for each quantity that the reference and another run have, all with the same axes; none
+/// if there is no quantity, or no error above zero.
+fn panels(reference: &Measured, others: &[Measured]) -> Option<Vec<Panel>> {
+    let costs = others.iter().map(|it| it.cost).chain([reference.cost]);
+    let (low, high) = chart::ends(costs.filter(|it| *it > 0.0));
+    let x = (low / BEYOND, high * BEYOND);
+    let errors: Vec<Errors> = shown()
+        .enumerate()
+        .filter_map(|(place, quantity)| Errors::of(quantity, place, reference, others))
+        .collect();
+    let values = errors.iter().flat_map(|it| it.points.iter().flatten());
+    let floors = errors.iter().map(|it| it.floor);
+    let drawn = values.map(|(_, error)| error.value).chain(floors);
+    let (low, high) = chart::ends(drawn.filter(|it| *it > 0.0 && it.is_finite()));
+    let y = (low / BEYOND, high * BEYOND);
+    let is_drawable = x.0 < x.1 && y.0 < y.1 && !errors.is_empty();
+    is_drawable.then(|| errors.iter().map(|it| it.panel([x, y])).collect())
+}
+
+/// The errors of a quantity.
+struct Errors {
+    name: &'static str,
+    /// Half width of the interval of the reference, over its value.
+    floor: f64,
+    /// Cost of the reference.
+    cost: f64,
+    /// Cost of each run, and its error; none where there is none.
+    points: Vec<Option<(f64, Estimate)>>,
+}
+
+impl Errors {
+    fn of(
+        quantity: &Quantity,
+        place: usize,
+        reference: &Measured,
+        others: &[Measured],
+    ) -> Option<Self> {
+        let first = reference.values[place].filter(|it| it.value != 0.0)?;
+        let scale = first.value.abs();
+        let error = |run: &Measured| {
+            let other = run.values[place]?;
+            let error = Estimate {
+                value: (other.value - first.value).abs() / scale,
+                half_width: libm::hypot(first.half_width, other.half_width) / scale,
+            };
+            (error.value > 0.0).then_some((run.cost, error))
+        };
+        let points: Vec<_> = others.iter().map(error).collect();
+        points.iter().any(Option::is_some).then(|| Self {
+            name: quantity.name,
+            floor: first.half_width / scale,
+            cost: reference.cost,
+            points,
+        })
+    }
+
+    fn panel(&self, [x, y]: [(f64, f64); 2]) -> Panel {
+        let line = |points, color| Line { points, color };
+        let mut lines = vec![line(vec![(self.cost, y.0), (self.cost, y.1)], COST)];
+        if (y.0..=y.1).contains(&self.floor) {
+            let floor = vec![(x.0, self.floor), (x.1, self.floor)];
+            lines.push(line(floor, palette::GUIDE));
+        }
+        let count = self.points.len();
+        let points = self.points.iter().enumerate();
+        let bars = points.filter_map(|(index, point)| {
+            let (cost, error) = (*point)?;
+            let ink = color(index, count);
+            let half = error.half_width;
+            // An axis of powers of ten has no zero: an interval that reaches it ends at the frame.
+            let ends = match half.is_finite() {
+                true => [error.value - half, error.value + half].map(|it| it.clamp(y.0, y.1)),
+                false => [error.value; 2],
+            };
+            Some(Bar::between((cost, error.value), ends, ink))
+        });
+        Panel {
+            head: vec![self.name.to_owned()],
+            x,
+            y,
+            lines,
+            bars: bars.collect(),
+            logarithmic: [true; 2],
+        }
+    }
+}
