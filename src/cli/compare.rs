@@ -18,9 +18,10 @@ use std::path::PathBuf;
 /// its interval of 95 % over blocks of time, where one can be told. Of two records the difference
 /// is told, too. Lengths are over the diameter of the spheres.
 ///
-/// Beside records of phase there may be dumps of LAMMPS and extended XYZ files; the scene of the
-/// first record says what they do not (or `--scene`). A table that this command wrote takes the
-/// place of its records.
+/// Beside records of phase there may be dumps of LAMMPS, extended XYZ files, and files of VTK by
+/// the collection (`.pvd`) or series (`.series`) that says their times. The scene of the first
+/// record says what they do not (or `--scene`). A table that this command wrote takes the place of
+/// its records.
 ///
 /// Of two folders, runs of one point and seed are paired: the share with one label, and the mean
 /// differences of measures.
@@ -33,7 +34,7 @@ Example: another program
 Example: two sweeps
   phase compare results/steel results/steel-softened")]
 pub(crate) struct Arguments {
-    /// Records (HDF5, LAMMPS dump, extended XYZ) or tables (CSV), one or more; or two folders.
+    /// Records (HDF5, LAMMPS dump, extended XYZ, VTK) or tables (CSV), one or more; or two folders.
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
     /// First and last time (s) of the states that count, since the opening [default: from a fifth

@@ -49,6 +49,21 @@ pub enum StoreError {
         /// What the system said.
         source: io::Error,
     },
+    /// A file that another one names cannot be opened or read.
+    #[error(
+        "cannot read {}, which {} names: {source}{}",
+        path.display(),
+        list.display(),
+        advice(source)
+    )]
+    ReadNamed {
+        /// The file.
+        path: PathBuf,
+        /// The file that names it.
+        list: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
     /// The file cannot be written, for a reason other than space.
     #[error("cannot write {}: {source}{}", path.display(), advice(source))]
     Write {
@@ -142,6 +157,26 @@ pub enum StoreError {
         /// What is wrong and what is expected.
         reason: String,
     },
+    /// An array of a file that has no lines is not as it should be.
+    #[error("{}: array `{array}`: {reason}", path.display())]
+    Array {
+        /// The file.
+        path: PathBuf,
+        /// Name of the array, or of the section of the file.
+        array: String,
+        /// What is wrong and what is expected.
+        reason: String,
+    },
+    /// A file of VTK is given in place of a list of such files.
+    #[error(
+        "{} holds one state and does not say its time; give a collection (`.pvd`) or a series \
+         (`.series`) that names the files of all times",
+        path.display()
+    )]
+    OneState {
+        /// The file.
+        path: PathBuf,
+    },
 }
 
 impl StoreError {
@@ -179,6 +214,14 @@ impl StoreError {
         Self::Text {
             path: path.to_owned(),
             line,
+            reason: reason.to_string(),
+        }
+    }
+
+    fn array(path: &Path, array: &str, reason: impl ToString) -> Self {
+        Self::Array {
+            path: path.to_owned(),
+            array: array.to_owned(),
             reason: reason.to_string(),
         }
     }

@@ -59,6 +59,22 @@ fn what_other_programs_write_is_measured_alike() {
         .phase(&["export", "run.h5", "--to", "xyz", "--out", "run.xyz"])
         .code(0);
     assert_equal(&place, "run.h5", "run.xyz");
+    place
+        .phase(&["export", "run.h5", "--to", "vtk", "--out", "run.pvd"])
+        .code(0);
+    assert_equal(&place, "run.h5", "run.pvd");
+    let frame = "run/frame_00000.vtp";
+    let timeless = place.phase(&["compare", "run.h5", frame]).code(2);
+    assert!(timeless.stderr.contains(".pvd"), "{}", timeless.stderr);
+    std::fs::remove_file(place.path(frame)).unwrap();
+    let missing = place.phase(&["compare", "run.h5", "run.pvd"]).code(2);
+    assert!(
+        missing
+            .stderr
+            .contains("frame_00000.vtp, which run.pvd names"),
+        "{}",
+        missing.stderr
+    );
     place.write("run.dump", &lammps_dump(&record, record.scene.time.dt));
     assert_equal(&place, "run.dump", "run.h5");
     // Alone it needs a scene.

@@ -74,6 +74,7 @@ fn kind(path: &Path) -> Kind {
     match end {
         Some("csv") => Kind::Table,
         Some("xyz" | "extxyz" | "dump" | "lammpstrj") => Kind::States,
+        Some("pvd" | "series" | "vtk" | "vtp" | "vtu") => Kind::States,
         _ => Kind::Record,
     }
 }

@@ -1,6 +1,12 @@
 //! States of spheres that other programs wrote: one file per format.
 
 mod lammps;
+mod series;
+mod vtk_bytes;
+mod vtk_legacy;
+mod vtk_numbers;
+mod vtk_reader;
+mod vtk_xml;
 mod xyz;
 
 use super::StoreError;
@@ -8,11 +14,25 @@ use crate::document::text;
 use crate::replay::WrittenState;
 use std::path::Path;
 
-/// Reads the states of a text dump of LAMMPS (`ITEM: TIMESTEP`) or of an extended XYZ file.
+/// Reads the states of a text dump of LAMMPS (`ITEM: TIMESTEP`), of an extended XYZ file, or of the
+/// files of VTK that a collection (`.pvd`) or a series of ParaView (`.series`) names.
 ///
 /// # Errors
-/// [`StoreError::Read`], or [`StoreError::Text`] with the line at fault.
+/// [`StoreError::Read`] or [`StoreError::ReadNamed`]; [`StoreError::Text`] with the line at fault,
+/// or [`StoreError::Array`]; [`StoreError::OneState`] for a file of VTK, which has no time.
 pub fn read_states(path: &Path) -> Result<Vec<WrittenState>, StoreError> {
+    match path.extension().and_then(|it| it.to_str()) {
+        Some("pvd") => series::collection(path),
+        Some("series") => series::series(path),
+        Some("vtk" | "vtp" | "vtu") => Err(StoreError::OneState {
+            path: path.to_owned(),
+        }),
+        _ => text_states(path),
+    }
+}
+
+/// The states of a dump of LAMMPS or of an extended XYZ file.
+fn text_states(path: &Path) -> Result<Vec<WrittenState>, StoreError> {
     let content = text::read(path).map_err(|error| StoreError::reading(path, error))?;
     let mut lines = Lines {
         path,
@@ -31,6 +51,12 @@ pub fn read_states(path: &Path) -> Result<Vec<WrittenState>, StoreError> {
         true => Err(lines.refuse("it holds no states")),
         false => Ok(states),
     }
+}
+
+/// The line, from 1, of a place in a text.
+fn line_at(text: &str, place: usize) -> u64 {
+    let before = text.bytes().take(place);
+    before.filter(|it| *it == b'\n').count() as u64 + 1
 }
 
 /// The lines of a file, counted.
