@@ -203,7 +203,11 @@ fn a_limit_on_the_size_of_files_is_an_error() {
 #[test]
 fn a_signal_that_was_ignored_stays_ignored() {
     let place = Workplace::new();
-    place.write("slow.toml", &TinySweep::slow().text());
+    let many = TinySweep {
+        seeds: (1..=500).collect(),
+        ..TinySweep::default()
+    };
+    place.write("many.toml", &many.text());
     for (signal, trap) in [
         ("HUP", "trap '' HUP; "),
         ("INT", "trap '' INT; "),
@@ -212,7 +216,7 @@ fn a_signal_that_was_ignored_stays_ignored() {
     ] {
         let phase = env!("CARGO_BIN_EXE_phase");
         let script = format!(
-            "{trap}exec {phase} sweep slow.toml --out {signal}{}",
+            "{trap}exec {phase} sweep many.toml --out {signal}{}",
             trap.len()
         );
         let mut child = Command::new("sh")

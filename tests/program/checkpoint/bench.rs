@@ -12,9 +12,9 @@ pub(crate) fn whole(scene: &Scene) -> RunRecord {
     phase::run::run(scene, &mut |_| ControlFlow::Continue(())).unwrap()
 }
 
-/// A scene that takes some seconds with a checkpoint at every frame.
+/// A scene that takes a second or two with a checkpoint at every frame.
 pub(crate) fn slow_scene() -> String {
-    crate::support::scene_file().replace("duration = 2.0", "duration = 40.0")
+    crate::support::scene_file().replace("duration = 2.0", "duration = 12.0")
 }
 
 pub(crate) fn digest(path: &Path) -> String {

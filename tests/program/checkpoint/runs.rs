@@ -166,7 +166,7 @@ fn a_job_that_is_run_again_goes_on_too() {
     let sweep = TinySweep {
         omegas: vec![4.0],
         seeds: vec![1],
-        duration: 40.0,
+        duration: 12.0,
         ..TinySweep::default()
     };
     place.write("tiny.toml", &sweep.text());

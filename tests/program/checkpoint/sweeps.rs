@@ -15,10 +15,18 @@ pub(crate) fn checkpoints(place: &Workplace) -> Vec<PathBuf> {
         .collect()
 }
 
+/// A sweep whose jobs take some tenths of a second with a checkpoint at every frame.
+fn slow() -> TinySweep {
+    TinySweep {
+        duration: 24.0,
+        ..TinySweep::slow()
+    }
+}
+
 /// A place where a sweep was killed after its first job, in the middle of the second.
 fn killed_sweep() -> Workplace {
     let place = Workplace::new();
-    place.write("tiny.toml", &TinySweep::slow().text());
+    place.write("tiny.toml", &slow().text());
     let arguments = [
         "sweep",
         "tiny.toml",
@@ -91,7 +99,7 @@ fn a_sweep_starts_a_job_anew_whose_checkpoint_is_damaged() {
         .complains("starts from the beginning: ")
         .complains("this checkpoint is damaged");
     assert!(checkpoints(&place).is_empty());
-    assert_eq!(place.records("results").len(), TinySweep::slow().jobs());
+    assert_eq!(place.records("results").len(), slow().jobs());
 }
 
 /// A process that is killed right after it stored a record leaves the checkpoint of a job that is
