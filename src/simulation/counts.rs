@@ -5,7 +5,9 @@
 pub struct Counts {
     /// Spheres of the scene.
     pub all: usize,
-    /// Spheres that came in.
+    /// Spheres that were in from the start.
+    pub placed: usize,
+    /// Spheres that came in, those from the start included.
     pub released: usize,
     /// Spheres that left, as they should: not while a door was closed.
     pub discharged: usize,
@@ -23,12 +25,47 @@ impl Counts {
         self.discharged + self.spilled
     }
 
-    /// The share of all ways in and, where spheres can leave, out that spheres went.
+    /// The share of all ways in and, where spheres can leave, out that spheres went. A sphere that
+    /// was in from the start has no way in.
     pub fn share(&self) -> f64 {
+        let in_done = self.released.saturating_sub(self.placed);
+        let in_all = self.all.saturating_sub(self.placed);
         let (done, ways) = match self.can_leave {
-            true => (self.released + self.gone(), 2 * self.all),
-            false => (self.released, self.all),
+            true => (in_done + self.gone(), in_all + self.all),
+            false => (in_done, in_all),
         };
-        done as f64 / ways.max(1) as f64
+        match ways {
+            0 => 0.0,
+            _ => done as f64 / ways as f64,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Symptom: a drainage of spheres that were all in at the start began at 50 %, and told hours
+    /// for minutes. Cause: their ways in counted as done.
+    #[test]
+    fn spheres_that_were_in_have_no_way_in() {
+        let counts = |placed, released, discharged| Counts {
+            all: 100,
+            placed,
+            released,
+            discharged,
+            spilled: 0,
+            is_closed: false,
+            can_leave: true,
+        };
+        assert_eq!(counts(100, 100, 0).share(), 0.0);
+        assert_eq!(counts(100, 100, 25).share(), 0.25);
+        assert_eq!(counts(0, 100, 0).share(), 0.5);
+        assert_eq!(counts(0, 100, 100).share(), 1.0);
+        let closed = Counts {
+            can_leave: false,
+            ..counts(100, 100, 0)
+        };
+        assert_eq!(closed.share(), 0.0);
     }
 }

@@ -246,6 +246,7 @@ impl Simulation for Drainage {
     fn counts(&self) -> Option<Counts> {
         Some(Counts {
             all: self.radius.len(),
+            placed: self.radius.len(),
             released: self.radius.len(),
             discharged: self.simulation.spheres_left(),
             spilled: 0,

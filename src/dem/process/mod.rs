@@ -114,6 +114,7 @@ impl Process {
     pub(super) fn counts(&self, all: usize) -> Counts {
         Counts {
             all,
+            placed: self.present,
             released: self.present + self.feed.released(),
             discharged: self.discharged,
             spilled: self.spilled,

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Draws the figures of analysis/spot.md that show discrete elements beside spots, and their tables, from
+# the records of analysis/drainage.sh.
+#
+#   analysis/drainage-figures.sh [FOLDER [RESULTS]]
+set -euo pipefail
+cd "$(dirname "$0")/.."
+phase=${PHASE:-target/release/phase}
+folder=${1:-scratch/drainage}
+results=${2:-results/drainage}
+
+# Draws figures of records: figures NAME "FIGURES" TIMES RECORD=LABEL...
+figures() {
+    local name=$1 list=$2 times=$3 records=() labels=() pair
+    shift 3
+    for pair in "$@"; do
+        records+=("$folder/${pair%%=*}.h5")
+        labels+=(--label "${pair#*=}")
+    done
+    "$phase" plot "${records[@]}" "${labels[@]}" --figure "$list" --times "$times" --name "$name" --out "$results" -q
+}
+
+pair=(dem="discrete elements" base="spots")
+figures pair outflow,velocity-profile,cross-profile,surface-angle,radial-distribution,bond-angles 40,120 "${pair[@]}"
+figures pair mixing,diffusion,velocity-correlation,retention,residence 40,120 "${pair[@]}"
+figures pair packing-map 20,120 "${pair[@]}"
+figures relaxation cost-error 40,120 dem="discrete elements" base="every move" random10="at random, k = 10" \
+    counted10="every tenth" random100="at random, k = 100" global1="all, k = 1" global10="all, k = 10" none="never"
+figures walls cross-profile,outflow 10,40 wall0.1="0.1" wall0.3="0.3" dt4="0.5" wall0.7="0.7" wall0.9="0.9"
+
+"$phase" compare "$folder"/{dem,base}.h5 --times 40,120 --out "$results/pair.csv"
+"$phase" compare "$folder"/{dt1,dt2,dt4,dt8,seed2,seed3}.h5 --times 10,40 --out "$results/steps.csv"
+"$phase" compare "$folder"/{wall0.1,wall0.3,dt4,wall0.7,wall0.9}.h5 --times 10,40 --out "$results/walls.csv"
+"$phase" fit "$folder/dem.h5" --times 40,120 --out "$results/fitted.toml"
+"$phase" view "$folder/dem.h5" --color layer --cut --time 20,80,140 --out "$results/pair-layers.png" -q
+# The SVG copies are left out, but for the figure of costs.
+find "$results" -name 'pair-*.svg' -delete
