@@ -32,6 +32,6 @@ figures walls cross-profile,outflow 10,40 wall0.1="0.1" wall0.3="0.3" dt4="0.5" 
 "$phase" compare "$folder"/{dt1,dt2,dt4,dt8,seed2,seed3}.h5 --times 10,40 --out "$results/steps.csv"
 "$phase" compare "$folder"/{wall0.1,wall0.3,dt4,wall0.7,wall0.9}.h5 --times 10,40 --out "$results/walls.csv"
 "$phase" fit "$folder/dem.h5" --times 40,120 --out "$results/fitted.toml"
-"$phase" view "$folder/dem.h5" --color layer --cut --time 20,80,140 --out "$results/pair-layers.png" -q
-# The SVG copies are left out, but for the figure of costs.
-find "$results" -name 'pair-*.svg' -delete
+"$phase" view "$folder/dem.h5" --color layer --cut --time 20,80,140 --width 220 --palette --out "$results/pair-layers.png" -q
+# These two would be large.
+rm -f "$results"/pair-{packing-map,velocity-profile}.svg

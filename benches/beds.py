@@ -141,6 +141,10 @@ class Drainage(Box):
         self.count = len(self.spheres)
         self.text = self.replaced(self.text, {"count = 55000": f"count = {self.count}"})
 
+    def last_spheres(self, folder):
+        """Without those that are on their way out: no program starts with spheres below a floor."""
+        return [sphere for sphere in super().last_spheres(folder) if sphere[2] >= 0.0]
+
     def lammps(self, law):
         return "in.drainage.lammps", dict(skin=0.1)
 

@@ -119,7 +119,7 @@ fn legend(
     let named = names.zip(others).enumerate();
     let named = named.map(|(index, (name, run))| {
         let gain = scale::rounded(reference.cost / run.cost, 2);
-        let word = format!("{name}, reference / {gain}");
+        let word = format!("{name}, at 1 / {gain} of its cost");
         (color(index, others.len()), word)
     });
     head.into_iter().chain(named).collect()
