@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Draws the figures of analysis/spot.md that show discrete elements beside spots, and their tables, from
-# the records of analysis/drainage.sh.
+# Draws the figures of analysis/spot.md that show discrete elements beside spots, and writes their
+# tables, from the records of analysis/drainage.sh.
 #
 #   analysis/drainage-figures.sh [FOLDER [RESULTS]]
 set -euo pipefail
@@ -26,12 +26,12 @@ figures pair mixing,diffusion,velocity-correlation,retention,residence 40,120 "$
 figures pair packing-map 20,120 "${pair[@]}"
 figures relaxation cost-error 40,120 dem="discrete elements" base="every move" random10="at random, k = 10" \
     counted10="every tenth" random100="at random, k = 100" global1="all, k = 1" global10="all, k = 10" none="never"
-figures walls cross-profile,outflow 10,40 wall0.1="0.1" wall0.3="0.3" dt4="0.5" wall0.7="0.7" wall0.9="0.9"
+figures walls cross-profile 5,30 wall0.1="0.1" wall0.3="0.3" dt4="0.5" wall0.7="0.7" wall0.9="0.9"
 
 "$phase" compare "$folder"/{dem,base}.h5 --times 40,120 --out "$results/pair.csv"
-"$phase" compare "$folder"/{dt1,dt2,dt4,dt8,seed2,seed3}.h5 --times 10,40 --out "$results/steps.csv"
-"$phase" compare "$folder"/{wall0.1,wall0.3,dt4,wall0.7,wall0.9}.h5 --times 10,40 --out "$results/walls.csv"
-"$phase" fit "$folder/dem.h5" --times 40,120 --out "$results/fitted.toml"
+"$phase" compare "$folder"/{dt1,dt2,dt4,dt8,seed2}.h5 --times 5,30 --out "$results/steps.csv"
+"$phase" compare "$folder"/{wall0.1,wall0.3,dt4,wall0.7,wall0.9}.h5 --times 5,30 --out "$results/walls.csv"
+"$phase" fit "$folder/dem.h5" --times 40,120
 "$phase" view "$folder/dem.h5" --color layer --cut --time 20,80,140 --width 220 --palette --out "$results/pair-layers.png" -q
 # These two would be large.
 rm -f "$results"/pair-{packing-map,velocity-profile}.svg

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs the drainages of analysis/spot.md, by spots and by discrete elements, in some hours of one core.
-# It may be interrupted, and goes on.
+# Runs the drainages of analysis/spot.md, by spots and by discrete elements, in some hours of one
+# core. It may be interrupted, and goes on.
 #
 #   analysis/drainage.sh [FOLDER [RUN...]]
 #
@@ -20,7 +20,6 @@ dt2 dem-small time.dt=2e-4
 dt4 dem-small time.dt=4e-4
 dt8 dem-small time.dt=8e-4
 seed2 dem-small time.dt=4e-4 seed=2
-seed3 dem-small time.dt=4e-4 seed=3
 wall0.1 dem-small time.dt=4e-4 tank.friction_coefficient=0.1
 wall0.3 dem-small time.dt=4e-4 tank.friction_coefficient=0.3
 wall0.7 dem-small time.dt=4e-4 tank.friction_coefficient=0.7
