@@ -117,7 +117,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         _ => Failure::failed(error),
     })?;
     if !arguments.force && !arguments.no_classify {
-        let kept = jobs.iter().map(|job| job.id.as_str());
+        let again = jobs_made_again(&folder, &sweep);
+        let kept = jobs.iter().chain(&again).map(|job| job.id.as_str());
         refuse_to_lose_labels(&folder, kept).map_err(classify::cannot_write)?;
     }
     tell_of_other_sweep(&folder, &sweep, console);
@@ -191,6 +192,17 @@ fn refuse_other_thresholds(folder: &Folder, sweep: &Sweep) -> Result<(), Failure
             folder.sweep().display()
         ))),
     }
+}
+
+/// The jobs of the sweep that the folder keeps, if this one makes the same. Those at borders and
+/// those of rounds follow from the labels, so that the thresholds count too.
+fn jobs_made_again(folder: &Folder, sweep: &Sweep) -> Vec<Job> {
+    let stored = folder.read_sweep().ok();
+    let stored = stored.filter(|stored| {
+        stored.sieves == sweep.sieves && stored.keys_of_other_runs(sweep).is_empty()
+    });
+    let jobs = stored.and_then(|stored| stored.jobs().ok());
+    jobs.unwrap_or_default()
 }
 
 /// Takes the seeds of the command line, and refines the sweep if that is asked for.

@@ -57,6 +57,9 @@ fn points_at_borders_have_more_seeds() {
         .says("0 of 12 labels changed");
     let forced = place.phase(&["sweep", "tiny.toml", "--out", "all", "--force", "--no-plot"]);
     forced.code(0).says("12 jobs: 12 run now");
+    // Published tables are made again without their records, those at borders too.
+    std::fs::remove_dir_all(place.path("all/records")).unwrap();
+    assert_eq!(sweep(&place, &tiny("at_borders = 4"), "all", &[]), ROWS);
     place
         .phase(&["check", "tiny.toml", "--no-trial"])
         .code(0)

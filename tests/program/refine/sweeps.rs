@@ -42,6 +42,26 @@ fn rows(place: &Workplace, table: &str) -> Vec<Vec<String>> {
     text.lines().skip(1).map(cells).collect()
 }
 
+/// Symptom: in a fresh checkout `phase sweep` refused to make a published refined sweep again, as
+/// labels would be lost. Cause: only the coarse grid counted as runs that it makes.
+#[test]
+fn published_tables_are_made_again_without_their_records() {
+    let place = Workplace::new();
+    bare(&place, &tiny(2.0, REFINE), "results", &[]);
+    let labels = place.read("results/labels.csv");
+    std::fs::remove_dir_all(place.path("results/records")).unwrap();
+    let smaller = REFINE.replace("budget = 14", "budget = 13");
+    place.write("tiny.toml", &tiny(2.0, &smaller));
+    place
+        .phase(&["sweep", "tiny.toml", "--out", "results", "--no-plot"])
+        .code(2)
+        .complains("would be lost");
+    assert_eq!(place.read("results/labels.csv"), labels);
+    let said = bare(&place, &tiny(2.0, REFINE), "results", &[]);
+    assert!(said.contains("14 jobs: 14 run now"), "{said}");
+    assert_eq!(place.read("results/labels.csv"), labels);
+}
+
 #[test]
 fn a_coarse_grid_and_rounds_spend_the_budget() {
     let place = Workplace::new();
