@@ -1,15 +1,15 @@
 //! Error against cost: how far the measures of each drainage are from those of the first, over the
 //! processor time that it takes.
 
-use super::overlay::color;
-use super::{Drainage, drainage};
+use super::overlay::{GUIDES, color};
+use super::{Drainage, each};
 use crate::classify::{DRAINAGE, Family};
 use crate::compare::{QUANTITIES, Quantity};
 use crate::plot::chart::{self, Bar, Chart, Line, Panel};
 use crate::plot::page::columns;
 use crate::plot::style::px;
 use crate::plot::svg::Svg;
-use crate::plot::{Figure, PlotError, Source, choice, palette, scale};
+use crate::plot::{Figure, PlotError, Source, palette, scale};
 use crate::scene::Units;
 use crate::statistics::Estimate;
 use plotters::style::RGBColor;
@@ -20,7 +20,7 @@ pub(super) struct CostError;
 /// Room beyond the data, as a factor.
 const BEYOND: f64 = 1.5;
 /// Colour of the line at the cost of the reference.
-const COST: RGBColor = RGBColor(0x50, 0x50, 0x50);
+const COST: RGBColor = GUIDES[0];
 
 impl Figure for CostError {
     fn name(&self) -> &'static str {
@@ -40,18 +40,11 @@ impl Figure for CostError {
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let runs = choice::runs(source, choice::states)?;
-        let (common, places) = choice::places(&runs);
         let mut units = Units::Si;
-        let measured = runs
-            .iter()
-            .map(|run| {
-                let record = run.record()?;
-                let drainage = drainage(&record, source, self.name())?;
-                units = drainage.units();
-                Ok(Measured::of(&drainage))
-            })
-            .collect::<Result<Vec<_>, PlotError>>()?;
+        let (common, measured) = each(source, self.name(), |place, drainage| {
+            units = drainage.units();
+            Measured::of(place, drainage)
+        })?;
         let (reference, others) = match measured.split_first() {
             Some((reference, others)) if !others.is_empty() => (reference, others),
             _ => {
@@ -71,7 +64,7 @@ impl Figure for CostError {
             panels,
             x_label: format!("processor time (s) per {time} of the run"),
             y_label: "difference from the reference, over its value".to_owned(),
-            legend: legend(places, reference, others),
+            legend: legend(reference, others),
             notes: vec![
                 "Bars: 95 % over blocks of time, of both runs; where nothing tells the scatter, \
                  there is none. A difference below the interval of the reference cannot be told."
@@ -84,15 +77,18 @@ impl Figure for CostError {
 
 /// What a run costs, and its values of the quantities that are shown.
 struct Measured {
+    /// Its name in the legend.
+    name: String,
     /// Processor time (s) per second of the run.
     cost: f64,
     values: Vec<Option<Estimate>>,
 }
 
 impl Measured {
-    fn of(drainage: &Drainage<'_>) -> Self {
+    fn of(place: Vec<String>, drainage: &Drainage<'_>) -> Self {
         let end = drainage.states().last().map_or(f64::NAN, |it| it.time);
         Self {
+            name: place.join(", "),
             cost: drainage.record.cpu_seconds / end,
             values: shown().map(|it| (it.measure)(drainage)).collect(),
         }
@@ -104,22 +100,17 @@ fn shown() -> impl Iterator<Item = &'static Quantity> {
 }
 
 /// The reference and each other run, by colour.
-fn legend(
-    places: Vec<Vec<String>>,
-    reference: &Measured,
-    others: &[Measured],
-) -> Vec<(RGBColor, String)> {
-    let mut names = places.into_iter().map(|it| it.join(", "));
-    let first = names.next().unwrap_or_default();
+fn legend(reference: &Measured, others: &[Measured]) -> Vec<(RGBColor, String)> {
+    let first = &reference.name;
     let time = scale::rounded(reference.cost, 2);
     let head = [
         (COST, format!("cost of the reference, {time} s: {first}")),
         (palette::GUIDE, "interval of the reference".to_owned()),
     ];
-    let named = names.zip(others).enumerate();
-    let named = named.map(|(index, (name, run))| {
+    let named = others.iter().enumerate();
+    let named = named.map(|(index, run)| {
         let gain = scale::rounded(reference.cost / run.cost, 2);
-        let word = format!("{name}, at 1 / {gain} of its cost");
+        let word = format!("{}, at 1 / {gain} of its cost", run.name);
         (color(index, others.len()), word)
     });
     head.into_iter().chain(named).collect()

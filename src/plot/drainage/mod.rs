@@ -18,9 +18,8 @@ mod surface_angle;
 mod velocity_correlation;
 mod velocity_profile;
 
-use super::{Figure, PlotError, Source};
+use super::{Figure, PlotError, Source, choice};
 use crate::compare::Drainage;
-use crate::record::RunRecord;
 use overlay::{Curve, Lines, Overlay};
 
 /// All of them.
@@ -41,12 +40,21 @@ pub(super) static FIGURES: [&dyn Figure; 14] = [
     &residence::RESIDENCE,
 ];
 
-/// A record as a figure reads it.
-fn drainage<'a>(
-    record: &'a RunRecord,
+/// What is common to the places of a figure's runs, and what it takes from each run: from the rest
+/// of its place, and from its drainage.
+fn each<T>(
     source: &Source<'_>,
     figure: &'static str,
-) -> Result<Drainage<'a>, PlotError> {
-    let drainage = Drainage::new(record, source.times);
-    drainage.map_err(|needs| PlotError::Scene { figure, needs })
+    mut take: impl FnMut(Vec<String>, &Drainage<'_>) -> T,
+) -> Result<(Vec<String>, Vec<T>), PlotError> {
+    let runs = choice::runs(source, choice::states)?;
+    let (common, places) = choice::places(&runs);
+    let taken = runs.iter().zip(places).map(|(run, place)| {
+        let record = run.record()?;
+        let drainage = Drainage::new(&record, source.times);
+        let drainage = drainage.map_err(|needs| PlotError::Scene { figure, needs })?;
+        Ok(take(place, &drainage))
+    });
+    let taken: Result<Vec<T>, PlotError> = taken.collect();
+    Ok((common, taken?))
 }

@@ -1,13 +1,13 @@
 //! Figures in which each run is a line.
 
-use super::{Drainage, drainage};
+use super::{Drainage, each};
 use crate::classify::{DRAINAGE, Family};
 use crate::color::ColorMap;
 use crate::plot::chart::{self, Bar, Chart, Line, Panel};
 use crate::plot::page::columns;
 use crate::plot::style::px;
 use crate::plot::svg::Svg;
-use crate::plot::{Figure, PlotError, Source, choice, palette};
+use crate::plot::{Figure, PlotError, Source, palette};
 use crate::scene::Units;
 use plotters::style::RGBColor;
 
@@ -103,27 +103,17 @@ impl Figure for Overlay {
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let runs = choice::runs(source, choice::states)?;
-        let (common, places) = choice::places(&runs);
-        let (mut guides, mut units) = (Vec::new(), Units::Si);
-        let shown = runs
-            .iter()
-            .enumerate()
-            .map(|(index, run)| {
-                let record = run.record()?;
-                let drainage = drainage(&record, source, self.name)?;
-                if index == 0 {
-                    guides = (self.guides)(&drainage);
-                    units = drainage.units();
-                }
-                Ok((self.lines)(&drainage))
-            })
-            .collect::<Result<Vec<Lines>, PlotError>>()?;
+        let mut first = None;
+        let (common, shown) = each(source, self.name, |place, drainage| {
+            first.get_or_insert_with(|| ((self.guides)(drainage), drainage.units()));
+            (place, (self.lines)(drainage))
+        })?;
+        let (guides, units) = first.unwrap_or((Vec::new(), Units::Si));
         let panels = self.panels.iter().enumerate();
         let mut panels: Vec<Panel> = panels
             .map(|(index, frame)| {
                 let guides = if index == 0 { &guides[..] } else { &[] };
-                frame.panel(shown.iter().map(|it| &it.curves[index]), guides)
+                frame.panel(shown.iter().map(|(_, it)| &it.curves[index]), guides)
             })
             .collect();
         self.align(&mut panels);
@@ -133,11 +123,11 @@ impl Figure for Overlay {
         {
             return Err(PlotError::NoMeasures);
         }
-        let words = shown.iter().map(|lines| lines.word.clone());
-        let named = places.into_iter().zip(words).enumerate();
-        let legend = named.filter_map(|(index, (mut name, word))| {
-            name.extend(word);
-            let color = color(index, runs.len());
+        let count = shown.len();
+        let named = shown.into_iter().enumerate();
+        let legend = named.filter_map(|(index, (mut name, lines))| {
+            name.extend(lines.word);
+            let color = color(index, count);
             (!name.is_empty()).then(|| (color, name.join(", ")))
         });
         let named_guides = guides.iter().zip(GUIDES);
@@ -192,7 +182,7 @@ pub(super) fn in_units(label: &str, units: Units) -> String {
 }
 
 /// Colours of guides.
-const GUIDES: [RGBColor; 2] = [RGBColor(0x50, 0x50, 0x50), palette::GUIDE];
+pub(super) const GUIDES: [RGBColor; 2] = [RGBColor(0x50, 0x50, 0x50), palette::GUIDE];
 
 /// Colour of a run by its number: of few they are as different as can be, of many in order.
 pub(super) fn color(index: usize, count: usize) -> RGBColor {

@@ -1,6 +1,6 @@
 //! Maps of the local packing fraction (Rycroft, Wong and Bazant, 2010, figure 4).
 
-use super::{Drainage, drainage};
+use super::{Drainage, each};
 use crate::classify::{DRAINAGE, Family};
 use crate::measure::{CellGrid, Centres, Walls, local_packing_fraction, voronoi_cells};
 use crate::observe::Snapshot;
@@ -11,7 +11,7 @@ use crate::plot::page::{Frame, Page, Plan};
 use crate::plot::scale::Span;
 use crate::plot::style::px;
 use crate::plot::svg::{Placed, Svg};
-use crate::plot::{Figure, PlotError, Source, choice};
+use crate::plot::{Figure, PlotError, Source};
 use crate::render::Image;
 
 /// Maps of the local packing fraction at two times.
@@ -48,19 +48,12 @@ impl Figure for PackingMap {
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let runs = choice::runs(source, choice::states)?;
-        let (common, places) = choice::places(&runs);
-        let mut maps = Vec::new();
-        for (run, place) in runs.iter().zip(places) {
-            let record = run.record()?;
-            let drainage = drainage(&record, source, self.name())?;
-            let duration = record.scene.time.duration;
+        let (common, maps) = each(source, self.name(), |place, drainage| {
+            let duration = drainage.record.scene.time.duration;
             let shown = source.times.unwrap_or(SHOWN.map(|share| share * duration));
-            for time in shown {
-                maps.push(Map::new(&drainage, time, place.clone()));
-            }
-        }
-        draw(self.name(), source, &common, &maps)
+            shown.map(|time| Map::new(drainage, time, place.clone()))
+        })?;
+        draw(self.name(), source, &common, maps.as_flattened())
     }
 }
 

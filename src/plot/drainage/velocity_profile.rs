@@ -1,6 +1,6 @@
 //! The downward velocity across a box at several heights, and how fast the flow widens upwards.
 
-use super::{Drainage, drainage};
+use super::{Drainage, each};
 use crate::classify::{DRAINAGE, Family};
 use crate::compare::{DRAWN_HEIGHTS, flow_spread_of, profile_at};
 use crate::measure::flow_width;
@@ -8,7 +8,7 @@ use crate::plot::chart::{self, Bar, Chart, Line, Panel};
 use crate::plot::page::columns;
 use crate::plot::style::px;
 use crate::plot::svg::Svg;
-use crate::plot::{Figure, PlotError, Source, choice, palette};
+use crate::plot::{Figure, PlotError, Source, palette};
 use crate::scene::Units;
 use plotters::style::RGBColor;
 
@@ -36,18 +36,11 @@ impl Figure for VelocityProfiles {
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let runs = choice::runs(source, choice::states)?;
-        let (common, places) = choice::places(&runs);
         let mut time = Units::Si.of_time();
-        let panels = runs
-            .iter()
-            .zip(places)
-            .map(|(run, place)| {
-                let record = run.record()?;
-                time = record.scene.units().of_time();
-                Ok(panel(place, &drainage(&record, source, self.name())?))
-            })
-            .collect::<Result<Vec<_>, PlotError>>()?;
+        let (common, panels) = each(source, self.name(), |place, drainage| {
+            time = drainage.units().of_time();
+            panel(place, drainage)
+        })?;
         let legend = COLORS.into_iter().zip(DRAWN_HEIGHTS);
         let legend = legend
             .map(|(color, share)| (color, format!("at {:.0} % of the height", 100.0 * share)));
