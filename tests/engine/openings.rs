@@ -191,7 +191,7 @@ fn bits(simulation: &Simulation) -> Vec<(u32, [u64; 6])> {
     all
 }
 
-const STEPS: u64 = 1000;
+const STEPS: u64 = 700;
 
 #[test]
 fn many_spheres_that_leave_have_the_same_bits_on_any_threads_and_resumed() {
@@ -204,17 +204,15 @@ fn many_spheres_that_leave_have_the_same_bits_on_any_threads_and_resumed() {
         // They stand in another order than that of the scene.
         let numbers = &one.particles().number;
         assert!(numbers.windows(2).any(|two| two[0] > two[1]));
-        for threads in [2, 3] {
-            let mut several = Simulation::new(&scene).unwrap();
-            several.use_threads(threads).unwrap();
-            several.advance(STEPS).unwrap();
-            assert!(
-                bits(&several) == bits(&one),
-                "{threads} threads, {integrator:?}"
-            );
-        }
+        let mut several = Simulation::new(&scene).unwrap();
+        several.use_threads(3).unwrap();
+        several.advance(STEPS).unwrap();
+        assert!(
+            bits(&several) == bits(&one),
+            "three threads, {integrator:?}"
+        );
         let mut latest = Simulation::new(&scene).unwrap();
-        for step in [250, 777, STEPS] {
+        for step in [250, STEPS / 2 + 77, STEPS] {
             latest.advance(step - latest.step()).unwrap();
             let mut next = Simulation::new(&scene).unwrap();
             next.restore(latest.state()).unwrap();

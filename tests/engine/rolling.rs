@@ -145,16 +145,12 @@ fn springs_follow_spheres_that_are_sorted() {
         let mut one = Simulation::new(&scene).unwrap();
         one.advance(STEPS).unwrap();
         let expected = state(&one).bits();
-        for threads in [2, 3] {
-            let mut several = Simulation::new(&scene).unwrap();
-            several.use_threads(threads).unwrap();
-            several.advance(STEPS).unwrap();
-            assert!(state(&several).bits() == expected, "{integrator:?}");
-        }
         let mut first = Simulation::new(&scene).unwrap();
+        first.use_threads(2).unwrap();
         first.advance(249).unwrap();
         let mut second = Simulation::new(&scene).unwrap();
         second.restore(first.state()).unwrap();
+        second.use_threads(3).unwrap();
         second.advance(STEPS - 249).unwrap();
         assert!(state(&second).bits() == expected, "{integrator:?}");
         assert_eq!(second.frame().ledger, one.frame().ledger);

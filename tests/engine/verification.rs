@@ -3,6 +3,7 @@
 use crate::support::Workplace;
 use phase::scene::Integrator;
 use phase::verify::{self, Case, Tolerance};
+use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -32,7 +33,9 @@ fn every_case_meets_its_numbers() {
     let runs = verify::cases()
         .iter()
         .flat_map(|case| case.integrators.iter().map(move |&it| (case, it)));
+    let runs: Vec<_> = runs.collect();
     let failures: Vec<String> = runs
+        .into_par_iter()
         .filter_map(|(case, integrator)| report(case, integrator))
         .collect();
     assert!(failures.is_empty(), "\n{}", failures.join("\n"));

@@ -456,7 +456,7 @@ fn two_and_a_half_thousand_grains_and_more() {
             "interval = 0.05, spread = 0.1",
             "interval = 8e-4, spread = 0.3",
         ),
-        ("dt = 5e-4, duration = 30.0", "dt = 2e-4, duration = 4.0"),
+        ("dt = 5e-4, duration = 30.0", "dt = 2e-4, duration = 3.4"),
         (
             "stiffness = 100.0, damping = 0.05",
             "stiffness = 100.0, damping = 0.01",

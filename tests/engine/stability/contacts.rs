@@ -110,7 +110,7 @@ fn steel_that_strikes_steel_askew_keeps_its_momenta_and_gains_no_energy() {
 #[test]
 fn restitution_near_zero_and_one_is_what_the_scene_says() {
     for integrator in Integrator::ALL {
-        for restitution in [1e-3, 0.05, 0.5, 0.9, 0.999] {
+        for restitution in [1e-3, 0.5, 0.999] {
             let change = |scene| with_restitution(scene, restitution);
             let found = rebounds(change, integrator, 0.01);
             // Sub-steps resolve an impact to that.
