@@ -15,6 +15,7 @@ mkdir -p "$folder"
 # NAME, the scene, then the keys that the run has in place of the scene's.
 runs=$(cat <<'RUNS'
 dem dem-drainage time.dt=4e-4
+dem-wall0.1 dem-drainage time.dt=4e-4 time.duration=140 tank.friction_coefficient=0.1
 dt1 dem-small time.dt=1e-4
 dt2 dem-small time.dt=2e-4
 dt4 dem-small time.dt=4e-4
