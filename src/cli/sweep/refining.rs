@@ -41,7 +41,7 @@ impl Rounds<'_> {
             let round = self.run_part(&plan, sweep, self.part(sweep, &refinement))?;
             let is_whole = round.report.left == 0 && round.report.halted.is_none();
             run = Some(match run {
-                Some(run) => run.with_round(round),
+                Some(run) => run.and(round),
                 None => round,
             });
             if let Some(run) = &run

@@ -47,8 +47,10 @@ impl Rounds<'_> {
             return Ok((plan, run));
         }
         let plan = self.plan_of_borders(sweep, &plan)?;
+        let done_before = plan.done().count() - run.report.finished;
         let later = self.run_plan(&plan, sweep)?;
-        Ok((plan, run.and(later)))
+        let run = run.and(later);
+        Ok((plan, Run { done_before, ..run }))
     }
 
     /// All jobs with those of the points at borders, once the points of the grid have run.
@@ -173,25 +175,9 @@ fn run(plan: &Plan, pool: Pool<'_>, part: Part, console: &Console) -> Result<Run
 }
 
 impl Run {
-    /// This and a later round, whose plan has all jobs of this one.
-    fn and(self, later: Self) -> Self {
-        Self {
-            report: Report {
-                finished: self.report.finished + later.report.finished,
-                resumed: self.report.resumed + later.report.resumed,
-                work: self.report.work + later.report.work,
-                cpu_seconds: self.report.cpu_seconds + later.report.cpu_seconds,
-                ..later.report
-            },
-            done_before: later.done_before - self.report.finished,
-            seconds: self.seconds + later.seconds,
-            ..later
-        }
-    }
-
-    /// This and a later round of a refined sweep, whose plan has all jobs of this one that have not
-    /// failed.
-    pub(super) fn with_round(self, later: Self) -> Self {
+    /// This and a later round, whose plan has all jobs of this one that have not failed. What was
+    /// done before is that of the later round.
+    pub(super) fn and(self, later: Self) -> Self {
         let mut failures = self.report.failures;
         failures.extend(later.report.failures);
         Self {
