@@ -196,9 +196,14 @@ impl<P> Diagram<'_, P> {
         let plot = axes.plot();
         let looks = self.looks(&self.grid.panels[index]);
         let cells = || self.cells(plot).into_iter().zip(&looks);
+        if looks.contains(&None) {
+            // One pattern under all cells: most of a refined sweep's are empty.
+            style::paint(sheet, self.ground(plot), Fill::Hatch)?;
+        }
         for (corners, look) in cells() {
-            let fill = look.map_or(Fill::Hatch, |look| look.fill);
-            style::paint(sheet, corners, fill)?;
+            if let Some(look) = look {
+                style::paint(sheet, corners, look.fill)?;
+            }
         }
         self.draw_borders(sheet, plot, &looks)?;
         for Curve { pieces, stroke } in curves {
@@ -252,6 +257,13 @@ impl<P> Diagram<'_, P> {
                 .collect::<Vec<_>>()
         };
         y.windows(2).flat_map(row).collect()
+    }
+
+    /// Corners of what all cells cover on the canvas.
+    fn ground(&self, plot: &Plot<'_>) -> Corners {
+        let (x, y) = self.edges(plot);
+        let (last_x, last_y) = (x.len() - 1, y.len() - 1);
+        [(x[0], y[last_y]), (x[last_x], y[0])]
     }
 
     /// Shortest side of a cell, as far as marks grow with it.
