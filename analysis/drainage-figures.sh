@@ -27,11 +27,12 @@ figures pair packing-map 20,120 "${pair[@]}"
 figures relaxation cost-error 40,120 dem="discrete elements" base="every move" random10="at random, k = 10" \
     counted10="every tenth" random100="at random, k = 100" global1="all, k = 1" global10="all, k = 10" none="never"
 figures walls cross-profile 5,30 wall0.1="0.1" wall0.3="0.3" dt4="0.5" wall0.7="0.7" wall0.9="0.9"
+figures walls velocity-profile 40,120 dem="wall friction 0.5" dem-wall0.1="wall friction 0.1"
 
 "$phase" compare "$folder"/{dem,base}.h5 --times 40,120 --out "$results/pair.csv"
 "$phase" compare "$folder"/{dt1,dt2,dt4,dt8,seed2}.h5 --times 5,30 --out "$results/steps.csv"
 "$phase" compare "$folder"/{wall0.1,wall0.3,dt4,wall0.7,wall0.9}.h5 --times 5,30 --out "$results/walls.csv"
 "$phase" fit "$folder/dem.h5" --times 40,120
 "$phase" view "$folder/dem.h5" --color layer --cut --time 20,80,140 --width 220 --palette --out "$results/pair-layers.png" -q
-# These two would be large.
-rm -f "$results"/pair-{packing-map,velocity-profile}.svg
+# These would be large.
+rm -f "$results"/{pair-packing-map,pair-velocity-profile,walls-velocity-profile,walls-cross-profile}.svg
