@@ -117,6 +117,7 @@ fn few_spheres_stay_in_the_order_of_the_scene() {
 
 #[test]
 fn an_interrupted_run_goes_on_with_the_same_bits() {
+    // With the ledger and without it in turn.
     for (integrator, ledger) in INTEGRATORS
         .into_iter()
         .zip([true, false].into_iter().cycle())

@@ -123,7 +123,7 @@ fn air_at_two_thousand_radians_per_second() {
         let scene = crowded(&whirled(2e10), integrator, LIMIT);
         let mut simulation = Simulation::new(&scene).unwrap();
         // After these the energy changes by 1e-8 of itself in ten thousand steps.
-        let seen = watch(&mut simulation, &scene, 20_000, 200).unwrap();
+        let seen = watch(&mut simulation, &scene, 40_000, 200).unwrap();
         assert!(seen.overlap < 0.5, "{seen:?}");
         let particles = simulation.particles();
         for (centre, velocity) in particles.position.iter().zip(&particles.velocity) {
