@@ -1,11 +1,16 @@
 //! Measures a simulation at every frame.
 
+mod rising;
+mod totals;
+
 use super::Observations;
-use super::reduce::{Sum, largest, least};
+use super::reduce::Sum;
 use crate::scene::Scene;
-use crate::simulation::{Column, Flow, Frame, FrameView, Ledger};
+use crate::simulation::{Column, Frame, FrameView, Ledger};
 use ndarray::{Array2, Array3};
+use rising::{Previous, Rising};
 use serde::{Deserialize, Serialize};
+use totals::Totals;
 
 /// Measures a simulation at every frame: what its scene calls for, and what its model declares.
 ///
@@ -46,14 +51,6 @@ pub struct Observer {
     previous: Option<Previous>,
     /// What all energy, dissipated and brought, came to at the first frame (J).
     balance: Option<f64>,
-}
-
-/// What the count of rising spheres needs of the frame before.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-struct Previous {
-    height: Vec<f64>,
-    distance: Vec<f64>,
-    height_mean: f64,
 }
 
 impl Observer {
@@ -301,106 +298,6 @@ impl Observer {
     }
 }
 
-/// What is summed up over all spheres of a frame.
-#[derive(Debug)]
-struct Totals {
-    count: usize,
-    mass: Sum,
-    kinetic: Sum,
-    rotational: Sum,
-    gravitational: Sum,
-    speed: Sum,
-    /// Of vertical velocities (m/s).
-    rise: Sum,
-    /// About the axis (kg m2/s), and the moment of inertia of the centres (kg m2).
-    momentum: Sum,
-    inertia: Sum,
-    distance: Sum,
-    height: Sum,
-    /// The least distance from the axis, and the largest height (m); not a number of no spheres.
-    nearest: f64,
-    highest: f64,
-    elastic_energy: f64,
-    ledger: Option<Ledger>,
-    flow: Option<Flow>,
-}
-
-impl Default for Totals {
-    fn default() -> Self {
-        Self {
-            count: 0,
-            mass: Sum::default(),
-            kinetic: Sum::default(),
-            rotational: Sum::default(),
-            gravitational: Sum::default(),
-            speed: Sum::default(),
-            rise: Sum::default(),
-            momentum: Sum::default(),
-            inertia: Sum::default(),
-            distance: Sum::default(),
-            height: Sum::default(),
-            nearest: f64::NAN,
-            highest: f64::NAN,
-            elastic_energy: 0.0,
-            ledger: None,
-            flow: None,
-        }
-    }
-}
-
-impl Totals {
-    /// Adds a block of spheres, under gravity of these components along x and z (m/s2).
-    fn add(&mut self, block: &FrameView<'_>, [gx, gz]: [f64; 2]) {
-        let ([x, _, z], [vx, vy, vz]) = (block.position, block.velocity);
-        self.count += block.count();
-        self.kinetic
-            .add([block.mass, vx, vy, vz], |[mass, x, y, z]| {
-                0.5 * mass * (x * x + y * y + z * z)
-            });
-        if let Some([wx, wy, wz]) = block.spin {
-            self.rotational
-                .add([block.inertia, wx, wy, wz], |[inertia, x, y, z]| {
-                    0.5 * inertia * (x * x + y * y + z * z)
-                });
-        }
-        self.gravitational.add([block.mass, x, z], |[mass, x, z]| {
-            -(mass * gx * x) - mass * gz * z
-        });
-        let speed = |[x, y, z]: [f64; 3]| (x * x + y * y + z * z).sqrt();
-        self.speed.add(block.velocity, speed);
-        self.rise.add([vz], |[vz]| vz);
-        self.height.add([z], |[z]| z);
-        let highest = largest(z);
-        // Not a number before the first sphere.
-        if highest > self.highest || self.highest.is_nan() {
-            self.highest = highest;
-        }
-        if block.flow.is_some() {
-            self.mass.add([block.mass], |[mass]| mass);
-        }
-        self.elastic_energy = block.elastic_energy;
-        self.ledger = block.ledger;
-        self.flow = block.flow;
-    }
-
-    /// Adds what refers to the axis, from which the spheres of a block are that far (m).
-    fn add_about_axis(&mut self, block: &FrameView<'_>, distance: &[f64]) {
-        let ([x, y, _], [vx, vy, _]) = (block.position, block.velocity);
-        self.momentum
-            .add([block.mass, x, y, vx, vy], |[mass, x, y, vx, vy]| {
-                mass * (x * vy - y * vx)
-            });
-        self.inertia
-            .add([block.mass, x, y], |[mass, x, y]| mass * (x * x + y * y));
-        self.distance.add([distance], |[distance]| distance);
-        let nearest = least(distance);
-        // Not a number before the first sphere.
-        if nearest < self.nearest || self.nearest.is_nan() {
-            self.nearest = nearest;
-        }
-    }
-}
-
 /// Means of a frame that other observables refer to.
 struct Means {
     /// Number of spheres.
@@ -411,84 +308,6 @@ struct Means {
     rise: f64,
     /// Height (m).
     height: f64,
-}
-
-/// Counts the spheres that rise, block by block.
-struct Rising<'a> {
-    rises: &'a [f64],
-    distances: &'a [f64],
-    /// One row per distance, one column per rise.
-    counts: &'a mut [u16],
-    distance: &'a mut Vec<f64>,
-    previous: &'a mut Previous,
-    is_first_frame: bool,
-    /// How far all spheres rose, in the mean (m).
-    mean: f64,
-    /// Spheres so far.
-    seen: usize,
-}
-
-impl<'a> Rising<'a> {
-    /// For a frame of `count` spheres with that mean height (m); none if nothing is counted.
-    fn new(observer: &'a mut Observer, count: usize, height_mean: f64) -> Option<Self> {
-        let cells = observer.rises.len() * observer.distances.len();
-        if cells == 0 {
-            return None;
-        }
-        let start = observer.rising.len();
-        observer.rising.resize(start + cells, 0);
-        let is_first_frame = observer.previous.is_none();
-        let previous = observer.previous.get_or_insert_with(|| Previous {
-            height: Vec::with_capacity(count),
-            distance: Vec::with_capacity(count),
-            height_mean,
-        });
-        let before = std::mem::replace(&mut previous.height_mean, height_mean);
-        Some(Self {
-            rises: &observer.rises,
-            distances: &observer.distances,
-            counts: &mut observer.rising[start..],
-            distance: &mut observer.distance,
-            previous,
-            is_first_frame,
-            mean: height_mean - before,
-            seen: 0,
-        })
-    }
-
-    fn count(&mut self, block: &FrameView<'_>) {
-        find_distances(block, self.distance);
-        let z = block.position[2];
-        let Previous {
-            height, distance, ..
-        } = &mut *self.previous;
-        if self.is_first_frame {
-            height.extend_from_slice(z);
-            distance.extend_from_slice(self.distance);
-            return;
-        }
-        let here = self.seen..self.seen + z.len();
-        self.seen = here.end;
-        let (height, distance) = (&mut height[here.clone()], &mut distance[here]);
-        let least = self.rises.iter().copied().fold(f64::INFINITY, f64::min);
-        for (i, &radius) in block.radius.iter().enumerate() {
-            let rise = (z[i] - height[i] - self.mean) / radius;
-            // Most spheres do not rise.
-            if rise < least {
-                continue;
-            }
-            let rows = self.counts.chunks_exact_mut(self.rises.len());
-            for (row, &within) in rows.zip(self.distances) {
-                if distance[i] <= within {
-                    for (count, &threshold) in row.iter_mut().zip(self.rises) {
-                        *count = count.saturating_add(u16::from(rise >= threshold));
-                    }
-                }
-            }
-        }
-        height.copy_from_slice(z);
-        distance.copy_from_slice(self.distance);
-    }
 }
 
 /// Distances of the spheres of a block from the axis (m).

@@ -239,7 +239,7 @@ fn entries(value: Option<&Value>) -> impl Iterator<Item = (usize, &Value)> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use std::path::Path;
 

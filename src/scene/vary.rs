@@ -101,20 +101,8 @@ impl Scene {
 mod tests {
     use super::*;
     use crate::scene::StartSphere;
-    use std::path::Path;
+    use crate::scene::keys::tests::scene;
     use std::sync::Arc;
-
-    fn scene() -> Scene {
-        let text = r#"
-            spheres.count = 3
-            spheres.radius = [{ radius = 0.004, share = 1 }, { radius = 0.005, share = 2 }]
-            spheres.density = 1e3
-            tank = { radius = 0.06 }
-            start = { kind = "random", z_min = 0.0, z_max = 0.3 }
-            time = { dt = 1e-4, duration = 1.0, frame_interval = 1e-3 }
-        "#;
-        crate::scene::Scene::from_toml(text, Path::new("scene.toml")).unwrap()
-    }
 
     #[test]
     fn every_numeric_key_can_be_set() {

@@ -1,10 +1,15 @@
 //! The grain silo: fill, rest, door, drain; what it must do and what it must not.
 
 mod contacts;
+mod phases;
+mod reports;
 mod searches;
 mod whole_run;
 
+use phase::record::{MilestoneKind, RunRecord};
+use phase::run;
 use phase::scene::{self, Scene};
+use std::ops::ControlFlow;
 use std::path::Path;
 
 /// A small hopper with rough grains of two sizes, which fill it in two seconds.
@@ -36,4 +41,16 @@ fn hopper(changes: &[(&str, &str)]) -> Scene {
 fn shipped(name: &str) -> Scene {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sweeps/scenes");
     scene::Scene::load(&folder.join(name)).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn record(scene: &Scene) -> RunRecord {
+    run::run(scene, &mut |_| ControlFlow::Continue(())).unwrap()
+}
+
+fn time_of(record: &RunRecord, kind: MilestoneKind) -> f64 {
+    let mut milestones = record.milestones.iter();
+    let found = milestones.find(|milestone| milestone.kind == kind);
+    found
+        .unwrap_or_else(|| panic!("never {}", kind.name()))
+        .time
 }
