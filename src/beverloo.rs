@@ -1,29 +1,72 @@
-//! The law of Beverloo for the discharge of a silo in two dimensions, fitted to measured rates.
+//! The law of Beverloo for the discharge of a silo, fitted to measured rates.
 //!
-//! W = C sqrt(g) n (D - k d)^(3/2) grains per second leave through an opening of width D: Beverloo,
-//! Leniger and van de Velde, Chemical Engineering Science 15, 260 (1961), with the exponent of a
-//! flat silo instead of their 5/2: Franklin and Johanson, Chemical Engineering Progress 51, 119
-//! (1955); Mankoc et al., Granular Matter 9, 407 (2007). n is the number of grains per area of the
-//! bed, d their diameter.
+//! W = C sqrt(g) n (D - k d)^p grains per second leave through an opening of width D. A round hole
+//! has p = 5/2: Beverloo, Leniger and van de Velde, Chemical Engineering Science 15, 260 (1961). A
+//! slit, and a silo in two dimensions, have p = 3/2: Franklin and Johanson, Chemical Engineering
+//! Progress 51, 119 (1955); Mankoc et al., Granular Matter 9, 407 (2007). n is the number of grains
+//! per volume of the bed, or per area of the bed in the plane of the flow, d their diameter.
 
 use crate::statistics::{CONFIDENCE, Estimate, student_t};
+
+/// What grains leave through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Opening {
+    /// A gap of width D in a plane, or a slit as long as the bed is deep.
+    Flat,
+    /// A round hole of diameter D.
+    Round,
+}
+
+impl Opening {
+    /// The exponent p of the law.
+    pub const fn exponent(self) -> f64 {
+        match self {
+            Self::Flat => 1.5,
+            Self::Round => 2.5,
+        }
+    }
+
+    /// x^p.
+    fn power(self, x: f64) -> f64 {
+        match self {
+            Self::Flat => x * x.sqrt(),
+            Self::Round => x * x * x.sqrt(),
+        }
+    }
+
+    /// p x^(p - 1), the slope of the power.
+    fn slope(self, x: f64) -> f64 {
+        match self {
+            Self::Flat => 1.5 * x.sqrt(),
+            Self::Round => 2.5 * x * x.sqrt(),
+        }
+    }
+}
 
 /// What the law needs to know of a bed of grains.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bed {
     /// Acceleration g (m/s2).
     pub gravity: f64,
-    /// Number n of grains per area (1/m2).
+    /// Number n of grains: per area of the plane of the flow (1/m2) with a flat opening, per volume
+    /// (1/m3) with a round one.
     pub number_density: f64,
     /// Mean diameter d of the grains (m).
     pub diameter: f64,
+    /// What they leave through.
+    pub opening: Opening,
 }
 
 impl Bed {
-    /// Grains per second through an opening (m): C sqrt(g) n (D - k d)^(3/2), none where D < k d.
-    pub fn discharge_rate(&self, opening: f64, [c, k]: [f64; 2]) -> f64 {
-        let free = (opening - k * self.diameter).max(0.0);
-        c * self.rate_unit() * free * free.sqrt()
+    /// Grains per second through an opening of that width (m): C sqrt(g) n (D - k d)^p, none where
+    /// D < k d.
+    pub fn discharge_rate(&self, width: f64, [c, k]: [f64; 2]) -> f64 {
+        c * self.rate_unit() * self.opening.power(self.free(width, k))
+    }
+
+    /// D - k d (m), not below 0.
+    fn free(&self, width: f64, k: f64) -> f64 {
+        (width - k * self.diameter).max(0.0)
     }
 
     fn rate_unit(&self) -> f64 {
@@ -35,7 +78,7 @@ impl Bed {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Discharge {
     /// Width D of the opening (m).
-    pub opening: f64,
+    pub width: f64,
     /// Grains per second.
     pub rate: f64,
 }
@@ -81,10 +124,10 @@ const PROGRESS: f64 = 1e-13;
 /// # Errors
 /// If there are too few discharges, or they do not follow the law.
 pub fn fit(discharges: &[Discharge], bed: &Bed) -> Result<Fit, FitError> {
-    let mut openings: Vec<f64> = discharges.iter().map(|it| it.opening).collect();
-    openings.sort_by(f64::total_cmp);
-    openings.dedup();
-    if discharges.len() < 3 || openings.len() < 2 {
+    let mut widths: Vec<f64> = discharges.iter().map(|it| it.width).collect();
+    widths.sort_by(f64::total_cmp);
+    widths.dedup();
+    if discharges.len() < 3 || widths.len() < 2 {
         return Err(FitError::TooFew);
     }
     let squares = |constants| -> f64 {
@@ -115,7 +158,7 @@ pub fn fit(discharges: &[Discharge], bed: &Bed) -> Result<Fit, FitError> {
 }
 
 fn residual(measured: &Discharge, bed: &Bed, constants: [f64; 2]) -> f64 {
-    measured.rate - bed.discharge_rate(measured.opening, constants)
+    measured.rate - bed.discharge_rate(measured.width, constants)
 }
 
 fn estimates(count: usize, [c, k]: [f64; 2], squares: f64, normal: &Normal) -> Fit {
@@ -135,26 +178,28 @@ fn estimates(count: usize, [c, k]: [f64; 2], squares: f64, normal: &Normal) -> F
     }
 }
 
-/// A first guess: W^(2/3) is a straight line over D.
+/// A first guess: W^(1/p) is a straight line over D.
 fn straightened(discharges: &[Discharge], bed: &Bed) -> Option<[f64; 2]> {
-    let power = |rate: f64| libm::cbrt(rate * rate);
+    let exponent = bed.opening.exponent();
+    let root = |rate: f64| libm::pow(rate, 1.0 / exponent);
     let count = discharges.len() as f64;
-    let x_mean = discharges.iter().map(|it| it.opening).sum::<f64>() / count;
-    let y_mean = discharges.iter().map(|it| power(it.rate)).sum::<f64>() / count;
+    let x_mean = discharges.iter().map(|it| it.width).sum::<f64>() / count;
+    let y_mean = discharges.iter().map(|it| root(it.rate)).sum::<f64>() / count;
     let (mut variance, mut covariance) = (0.0, 0.0);
     for it in discharges {
-        variance += (it.opening - x_mean) * (it.opening - x_mean);
-        covariance += (it.opening - x_mean) * (power(it.rate) - y_mean);
+        variance += (it.width - x_mean) * (it.width - x_mean);
+        covariance += (it.width - x_mean) * (root(it.rate) - y_mean);
     }
     let slope = covariance / variance;
     let foot = x_mean - y_mean / slope;
     let narrowest = discharges
         .iter()
-        .map(|it| it.opening)
+        .map(|it| it.width)
         .fold(f64::INFINITY, f64::min);
     // Every opening must let something through, or it would not count.
     let foot = foot.min(narrowest - 1e-3 * bed.diameter);
-    (slope > 0.0).then(|| [slope * slope.sqrt() / bed.rate_unit(), foot / bed.diameter])
+    let c = libm::pow(slope, exponent) / bed.rate_unit();
+    (slope > 0.0).then_some([c, foot / bed.diameter])
 }
 
 /// The normal equations J^T J x = J^T r of the linearised law, x in C and k.
@@ -171,11 +216,10 @@ impl Normal {
         };
         let [c, k] = constants;
         for it in discharges {
-            let root = (it.opening - k * bed.diameter).max(0.0).sqrt();
-            let unit = bed.rate_unit();
+            let (free, unit) = (bed.free(it.width, k), bed.rate_unit());
             let slopes = [
-                unit * root * root * root,
-                -1.5 * c * unit * bed.diameter * root,
+                unit * bed.opening.power(free),
+                -c * unit * bed.diameter * bed.opening.slope(free),
             ];
             for row in 0..2 {
                 normal.right[row] += slopes[row] * residual(it, bed, constants);
@@ -218,16 +262,23 @@ mod tests {
         gravity: 9.81,
         number_density: 160.0,
         diameter: 0.08,
+        opening: Opening::Flat,
     };
 
-    const OPENINGS: [f64; 8] = [0.32, 0.36, 0.40, 0.44, 0.48, 0.52, 0.56, 0.64];
+    const ROUND: Bed = Bed {
+        number_density: 2300.0,
+        opening: Opening::Round,
+        ..BED
+    };
 
-    fn exact(constants: [f64; 2]) -> Vec<Discharge> {
-        let of = |opening| Discharge {
-            opening,
-            rate: BED.discharge_rate(opening, constants),
+    const WIDTHS: [f64; 8] = [0.32, 0.36, 0.40, 0.44, 0.48, 0.52, 0.56, 0.64];
+
+    fn exact(bed: &Bed, constants: [f64; 2]) -> Vec<Discharge> {
+        let of = |width| Discharge {
+            width,
+            rate: bed.discharge_rate(width, constants),
         };
-        OPENINGS.map(of).into()
+        WIDTHS.map(of).into()
     }
 
     #[test]
@@ -236,28 +287,33 @@ mod tests {
         let rate = BED.discharge_rate(0.37, [1.0, 1.5]);
         assert!((rate - 9.81_f64.sqrt() * 20.0).abs() < 1e-9);
         assert_eq!(BED.discharge_rate(0.1, [1.0, 1.5]), 0.0);
+        // sqrt(9.81) 2300 / 32.
+        let rate = ROUND.discharge_rate(0.37, [1.0, 1.5]);
+        assert!((rate - 9.81_f64.sqrt() * 71.875).abs() < 1e-9);
     }
 
     #[test]
     fn exact_rates_give_their_constants_back() {
         for constants in [[1.0, 1.5], [0.6, 3.2], [2.0, -0.5], [1.3, 0.0]] {
-            let fit = fit(&exact(constants), &BED).unwrap();
-            assert!((fit.c.value - constants[0]).abs() < 1e-9, "{fit:?}");
-            assert!((fit.k.value - constants[1]).abs() < 1e-9, "{fit:?}");
-            assert!(fit.c.half_width < 1e-6 && fit.residual < 1e-6);
+            for bed in [BED, ROUND] {
+                let fit = fit(&exact(&bed, constants), &bed).unwrap();
+                assert!((fit.c.value - constants[0]).abs() < 1e-9, "{fit:?}");
+                assert!((fit.k.value - constants[1]).abs() < 1e-9, "{fit:?}");
+                assert!(fit.c.half_width < 1e-6 && fit.residual < 1e-6);
+            }
         }
     }
 
     #[test]
     fn three_discharges_at_least_of_two_openings() {
-        let all = exact([1.0, 1.5]);
+        let all = exact(&BED, [1.0, 1.5]);
         assert_eq!(fit(&all[..2], &BED), Err(FitError::TooFew));
         assert_eq!(fit(&[all[0]; 5], &BED), Err(FitError::TooFew));
         assert!(fit(&[all[0], all[0], all[5]], &BED).is_ok());
         let mut falling = all;
         falling.reverse();
-        for (it, opening) in falling.iter_mut().zip(OPENINGS) {
-            it.opening = opening;
+        for (it, width) in falling.iter_mut().zip(WIDTHS) {
+            it.width = width;
         }
         assert_eq!(fit(&falling, &BED), Err(FitError::NoLaw));
     }
@@ -275,8 +331,9 @@ mod tests {
         let truth = [1.1, 1.4];
         let mut random = Pcg64::seed_from_u64(4);
         let mut covered = [0; 2];
+        let exact = exact(&BED, truth);
         for _ in 0..SETS {
-            let mut discharges = [exact(truth), exact(truth), exact(truth)].concat();
+            let mut discharges = [&exact[..]; 3].concat();
             for it in &mut discharges {
                 it.rate += 5.0 * normal(&mut random);
             }

@@ -139,8 +139,8 @@ struct Entry {
     description: String,
     /// The runs that a figure of single runs shows without --point.
     default_runs: Option<&'static str>,
-    /// `tank` or `silo`; none for all.
-    family: Option<&'static str>,
+    /// Names of the families of scenes that it is for; none for all.
+    families: Vec<&'static str>,
 }
 
 /// A law that was fitted for a figure.
@@ -189,16 +189,18 @@ fn list(dir: Option<&Path>, console: &Console) -> Result<Vec<Entry>, Failure> {
             name: figure.name,
             description: figure.description,
             default_runs: figure.default_runs,
-            family: figure.family.map(|family| family.name),
+            families: figure.families.iter().map(|it| it.name).collect(),
         })
         .collect();
     entries.extend(of_record);
     for entry in &entries {
         // What is listed for a folder applies to it.
-        let family = entry.family.filter(|_| dir.is_none());
-        let family = family.map_or(String::new(), |name| format!(" [{name}]"));
+        let families = match entry.families.join(", ") {
+            names if dir.is_none() && !names.is_empty() => format!(" [{names}]"),
+            _ => String::new(),
+        };
         console.result(format_args!(
-            "{:<22} {}{family}",
+            "{:<22} {}{families}",
             entry.name, entry.description
         ));
         if let Some(runs) = entry.default_runs {

@@ -13,7 +13,7 @@ mod table;
 pub use drainage::Drainage;
 pub use fit::SpotFit;
 pub use profiles::{DRAWN_HEIGHTS, cross_profile, flow_spread_of, profile_at};
-pub use quantities::{QUANTITIES, Quantity, badness_of, mixing, outflow};
+pub use quantities::{QUANTITIES, Quantity, badness_of, mixing, outflow, packing_fraction};
 pub use simpler::{MixingOverTime, mixing_of_kinematic_flow, mixing_of_voids};
 pub use spreading::{Spreading, correlation_radius, spreading, velocity_correlation};
 pub use table::{Comparison, Row};

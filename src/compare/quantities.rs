@@ -192,7 +192,7 @@ fn over_diameter(drainage: &Drainage<'_>, length: Estimate) -> Estimate {
 }
 
 /// Volume of the spheres in the middle over that of their Voronoi cells.
-pub(super) fn packing_fraction(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
+pub fn packing_fraction(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
     let filled_box = &drainage.filled_box;
     let [x, y] = [filled_box.half_width, filled_box.half_depth];
     let walls = Walls {

@@ -3,19 +3,93 @@
 
 use super::chart::{Bar, Chart, Line, Panel, ends, samples};
 use super::grid::GridAxis;
+use super::scale;
 use super::series::{self, Series};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
-use crate::beverloo::{self, Bed, Discharge, Fit};
-use crate::classify::{Family, Point, SILO, Verdict};
+use crate::beverloo::{self, Bed, Discharge, Fit, Opening};
+use crate::classify::{DRAINAGE, Family, Point, SILO, Verdict};
+use crate::scene::{Scene, Units};
 use crate::statistics::Estimate;
 use std::f64::consts::PI;
 
 /// The discharge rate over the opening.
 pub(super) struct Beverloo;
 
-const OPENING: &str = "geometry.opening";
+/// What spheres leave through, and where the numbers of the law stand.
+struct Outlet {
+    /// Key of the opening.
+    key: &'static str,
+    /// Width D of the opening over the value of the key.
+    width: f64,
+    opening: Opening,
+    /// The family of such scenes.
+    family: &'static Family,
+    /// Measure of the discharge rate (spheres/s).
+    rate: &'static str,
+    /// Measure of the packing fraction at rest.
+    packing: &'static str,
+}
+
+static OUTLETS: [Outlet; 3] = [
+    Outlet {
+        key: "geometry.opening",
+        width: 1.0,
+        opening: Opening::Flat,
+        family: &SILO,
+        rate: "discharge_rate",
+        packing: "packing_fraction",
+    },
+    Outlet {
+        key: "tank.orifice_radius",
+        width: 2.0,
+        opening: Opening::Round,
+        ..SLIT
+    },
+    SLIT,
+];
+
+/// A slit as long as its box is deep.
+const SLIT: Outlet = Outlet {
+    key: "tank.slit_width",
+    width: 1.0,
+    opening: Opening::Flat,
+    family: &DRAINAGE,
+    rate: "outflow_rate",
+    packing: "start_packing_fraction",
+};
+
+impl Outlet {
+    /// The outlet that a sweep varies, and its axis.
+    fn of(source: &Source<'_>) -> Result<(&'static Self, GridAxis), PlotError> {
+        let own = || OUTLETS.iter().filter(|it| it.family == source.table.family);
+        let axes = source.sweep.axes.iter().enumerate();
+        let found = axes.flat_map(|(index, axis)| {
+            own()
+                .filter(|it| it.key == axis.key)
+                .map(move |outlet| (outlet, index))
+        });
+        let (outlet, index) = found.last().ok_or_else(|| PlotError::NeedsAxis {
+            figure: Beverloo.name(),
+            key: own().map(|it| it.key).next().unwrap_or_default(),
+        })?;
+        let axis = GridAxis::new(index, source.sweep, source.table);
+        Ok((outlet, axis))
+    }
+
+    /// Number n of grains of a bed of that packing fraction: per area (1/m2) or volume (1/m3), as
+    /// the law has it.
+    fn number_density(&self, packing: f64, scene: &Scene) -> f64 {
+        let radius = &scene.spheres.radius;
+        let depth = scene.tank.as_ref().and_then(|tank| tank.depth);
+        match (self.opening, depth) {
+            (Opening::Flat, Some(depth)) => packing * depth / radius.mean_volume(),
+            (Opening::Flat, None) => packing / (PI * radius.mean_square()),
+            (Opening::Round, _) => packing / radius.mean_volume(),
+        }
+    }
+}
 
 /// The law fitted to the runs of one line of the figure.
 #[derive(Clone, Debug)]
@@ -36,20 +110,19 @@ impl Figure for Beverloo {
     }
 
     fn description(&self) -> String {
-        "discharge rate over the opening, with the law of Beverloo fitted (two dimensions)"
-            .to_owned()
+        "discharge rate over the opening, with the law of Beverloo fitted".to_owned()
     }
 
-    fn family(&self) -> Option<&'static Family> {
-        Some(&SILO)
+    fn families(&self) -> Vec<&'static Family> {
+        vec![&SILO, &DRAINAGE]
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let axis = axis(source)?;
+        let (outlet, axis) = Outlet::of(source)?;
         let (lines, left_out) = series::lines(source, &axis)?;
         let fitted = lines
             .iter()
-            .map(|line| fitted(source, line))
+            .map(|line| fitted(source, outlet, line))
             .collect::<Result<Vec<_>, _>>()?;
         let widest = axis.shown().last().copied().unwrap_or(1.0);
         let mut panel = Panel {
@@ -57,26 +130,31 @@ impl Figure for Beverloo {
             ..Panel::default()
         };
         for (line, fitted) in lines.iter().zip(&fitted) {
-            panel.lines.push(curve(fitted, line, &axis, panel.x.1));
-            panel.bars.extend(bars(source, line, axis.factor));
+            let width = outlet.width / axis.factor;
+            panel.lines.push(curve(fitted, line, width, panel.x.1));
+            panel.bars.extend(bars(source, outlet, line, axis.factor));
         }
         let bars = panel.bars.iter().map(|bar| bar.ends()[1]);
         let curves = panel.lines.iter().flat_map(|line| &line.points);
         let tops = bars.chain(curves.map(|point| point.1));
         panel.y = (0.0, 1.03 * tops.fold(0.0, f64::max));
         let legend = lines.iter().zip(&fitted);
+        let units = source.sweep.scene.units();
         Chart {
             name: self.name(),
-            common: vec!["$W$ = $C$ √$g$ $n$ ($D$ − $k$ $d$)³⁄²".to_owned()],
+            common: vec![law(outlet)],
             columns: 1,
             height: px(400),
             panels: vec![panel],
             x_label: axis.label(),
-            y_label: "discharge rate $W$ (grains/s)".to_owned(),
+            y_label: format!("discharge rate $W$ (grains/{})", units.of_time()),
             legend: legend
                 .map(|(line, fitted)| (line.color, entry(&line.name, &fitted.fit)))
                 .collect(),
-            notes: notes(&fitted).into_iter().chain(left_out).collect(),
+            notes: notes(&fitted, outlet, units)
+                .into_iter()
+                .chain(left_out)
+                .collect(),
         }
         .draw(source)
     }
@@ -87,21 +165,28 @@ impl Figure for Beverloo {
 /// # Errors
 /// Those of drawing the figure.
 pub fn fitted_lines(source: &Source<'_>) -> Result<Vec<FittedLine>, PlotError> {
-    let (lines, _) = series::lines(source, &axis(source)?)?;
-    lines.iter().map(|line| fitted(source, line)).collect()
+    let (outlet, axis) = Outlet::of(source)?;
+    let (lines, _) = series::lines(source, &axis)?;
+    lines
+        .iter()
+        .map(|line| fitted(source, outlet, line))
+        .collect()
 }
 
-fn axis(source: &Source<'_>) -> Result<GridAxis, PlotError> {
-    let mut axes = source.sweep.axes.iter();
-    let index = axes.position(|axis| axis.key == OPENING);
-    let index = index.ok_or(PlotError::NeedsAxis {
-        figure: Beverloo.name(),
-        key: OPENING,
-    })?;
-    Ok(GridAxis::new(index, source.sweep, source.table))
+/// The law, with markup.
+fn law(outlet: &Outlet) -> String {
+    let exponent = match outlet.opening {
+        Opening::Flat => "³⁄²",
+        Opening::Round => "⁵⁄²",
+    };
+    let width = match outlet.width {
+        1.0 => "",
+        _ => ", $D$ = 2 $R_o$",
+    };
+    format!("$W$ = $C$ √$g$ $n$ ($D$ − $k$ $d$){exponent}{width}")
 }
 
-/// Verdicts on the runs of a line, each with its opening (m).
+/// Verdicts on the runs of a line, each with the value of the opening's key.
 fn runs<'a>(source: &'a Source<'_>, line: &'a Series) -> impl Iterator<Item = (f64, &'a Verdict)> {
     line.points.iter().flat_map(|(opening, point)| {
         let rows = point.rows.iter().map(|&row| &source.table.rows[row]);
@@ -109,7 +194,7 @@ fn runs<'a>(source: &'a Source<'_>, line: &'a Series) -> impl Iterator<Item = (f
     })
 }
 
-fn fitted(source: &Source<'_>, line: &Series) -> Result<FittedLine, PlotError> {
+fn fitted(source: &Source<'_>, outlet: &Outlet, line: &Series) -> Result<FittedLine, PlotError> {
     let name = super::text::plain(&line.name);
     let fail = |reason: String| PlotError::Fit {
         line: if name.is_empty() {
@@ -119,14 +204,15 @@ fn fitted(source: &Source<'_>, line: &Series) -> Result<FittedLine, PlotError> {
         },
         reason,
     };
-    let bed = bed(source, line).ok_or_else(|| {
+    let bed = bed(source, outlet, line).ok_or_else(|| {
         let reason = "the law needs gravity and runs with a packing fraction at rest, in a scene \
-                      with [rest] and snapshots";
+                      with [rest], if it is a silo, and snapshots";
         fail(reason.to_owned())
     })?;
     let measured = runs(source, line).filter_map(|(opening, verdict)| {
-        let rate = verdict.value("discharge_rate")?;
-        Some(Discharge { opening, rate })
+        let rate = verdict.value(outlet.rate)?;
+        let width = outlet.width * opening;
+        Some(Discharge { width, rate })
     });
     let measured: Vec<Discharge> = measured.collect();
     let fit = beverloo::fit(&measured, &bed).map_err(|error| fail(error.to_string()))?;
@@ -138,30 +224,31 @@ fn fitted(source: &Source<'_>, line: &Series) -> Result<FittedLine, PlotError> {
     })
 }
 
-/// The bed of a line: its packing fraction at rest, mean over all runs, over the mean area of a
-/// grain.
-fn bed(source: &Source<'_>, line: &Series) -> Option<Bed> {
+/// The bed of a line, with the packing fraction at rest as the mean over all runs.
+fn bed(source: &Source<'_>, outlet: &Outlet, line: &Series) -> Option<Bed> {
     // Other axes may change the grains or gravity from line to line.
     let (_, point) = line.points.first()?;
     let scene = source.sweep.scene_at(&point.values).ok()?;
     let fractions: Vec<f64> = runs(source, line)
-        .filter_map(|(_, verdict)| verdict.value("packing_fraction"))
+        .filter_map(|(_, verdict)| verdict.value(outlet.packing))
         .collect();
     let fraction = Estimate::of_mean(&fractions)?.value;
     Some(Bed {
         gravity: scene.dem.effects.gravity.as_ref()?.acceleration,
-        number_density: fraction / (PI * scene.spheres.radius.mean_square()),
+        number_density: outlet.number_density(fraction, &scene),
         diameter: 2.0 * scene.spheres.radius.mean(),
+        opening: outlet.opening,
     })
 }
 
-fn curve(fitted: &FittedLine, line: &Series, axis: &GridAxis, end: f64) -> Line {
+/// The fitted law up to `end` of the axis; `width`: width of an opening over its value there.
+fn curve(fitted: &FittedLine, line: &Series, width: f64, end: f64) -> Line {
     let constants = [fitted.fit.c.value, fitted.fit.k.value];
     // From the width at which the rate is zero, as the axis shows it.
-    let from = axis.factor * fitted.bed.diameter * constants[1].max(0.0);
+    let from = fitted.bed.diameter * constants[1].max(0.0) / width;
     let rate = |shown: f64| {
-        let opening = shown / axis.factor;
-        (shown, fitted.bed.discharge_rate(opening, constants))
+        let rate = fitted.bed.discharge_rate(shown * width, constants);
+        (shown, rate)
     };
     Line {
         points: samples(from, end).map(rate).collect(),
@@ -170,10 +257,10 @@ fn curve(fitted: &FittedLine, line: &Series, axis: &GridAxis, end: f64) -> Line 
 }
 
 /// Means over the seeds.
-fn bars(source: &Source<'_>, line: &Series, factor: f64) -> Vec<Bar> {
+fn bars(source: &Source<'_>, outlet: &Outlet, line: &Series, factor: f64) -> Vec<Bar> {
     let bar = |(opening, point): &(f64, Point)| {
         let rows = point.rows.iter().map(|&row| &source.table.rows[row]);
-        let rates = rows.filter_map(|row| row.verdict.value("discharge_rate"));
+        let rates = rows.filter_map(|row| row.verdict.value(outlet.rate));
         let mean = Estimate::of_mean(&rates.collect::<Vec<_>>())?;
         let at = (opening * factor, mean.value);
         Some(Bar::about(at, mean.half_width, line.color))
@@ -202,7 +289,7 @@ fn entry(name: &str, fit: &Fit) -> String {
     }
 }
 
-fn notes(lines: &[FittedLine]) -> Vec<String> {
+fn notes(lines: &[FittedLine], outlet: &Outlet, units: Units) -> Vec<String> {
     let fitted: usize = lines.iter().map(|line| line.fit.discharges).sum();
     let without: usize = lines.iter().map(|line| line.without_rate).sum();
     let left_out = match without {
@@ -210,10 +297,15 @@ fn notes(lines: &[FittedLine]) -> Vec<String> {
         without => format!(" {without} runs whose outflow stopped or did not end have no rate."),
     };
     let (least, most) = ends(lines.iter().map(|line| line.bed.number_density));
-    let range = match (format!("{least:.0}"), format!("{most:.0}")) {
-        (least, most) if least == most => most,
-        (least, most) => format!("{least} to {most}"),
+    let range = match [least, most].map(|it| scale::rounded(it, 3)) {
+        [least, most] if least == most => most,
+        [least, most] => format!("{least} to {most}"),
     };
+    let (per, power, exponent) = match outlet.opening {
+        Opening::Flat => ("area", '²', "; exponent: Franklin and Johanson (1955)"),
+        Opening::Round => ("volume", '³', ""),
+    };
+    let unit = units.shown("m");
     vec![
         format!(
             "Points: means over the seeds with 95 % intervals. Lines: fitted by least squares to \
@@ -221,8 +313,8 @@ fn notes(lines: &[FittedLine]) -> Vec<String> {
              (Student's t)."
         ),
         format!(
-            "$n$: grains per area of the bed at rest, {range} /m²; $d$: mean diameter of the \
-             grains. Law: Beverloo et al. (1961); exponent: Franklin and Johanson (1955)."
+            "$n$: grains per {per} of the bed at rest, {range} /{unit}{power}; $d$: mean diameter \
+             of the grains. Law: Beverloo et al. (1961){exponent}."
         ),
     ]
 }

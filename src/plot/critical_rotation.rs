@@ -24,8 +24,8 @@ impl Figure for CriticalRotation {
         "theory: critical rotation over the radius of the spheres (eq. 43)".to_owned()
     }
 
-    fn family(&self) -> Option<&'static Family> {
-        Some(&TANK)
+    fn families(&self) -> Vec<&'static Family> {
+        vec![&TANK]
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {

@@ -62,8 +62,8 @@ impl Figure for Energies {
         Some(self.default_runs)
     }
 
-    fn family(&self) -> Option<&'static Family> {
-        Some(&TANK)
+    fn families(&self) -> Vec<&'static Family> {
+        vec![&TANK]
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {

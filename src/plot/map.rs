@@ -8,6 +8,7 @@ use super::style::Fill;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
 use crate::classify::{FAMILIES, Family, Measure, Point, Range};
+use crate::scene::Units;
 use crate::statistics::Estimate;
 use std::sync::LazyLock;
 
@@ -43,9 +44,9 @@ pub(super) fn of_measures(family: &'static Family) -> impl Iterator<Item = &'sta
 
 impl Map {
     /// Quantity and unit, with markup.
-    pub(super) fn label(&self) -> String {
+    pub(super) fn label(&self, units: Units) -> String {
         let quantity = self.measure.quantity;
-        match self.measure.unit {
+        match units.shown(self.measure.unit) {
             "" => quantity.to_owned(),
             unit => format!("{quantity} ({unit})"),
         }
@@ -75,11 +76,11 @@ impl Figure for Map {
     }
 
     fn description(&self) -> String {
-        format!("map: {}", super::text::plain(&self.label()))
+        format!("map: {}", super::text::plain(&self.label(Units::Si)))
     }
 
-    fn family(&self) -> Option<&'static Family> {
-        Some(self.family)
+    fn families(&self) -> Vec<&'static Family> {
+        vec![self.family]
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
@@ -89,7 +90,7 @@ impl Figure for Map {
             .iter()
             .flat_map(|panel| panel.cells.iter().flatten());
         let values = points.filter_map(|point| self.mean(source, point));
-        let label = self.label();
+        let label = self.label(source.sweep.scene.units());
         let bar = ColorBar::new(values, self.measure.range == Range::Signed, label.clone());
         Diagram {
             name: self.name,

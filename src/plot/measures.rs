@@ -68,7 +68,7 @@ fn panel(
     x: (f64, f64),
 ) -> Option<Panel> {
     let mut panel = Panel {
-        head: vec![map.label()],
+        head: vec![map.label(source.sweep.scene.units())],
         x,
         ..Panel::default()
     };

@@ -95,9 +95,9 @@ trait Figure: Sync {
         None
     }
 
-    /// The family of scenes that it is for; none for all.
-    fn family(&self) -> Option<&'static Family> {
-        None
+    /// The families of scenes that it is for; none for all.
+    fn families(&self) -> Vec<&'static Family> {
+        Vec::new()
     }
 
     /// Draws it.
@@ -133,28 +133,29 @@ pub struct About {
     /// Which runs it shows if no points are asked for; none for a figure that is not of single
     /// runs.
     pub default_runs: Option<&'static str>,
-    /// The family of scenes that it is for; none for all.
-    pub family: Option<&'static Family>,
+    /// The families of scenes that it is for; none for all.
+    pub families: Vec<&'static Family>,
 }
 
 impl About {
+    fn of(figure: &dyn Figure) -> Self {
+        Self {
+            name: figure.name(),
+            description: figure.description(),
+            default_runs: figure.default_runs(),
+            families: figure.families(),
+        }
+    }
+
     /// Whether the figure can be drawn of scenes of a family.
     pub fn applies_to(&self, family: &Family) -> bool {
-        self.family.is_none_or(|own| own == family)
+        self.families.is_empty() || self.families.contains(&family)
     }
 }
 
 /// All figures.
 pub fn figures() -> Vec<About> {
-    let figures = all().into_iter();
-    figures
-        .map(|figure| About {
-            name: figure.name(),
-            description: figure.description(),
-            default_runs: figure.default_runs(),
-            family: figure.family(),
-        })
-        .collect()
+    all().into_iter().map(About::of).collect()
 }
 
 /// Draws the figure `name`, with the axes that the sweep's plot settings choose.
@@ -175,11 +176,10 @@ pub fn draw(name: &str, source: &Source<'_>) -> Result<Svg, PlotError> {
         });
     };
     let family = source.table.family;
-    if figure.family().is_some_and(|own| own != family) {
-        let others = figures
-            .iter()
-            .filter(|other| other.family().is_none_or(|own| own == family));
-        let known: Vec<&str> = others.map(|figure| figure.name()).collect();
+    if !About::of(*figure).applies_to(family) {
+        let others = figures.iter().map(|figure| About::of(*figure));
+        let others = others.filter(|other| other.applies_to(family));
+        let known: Vec<&str> = others.map(|figure| figure.name).collect();
         return Err(PlotError::OtherFamily {
             name: figure.name(),
             family: family.name,

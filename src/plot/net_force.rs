@@ -30,8 +30,8 @@ impl Figure for NetForce {
             .to_owned()
     }
 
-    fn family(&self) -> Option<&'static Family> {
-        Some(&TANK)
+    fn families(&self) -> Vec<&'static Family> {
+        vec![&TANK]
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {

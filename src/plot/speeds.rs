@@ -24,8 +24,8 @@ impl Figure for Speeds {
         Some("the corners of the grid and between them")
     }
 
-    fn family(&self) -> Option<&'static Family> {
-        Some(&TANK)
+    fn families(&self) -> Vec<&'static Family> {
+        vec![&TANK]
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {

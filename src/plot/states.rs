@@ -45,8 +45,8 @@ impl Figure for States {
         Some("a typical run of every state")
     }
 
-    fn family(&self) -> Option<&'static Family> {
-        Some(&TANK)
+    fn families(&self) -> Vec<&'static Family> {
+        vec![&TANK]
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {

@@ -26,7 +26,7 @@ pub(super) struct NumericKey {
 pub struct Notation {
     /// Symbol; `_` makes a subscript of the next character or of a group in braces.
     pub symbol: &'static str,
-    /// SI unit; empty for a pure number.
+    /// Unit: SI, or that of the spheres if the scene is thought in those; empty for a pure number.
     pub unit: &'static str,
     /// Plain name, without the unit.
     pub name: &'static str,
@@ -49,7 +49,11 @@ impl Scene {
     pub fn notation(&self, key: &str) -> Option<Notation> {
         let mut keys = self.for_keys(&[]).all_numeric_keys().into_iter();
         let own = keys.find(|known| known.path == key);
-        own.map_or_else(|| Notation::anywhere(key), |known| known.notation)
+        let notation = own.map_or_else(|| Notation::anywhere(key), |known| known.notation)?;
+        Some(Notation {
+            unit: self.units().shown(notation.unit),
+            ..notation
+        })
     }
 
     pub(super) fn all_numeric_keys(&self) -> Vec<NumericKey> {
@@ -243,7 +247,8 @@ pub(super) mod tests {
     use super::*;
     use std::path::Path;
 
-    fn scene() -> Scene {
+    /// Spheres of two radii in a tank.
+    pub(in crate::scene) fn scene() -> Scene {
         let text = r#"
             spheres.count = 3
             spheres.radius = [{ radius = 0.004, share = 1 }, { radius = 0.005, share = 2 }]

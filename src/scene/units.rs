@@ -38,12 +38,22 @@ impl Units {
         }
     }
 
+    /// An SI unit as figures show it: the same number of d and τ. Others stay as they are.
+    pub fn shown(self, unit: &'static str) -> &'static str {
+        match (self, unit) {
+            (Self::OfSpheres, "m") => "d",
+            (Self::OfSpheres, "s") => "τ",
+            (Self::OfSpheres, "m/s") => "d/τ",
+            (Self::OfSpheres, "1/s") => "1/τ",
+            (Self::OfSpheres, "rad/s") => "rad/τ",
+            (Self::OfSpheres, "spheres/s") => "spheres/τ",
+            _ => unit,
+        }
+    }
+
     /// Symbol of the unit of time.
     pub fn of_time(self) -> &'static str {
-        match self {
-            Self::Si => "s",
-            Self::OfSpheres => "τ",
-        }
+        self.shown("s")
     }
 }
 
@@ -68,5 +78,18 @@ mod tests {
         assert_eq!(units(0.5, "gravity.acceleration = 9.8"), Units::Si);
         assert_eq!(units(0.4, "gravity.acceleration = 1.0"), Units::Si);
         assert_eq!(units(0.5, ""), Units::Si);
+    }
+
+    #[test]
+    fn figures_show_lengths_and_times_in_units_of_the_scene() {
+        for (unit, of_spheres) in [
+            ("m", "d"),
+            ("spheres/s", "spheres/τ"),
+            ("rad", "rad"),
+            ("", ""),
+        ] {
+            assert_eq!(Units::Si.shown(unit), unit);
+            assert_eq!(Units::OfSpheres.shown(unit), of_spheres);
+        }
     }
 }

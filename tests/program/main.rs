@@ -9,6 +9,7 @@ mod checkpoint;
 mod command_line;
 mod compare;
 mod cost;
+mod drainage_figures;
 mod editors;
 mod figures;
 mod fit;

@@ -113,6 +113,7 @@ fn shipped_sweeps_have_the_grids_they_promise() {
         ("silo", 10 * 6 * 3),
         ("silo-quick", 3 * 2),
         ("beverloo", 8 * 2 * 4),
+        ("beverloo-orifice", 5 * 2),
         ("spot", 7 * 6 * 3),
         ("silo-fillings", 2 * 12),
         // Coarse grids.

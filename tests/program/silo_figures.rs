@@ -2,7 +2,8 @@
 //!
 //! Every figure drawn here is left in `target/tmp` to look at.
 
-use phase::beverloo::Bed;
+use crate::support::texts;
+use phase::beverloo::{Bed, Opening};
 use phase::classify::{FAMILIES, Label, SILO, Sieves, Verdict};
 use phase::classify::{LabelRow, LabelTable};
 use phase::plot::{self, PlotError, Source, fitted_lines};
@@ -29,6 +30,7 @@ fn bed() -> Bed {
         gravity: 9.81,
         number_density: PACKING / (PI * 0.04 * 0.04),
         diameter: 0.08,
+        opening: Opening::Flat,
     }
 }
 
@@ -135,22 +137,9 @@ fn drawn(figure: &str, sweep: &Sweep, table: &LabelTable) -> Result<String, Plot
     Ok(String::from_utf8(svg.to_svg_bytes()).unwrap())
 }
 
-/// Text of a figure, without its marks.
+/// The texts of a figure, line by line.
 fn text(svg: &str) -> String {
-    let mut inside = false;
-    svg.chars()
-        .filter(|character| match character {
-            '<' => {
-                inside = true;
-                false
-            }
-            '>' => {
-                inside = false;
-                false
-            }
-            _ => !inside,
-        })
-        .collect()
+    texts(svg).join("\n")
 }
 
 #[test]

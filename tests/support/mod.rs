@@ -308,3 +308,14 @@ pub(crate) fn damage(path: &Path) {
     bytes[middle] ^= 0x10;
     std::fs::write(path, bytes).unwrap();
 }
+
+/// The texts of an SVG, without tags.
+pub(crate) fn texts(svg: &str) -> Vec<String> {
+    let lines = svg.lines().filter(|line| line.starts_with("<text"));
+    lines
+        .map(|line| {
+            let parts = line.split('<').filter_map(|part| part.split_once('>'));
+            parts.map(|(_, text)| text).collect()
+        })
+        .collect()
+}

@@ -2,7 +2,7 @@
 
 use super::run::Run;
 use crate::classify::measure::{measured, measures};
-use crate::compare::{Drainage, badness_of, mixing};
+use crate::compare::{Drainage, badness_of, mixing, packing_fraction};
 use crate::measure::{Centres, surface_angle};
 use crate::record::RunRecord;
 
@@ -13,6 +13,8 @@ const RATE_SHARES: [f64; 2] = [0.2, 1.0];
 measures! {
     /// Continuous measures of a drainage.
     struct DrainageOrder {
+        /// Packing fraction in the middle when the opening opened.
+        start_packing_fraction: measured("packing fraction at the opening", ""),
         /// Spheres that left per second, from the frame by which a fifth had left of those that
         /// did.
         outflow_rate: measured("outflow", "spheres/s"),
@@ -34,6 +36,9 @@ impl DrainageOrder {
         let drainage = Drainage::new(record, None).ok();
         let end = run.snapshots.last().map(Centres::of);
         Self {
+            start_packing_fraction: drainage
+                .as_ref()
+                .and_then(|it| packing_fraction(it, it.start())),
             outflow_rate: outflow_rate(run),
             left_share: Some(run.left() / run.spheres),
             stagnant_height: run.stagnant_height(),

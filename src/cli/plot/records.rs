@@ -54,7 +54,7 @@ pub(super) fn list(path: &Path) -> Result<Vec<Entry>, Failure> {
         name: figure.name,
         description: figure.description,
         default_runs: None,
-        family: None,
+        families: Vec::new(),
     });
     Ok(of_one().into_iter().chain(of_runs).collect())
 }
@@ -65,7 +65,7 @@ pub(super) fn of_one() -> Vec<Entry> {
         name: figure.name,
         description: figure.description.to_owned(),
         default_runs: None,
-        family: None,
+        families: Vec::new(),
     };
     OF_ONE.map(entry).into()
 }

@@ -98,8 +98,8 @@ impl Figure for Overlay {
         Some("a typical run of every state")
     }
 
-    fn family(&self) -> Option<&'static Family> {
-        Some(&DRAINAGE)
+    fn families(&self) -> Vec<&'static Family> {
+        vec![&DRAINAGE]
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {

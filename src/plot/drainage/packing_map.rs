@@ -43,8 +43,8 @@ impl Figure for PackingMap {
         Some("a typical run of every state")
     }
 
-    fn family(&self) -> Option<&'static Family> {
-        Some(&DRAINAGE)
+    fn families(&self) -> Vec<&'static Family> {
+        vec![&DRAINAGE]
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {

@@ -1,5 +1,6 @@
 //! What the tests share: a made-up sweep with its runs, and what an SVG shows.
 
+pub(crate) use crate::support::texts;
 use ndarray::{Array2, Array3};
 use phase::classify::{Label, Sieves, TANK, Verdict};
 use phase::classify::{LabelRow, LabelTable};
@@ -227,17 +228,6 @@ pub(crate) fn record(radius: f64, omega: f64) -> RunRecord {
         work: 0,
         cpu_seconds: 0.0,
     }
-}
-
-/// The texts of the SVG, without tags.
-pub(crate) fn texts(svg: &str) -> Vec<String> {
-    let lines = svg.lines().filter(|line| line.starts_with("<text"));
-    lines
-        .map(|line| {
-            let parts = line.split('<').filter_map(|part| part.split_once('>'));
-            parts.map(|(_, text)| text).collect()
-        })
-        .collect()
 }
 
 #[track_caller]

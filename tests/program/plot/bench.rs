@@ -1,5 +1,6 @@
 //! What the tests share: synthetic tables, and what an SVG shows.
 
+pub(crate) use crate::support::texts;
 use phase::classify::{Label, Sieves, TANK, Verdict};
 use phase::classify::{LabelRow, LabelTable};
 use phase::plot::{self, PlotError, Source, Svg};
@@ -195,29 +196,6 @@ pub(crate) fn count(svg: &str, color: &str) -> usize {
     svg.lines()
         .filter(|line| line.starts_with("<rect") && line.contains(&fill))
         .count()
-}
-
-/// The texts of the SVG, without tags.
-pub(crate) fn texts(svg: &str) -> Vec<String> {
-    svg.lines()
-        .filter(|line| line.starts_with("<text"))
-        .map(|line| {
-            let mut inside = false;
-            line.chars()
-                .filter(|character| match character {
-                    '<' => {
-                        inside = true;
-                        false
-                    }
-                    '>' => {
-                        inside = false;
-                        false
-                    }
-                    _ => !inside,
-                })
-                .collect()
-        })
-        .collect()
 }
 
 pub(crate) fn has(svg: &str, text: &str) -> bool {
