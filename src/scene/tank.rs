@@ -66,6 +66,14 @@ impl Tank {
         self.floor.is_some() && self.opening().is_some()
     }
 
+    /// How far inside the opening of its floor a place is (m); negative outside, and where there is
+    /// none.
+    pub fn inside_opening(&self, x: f64, y: f64) -> f64 {
+        let orifice = self.orifice_radius.map(|it| it - libm::hypot(x, y));
+        let slit = self.slit_width.map(|it| 0.5 * it - x.abs());
+        orifice.or(slit).unwrap_or(f64::NEG_INFINITY)
+    }
+
     /// Whether its walls are plane, those that there are.
     pub fn has_sides(&self) -> bool {
         self.width.is_some() || self.depth.is_some()

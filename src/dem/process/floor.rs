@@ -4,16 +4,15 @@
 //! under it. So a sphere that is pressed through it from above would go on below, and no overlap
 //! would tell.
 
-use crate::dem::walls::TankWall;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
-use crate::scene::Scene;
+use crate::scene::{Scene, Tank};
 use crate::simulation::{Guard, Instability};
 use std::collections::BTreeSet;
 
 /// Watches the plane of a floor with an opening.
 pub(super) struct FloorWatch {
-    floor: TankWall,
+    tank: Tank,
     /// Height of the floor (m).
     height: f64,
     /// Numbers of the spheres that have come below it.
@@ -23,9 +22,9 @@ pub(super) struct FloorWatch {
 impl FloorWatch {
     /// A watch over the floor of a scene, if that has an opening.
     pub(super) fn of_scene(scene: &Scene) -> Option<Self> {
-        let tank = scene.tank.as_ref()?;
+        let tank = scene.tank.as_ref().filter(|tank| tank.has_opening())?;
         Some(Self {
-            floor: TankWall::floor_with_opening(tank)?,
+            tank: tank.clone(),
             height: tank.floor?,
             below: BTreeSet::new(),
         })
@@ -50,7 +49,7 @@ impl FloorWatch {
             let place = crossing(centre, particles.velocity[i], self.height);
             // What starts there came from nowhere.
             let was_below = step == 0 || self.below.contains(&number);
-            if was_below || self.floor.is_open_at(place) {
+            if was_below || self.tank.inside_opening(place.x, place.y) > 0.0 {
                 continue;
             }
             return Err(Instability {

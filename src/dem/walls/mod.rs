@@ -83,17 +83,6 @@ impl TankWall {
         (tank.orifice_radius.map(orifice)).or(tank.slit_width.map(slit))
     }
 
-    /// Whether it is a floor with an opening at this x and y.
-    pub fn is_open_at(&self, place: Vector) -> bool {
-        match self {
-            Self::Orifice(Orifice { radius, .. }) => {
-                place.x * place.x + place.y * place.y < radius * radius
-            }
-            Self::Slit(Slit { half_width, .. }) => place.x.abs() < *half_width,
-            Self::Floor(_) | Self::Cylinder(_) | Self::Side(_) => false,
-        }
-    }
-
     /// The part of a step to which its forces belong.
     pub fn part(&self) -> Part {
         match self {

@@ -98,7 +98,10 @@ impl Scene {
                     .iter()
                     .any(|(place, reach)| reach.is_some_and(|reach| place.abs() >= reach)),
             };
-            let below = floor.is_some_and(|floor| z <= floor);
+            // A sphere may be on its way out through an open floor, slanting by up to 45 degrees.
+            let is_open = self.dem.door.is_none();
+            let may_be_leaving = |depth: f64| is_open && tank.inside_opening(x, y) > -depth;
+            let below = floor.is_some_and(|floor| z <= floor && !may_be_leaving(floor - z));
             if wall || below {
                 let place = if wall {
                     "outside the tank's wall"
