@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Draws the figures of analysis/spot.md that show discrete elements beside spots, and writes their
-# tables, from the records of analysis/drainage.sh.
+# Draws the figures of analysis/spot.md, and writes their tables, from the records of
+# analysis/drainage.sh. The figure of costs is drawn from records of benches/fidelity --keep.
 #
 #   analysis/drainage-figures.sh [FOLDER [RESULTS]]
 set -euo pipefail
@@ -9,7 +9,7 @@ phase=${PHASE:-target/release/phase}
 folder=${1:-scratch/drainage}
 results=${2:-results/drainage}
 
-# Draws figures of records: figures NAME "FIGURES" TIMES RECORD=LABEL...
+# Draws figures of records: figures NAME "FIGURES" TIMES RECORD=LABEL...; the name may be empty.
 figures() {
     local name=$1 list=$2 times=$3 records=() labels=() pair
     shift 3
@@ -17,17 +17,30 @@ figures() {
         records+=("$folder/${pair%%=*}.h5")
         labels+=(--label "${pair#*=}")
     done
-    "$phase" plot "${records[@]}" "${labels[@]}" --figure "$list" --times "$times" --name "$name" --out "$results" -q
+    [ -z "$name" ] || labels+=(--name "$name")
+    "$phase" plot "${records[@]}" "${labels[@]}" --figure "$list" --times "$times" --out "$results" -q
 }
+
+relaxation=(base="every move" random10="at random, 1 in 10" global1="all spheres, k = 1")
+never=(none="never")
+others=(random100="at random, 1 in 100" counted10="every 10th" global10="all spheres, k = 10")
+figures "" outflow,radial-distribution,bond-angles 40,120 "${relaxation[@]}" "${never[@]}"
+figures "" badness 40,120 "${relaxation[@]}" "${others[@]}" "${never[@]}"
+figures "" mixing,diffusion,retention 40,120 "${relaxation[@]}"
+# Markup of figures, not variables.
+# shellcheck disable=SC2016
+figures "" cross-profile 40,120 coarse='$d_w$ = $d$' dw0.5='$d_w$ = $d$/2' dw0='$d_w$ = 0' \
+    reflection='$d_w$ = 0, reflection' dw-1.5='$d_w$ = −3$d$/2'
+figures "" surface-angle 20,300 coarse="no bias" walk="bias 3" weighting="weighted" \
+    bias3="bias 3, weighted" bias10="bias 10, weighted"
+"$phase" view "$folder/base.h5" --color layer --cut --time 0,60,120 --width 220 --palette --out "$results/layers.png" -q
 
 pair=(dem="discrete elements" base="spots")
 figures pair outflow,velocity-profile,cross-profile,surface-angle,radial-distribution,bond-angles 40,120 "${pair[@]}"
 figures pair mixing,diffusion,velocity-correlation,retention,residence 40,120 "${pair[@]}"
 figures pair packing-map 20,120 "${pair[@]}"
-figures relaxation cost-error 40,120 dem="discrete elements" base="every move" random10="at random, k = 10" \
-    counted10="every tenth" random100="at random, k = 100" global1="all, k = 1" global10="all, k = 10" none="never"
 figures walls cross-profile 5,30 wall0.1="0.1" wall0.3="0.3" dt4="0.5" wall0.7="0.7" wall0.9="0.9"
-figures walls velocity-profile 40,120 dem="wall friction 0.5" dem-wall0.1="wall friction 0.1"
+figures walls velocity-profile 40,120 dem="wall friction 0.5" dem-wall0.3="wall friction 0.3" dem-wall0.1="wall friction 0.1"
 
 "$phase" compare "$folder"/{dem,base}.h5 --times 40,120 --out "$results/pair.csv"
 "$phase" compare "$folder"/{dt1,dt2,dt4,dt8,seed2}.h5 --times 5,30 --out "$results/steps.csv"

@@ -16,6 +16,7 @@ mkdir -p "$folder"
 runs=$(cat <<'RUNS'
 dem dem-drainage time.dt=4e-4
 dem-wall0.1 dem-drainage time.dt=4e-4 time.duration=140 tank.friction_coefficient=0.1
+dem-wall0.3 dem-drainage time.dt=4e-4 time.duration=140 tank.friction_coefficient=0.3
 dt1 dem-small time.dt=1e-4
 dt2 dem-small time.dt=2e-4
 dt4 dem-small time.dt=4e-4
@@ -32,15 +33,16 @@ counted10 spot-drainage output.snapshot_interval=2 time.duration=200 spot.relaxa
 global1 spot-drainage output.snapshot_interval=2 time.duration=200 spot.relaxation.method=global spot.relaxation.ratio=1
 global10 spot-drainage output.snapshot_interval=2 time.duration=200 spot.relaxation.method=global spot.relaxation.ratio=10
 base spot-drainage output.snapshot_interval=2 time.duration=300
-bias3 spot-drainage output.snapshot_interval=2 time.duration=300 spot.walk.bias=3 spot.weighting.above=30
-bias10 spot-drainage output.snapshot_interval=2 time.duration=300 spot.walk.bias=10 spot.weighting.above=30
-walk spot-drainage output.snapshot_interval=2 time.duration=300 spot.walk.bias=3
-weighting spot-drainage output.snapshot_interval=2 time.duration=300 spot.weighting.above=30
+coarse spot-drainage output.snapshot_interval=2 time.duration=300 spot.relaxation.method=global spot.relaxation.ratio=1
+bias3 spot-drainage output.snapshot_interval=2 time.duration=300 spot.relaxation.method=global spot.relaxation.ratio=1 spot.walk.bias=3 spot.weighting.above=30
+bias10 spot-drainage output.snapshot_interval=2 time.duration=300 spot.relaxation.method=global spot.relaxation.ratio=1 spot.walk.bias=10 spot.weighting.above=30
+walk spot-drainage output.snapshot_interval=2 time.duration=300 spot.relaxation.method=global spot.relaxation.ratio=1 spot.walk.bias=3
+weighting spot-drainage output.snapshot_interval=2 time.duration=300 spot.relaxation.method=global spot.relaxation.ratio=1 spot.weighting.above=30
 newest spot-drainage output.snapshot_interval=2 time.duration=120 spot.schedule=steps-newest-first
-dw0.5 spot-drainage output.snapshot_interval=2 time.duration=120 spot.wall_distance=0.5
-dw0 spot-drainage output.snapshot_interval=2 time.duration=120 spot.wall_distance=0
-dw-1.5 spot-drainage output.snapshot_interval=2 time.duration=120 spot.wall_distance=-1.5
-reflection spot-drainage output.snapshot_interval=2 time.duration=120 spot.wall_distance=0 spot.reflection=true
+dw0.5 spot-drainage output.snapshot_interval=2 time.duration=120 spot.relaxation.method=global spot.relaxation.ratio=1 spot.wall_distance=0.5
+dw0 spot-drainage output.snapshot_interval=2 time.duration=120 spot.relaxation.method=global spot.relaxation.ratio=1 spot.wall_distance=0
+dw-1.5 spot-drainage output.snapshot_interval=2 time.duration=120 spot.relaxation.method=global spot.relaxation.ratio=1 spot.wall_distance=-1.5
+reflection spot-drainage output.snapshot_interval=2 time.duration=120 spot.relaxation.method=global spot.relaxation.ratio=1 spot.wall_distance=0 spot.reflection=true
 RUNS
 )
 

@@ -75,6 +75,9 @@ impl Kind {
             (Self::Number(_), Value::Null) => {
                 problems.push(misfit().help("use a finite number"));
             }
+            (Self::AnyTable | Self::Any, _) if self.fits_type_of(value) => {
+                check_finite(value, path, problems);
+            }
             _ if self.fits_type_of(value) => {}
             _ => problems.push(misfit()),
         }
@@ -82,6 +85,27 @@ impl Kind {
 }
 
 /// What to write in place of a number that is not whole, or less than that.
+/// Of a table with any keys: TOML knows no null, which is what became of a number that is none.
+fn check_finite(value: &Value, path: &str, problems: &mut Vec<Problem>) {
+    match value {
+        Value::Null => {
+            let message = format!("`{path}` is not a finite number");
+            problems.push(Problem::new(path, message).help("use a finite number"));
+        }
+        Value::Object(table) => {
+            for (key, value) in table {
+                check_finite(value, &format!("{path}.{key}"), problems);
+            }
+        }
+        Value::Array(entries) => {
+            for (index, value) in entries.iter().enumerate() {
+                check_finite(value, &format!("{path}[{index}]"), problems);
+            }
+        }
+        _ => {}
+    }
+}
+
 fn advice_on_whole(number: &serde_json::Number, least: u64) -> String {
     let value = number.as_f64().unwrap_or(f64::NAN);
     match libm::trunc(value) == value && value >= least as f64 {
