@@ -87,7 +87,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             console.result(line("  disk", about));
         }
         if let Some(refining) = &sweep.refine {
-            let budget = refining.settings.budget;
+            let all = sweep
+                .points()
+                .saturating_mul(refining.settings.replicates as usize);
+            let budget = refining.settings.budget.min(all);
             let times = budget as f64 / jobs.len().max(1) as f64;
             console.result(line(
                 "  refined",

@@ -20,13 +20,27 @@ pub(super) fn make(folder: &Path) -> Result<(), Failure> {
 /// Refuses to write over a file that does not begin with `signature`, as far as it goes: it is
 /// something other than `kind`, which the command would write there.
 pub(super) fn refuse_to_replace(path: &Path, kind: &str, signature: &[u8]) -> Result<(), Failure> {
+    refuse_to_replace_any(path, kind, &[signature])
+}
+
+/// The same of a file that may begin with any of several signatures.
+pub(super) fn refuse_to_replace_any(
+    path: &Path,
+    kind: &str,
+    signatures: &[&[u8]],
+) -> Result<(), Failure> {
     let Ok(file) = File::open(path) else {
         return Ok(());
     };
     let is_file = file.metadata().is_ok_and(|data| data.is_file());
     let mut start = Vec::new();
-    let read = file.take(signature.len() as u64).read_to_end(&mut start);
-    if is_file && read.is_ok() && signature.starts_with(&start) {
+    let longest = signatures.iter().map(|it| it.len()).max().unwrap_or(0);
+    let read = file.take(longest as u64).read_to_end(&mut start);
+    let begins = |signature: &&[u8]| {
+        let length = start.len().min(signature.len());
+        signature.starts_with(&start[..length])
+    };
+    if is_file && read.is_ok() && signatures.iter().any(begins) {
         return Ok(());
     }
     Err(Failure::refused(format_args!(

@@ -142,11 +142,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let table = scene.has_flow().then(|| beside(&path));
     if let Some(table) = &table {
         // The first columns of what is observed; spots have no energies.
-        let columns: &[u8] = match scene.spot {
-            Some(_) => b"time,height_mean,",
-            None => b"time,kinetic,",
-        };
-        folders::refuse_to_replace(table, "a table of observables", columns)?;
+        let columns: [&[u8]; 2] = [b"time,height_mean,", b"time,kinetic,"];
+        folders::refuse_to_replace_any(table, "a table of observables", &columns)?;
     }
     folders::make_for(&path)?;
     let _lock = lock(&path)?;

@@ -34,9 +34,13 @@ impl<'a> Drainage<'a> {
     /// What the record lacks: walls on all sides and a floor, or snapshots.
     pub fn new(record: &'a RunRecord, times: Option<[f64; 2]>) -> Result<Self, &'static str> {
         let tank = record.scene.tank.as_ref();
+        let tank = tank.filter(|tank| tank.has_sides() && tank.has_opening());
         let walls = tank.map(|tank| (tank.reach(), tank.floor));
         let Some(([Some(half_width), Some(half_depth)], Some(floor))) = walls else {
-            return Err("a box: `tank.width`, `tank.depth` and `tank.floor`");
+            return Err(
+                "a box with an opening: `tank.width`, `tank.depth`, `tank.floor`, and \
+                        `tank.orifice_radius` or `tank.slit_width`",
+            );
         };
         let opened = opened(record).ok_or("a door that opens within the run")?;
         let states = record.sound_states();
@@ -48,13 +52,17 @@ impl<'a> Drainage<'a> {
         };
         let diameter = 2.0 * record.scene.spheres.radius.mean();
         let duration = record.scene.time.duration - opened;
-        Ok(Self {
+        let drainage = Self {
             record,
             filled_box: FilledBox::new([half_width, half_depth], floor, diameter, start),
             times: times.unwrap_or([BEGINNING * duration, duration]),
             opened,
             states,
-        })
+        };
+        match drainage.flow().is_empty() {
+            true => Err("a state within the times that are asked for, since the opening"),
+            false => Ok(drainage),
+        }
     }
 
     /// How long it drains (s).

@@ -55,7 +55,8 @@ impl Simulation {
         FrameView {
             position,
             velocity,
-            spin: particles.rotate().then_some(spin),
+            // Also where all spheres have left.
+            spin: (particles.rotate() || !self.inertia.is_empty()).then_some(spin),
             radius,
             mass,
             inertia,

@@ -29,7 +29,10 @@ impl Model for Packed {
     }
 
     fn build(&self, scene: &Scene) -> Result<Box<dyn Simulation>, BuildError> {
-        let spheres = places(scene)?.into_iter().map(StartSphere::at);
+        let floor = scene.tank.as_ref().and_then(|tank| tank.floor);
+        let floor = floor.unwrap_or(0.0);
+        let places = places(scene)?.into_iter();
+        let spheres = places.map(|[x, y, z]| StartSphere::at([x, y, z + floor]));
         self.0.build(&Scene {
             start: Start::list(spheres.collect()),
             ..scene.clone()
@@ -37,7 +40,7 @@ impl Model for Packed {
     }
 }
 
-/// The centres of the packing (m): made before, or made now and kept.
+/// The centres of the packing above the floor (m): made before, or made now and kept.
 fn places(scene: &Scene) -> Result<Vec<[f64; 3]>, BuildError> {
     let kept = file_of(scene);
     if let Some(places) = kept.as_ref().and_then(|it| read(it, scene.spheres.count)) {
@@ -57,13 +60,12 @@ fn file_of(scene: &Scene) -> Option<PathBuf> {
     let folder = |name: &str| std::env::var_os(name).filter(|it| !it.is_empty());
     let cache = folder("XDG_CACHE_HOME").map(PathBuf::from);
     let cache = cache.or_else(|| Some(PathBuf::from(folder("HOME")?).join(".cache")))?;
-    Some(
-        cache
-            .join("phase")
-            .join("packings")
-            .join(packing::name(scene)),
-    )
+    let packings = cache.join("phase").join(FOLDER);
+    Some(packings.join(packing::name(scene)))
 }
+
+/// Folder of the packings. One of `packings`, which it was, may hold heights above another floor.
+const FOLDER: &str = "packings-above-floor";
 
 /// Number of bytes of the checksum in front of the places.
 const CHECKSUM: usize = blake3::OUT_LEN;

@@ -121,8 +121,8 @@ pub struct SpotRelaxation {
     /// Where and when.
     pub method: RelaxationMethod,
     /// The ratio k of the methods that have one.
-    #[schemars(transform = quantity("k", "", "relaxation ratio").at_least(1.0).at_most(1e9))]
-    pub ratio: u32,
+    #[schemars(transform = quantity("k", "", "relaxation ratio").at_least(1))]
+    pub ratio: u64,
     /// Share α of an overlap that goes at once.
     #[schemars(transform = quantity("α_s", "", "strength of relaxation").above(0.0).at_most(1.0))]
     pub strength: f64,

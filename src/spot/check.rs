@@ -108,7 +108,7 @@ impl Parameters {
         | Relaxation::Counted { ratio }
         | Relaxation::Global { ratio } = self.relaxation
         {
-            all.push(at_least("relaxation ratio", f64::from(ratio), 1.0));
+            all.push(at_least("relaxation ratio", ratio as f64, 1.0));
         }
         if let Walk::Biased { exponent } = self.walk {
             all.push(at_least("walk exponent", exponent, 0.0));

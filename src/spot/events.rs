@@ -30,7 +30,7 @@ impl Simulation {
         match self.model.parameters.relaxation {
             Relaxation::Global { ratio } => {
                 let next = self.counts.global_relaxations + 1;
-                next as f64 * f64::from(ratio) / self.model.parameters.move_rate
+                next as f64 * ratio as f64 / self.model.parameters.move_rate
             }
             _ => f64::INFINITY,
         }

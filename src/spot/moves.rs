@@ -40,8 +40,8 @@ impl Model {
         let relaxes = match self.parameters.relaxation {
             Relaxation::EveryMove => true,
             Relaxation::Off | Relaxation::Global { .. } => false,
-            Relaxation::AtRandom { ratio } => chance * f64::from(ratio) < 1.0,
-            Relaxation::Counted { ratio } => spot.moves.is_multiple_of(ratio),
+            Relaxation::AtRandom { ratio } => chance * (ratio as f64) < 1.0,
+            Relaxation::Counted { ratio } => u64::from(spot.moves).is_multiple_of(ratio),
         };
         scratch.clock.mark(Part::Spots);
         if relaxes {

@@ -83,17 +83,17 @@ pub enum Relaxation {
     /// Method 1: around the spot after a move, with probability 1/k.
     AtRandom {
         /// Ratio k.
-        ratio: u32,
+        ratio: u64,
     },
     /// Method 2: around the spot after every k-th of its moves.
     Counted {
         /// Ratio k.
-        ratio: u32,
+        ratio: u64,
     },
     /// Method 3: of all spheres, every k/mu of time.
     Global {
         /// Ratio k.
-        ratio: u32,
+        ratio: u64,
     },
 }
 

@@ -105,7 +105,7 @@ impl Simulation {
 
     fn relaxes_all_after(&self, step: u64) -> bool {
         match self.model.parameters.relaxation {
-            Relaxation::Global { ratio } => step.is_multiple_of(u64::from(ratio)),
+            Relaxation::Global { ratio } => step.is_multiple_of(ratio),
             _ => false,
         }
     }

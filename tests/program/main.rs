@@ -10,6 +10,7 @@ mod command_line;
 mod compare;
 mod cost;
 mod drainage_figures;
+mod drainages;
 mod editors;
 mod figures;
 mod fit;

@@ -103,7 +103,7 @@ fn both_models_start_with_the_same_packing() {
     let [spots, grains] = ["spots.h5", "grains.h5"].map(|name| record(&place, name));
     assert_eq!(spots.snapshots[0].position, grains.snapshots[0].position);
     assert!(least_distance(&spots) >= 1.0 - 1e-9);
-    let kept = std::fs::read_dir(place.path("cache/phase/packings")).unwrap();
+    let kept = std::fs::read_dir(place.path("cache/phase/packings-above-floor")).unwrap();
     assert_eq!(kept.count(), 1);
 
     // Another seed has another one; a damaged file is made again.
@@ -114,7 +114,7 @@ fn both_models_start_with_the_same_packing() {
         .code(0);
     let other = record(&place, "other.h5");
     assert_ne!(spots.snapshots[0].position, other.snapshots[0].position);
-    for file in std::fs::read_dir(place.path("cache/phase/packings")).unwrap() {
+    for file in std::fs::read_dir(place.path("cache/phase/packings-above-floor")).unwrap() {
         crate::support::damage(&file.unwrap().path());
     }
     place

@@ -64,7 +64,6 @@ fn judge(record: &RunRecord, sieves: &Sieves) -> Result<(Label, Vec<Option<f64>>
     let drained = sieves.drained.sift(&run);
     let blocked = sieves.blocked.sift(&run);
     let stagnant = sieves.stagnant.sift(&run);
-    let order = DrainageOrder::measure(record, &run);
     let yes = |margin: Option<f64>| margin.is_some_and(|margin| margin >= 0.0);
     let label = if yes(drained.drained_margin) || run.nothing_can_leave() {
         Label::EMPTIED
@@ -75,6 +74,7 @@ fn judge(record: &RunRecord, sieves: &Sieves) -> Result<(Label, Vec<Option<f64>>
     } else {
         Label::DRAINING
     };
+    let order = DrainageOrder::measure(record, &run, label == Label::BLOCKED);
     let values = [
         drained.values(),
         blocked.values(),

@@ -16,7 +16,7 @@ measures! {
         /// Packing fraction in the middle when the opening opened.
         start_packing_fraction: measured("packing fraction at the opening", ""),
         /// Spheres that left per second, from the frame by which a fifth had left of those that
-        /// did.
+        /// did. One that is blocked has none.
         outflow_rate: measured("outflow", "spheres/s"),
         /// Share of all spheres that left.
         left_share: measured("share of the spheres that left", "").share(),
@@ -32,14 +32,14 @@ measures! {
 }
 
 impl DrainageOrder {
-    pub(super) fn measure(record: &RunRecord, run: &Run<'_>) -> Self {
+    pub(super) fn measure(record: &RunRecord, run: &Run<'_>, is_blocked: bool) -> Self {
         let drainage = Drainage::new(record, None).ok();
         let end = run.snapshots.last().map(Centres::of);
         Self {
             start_packing_fraction: drainage
                 .as_ref()
                 .and_then(|it| packing_fraction(it, it.start())),
-            outflow_rate: outflow_rate(run),
+            outflow_rate: outflow_rate(run).filter(|_| !is_blocked),
             left_share: Some(run.left() / run.spheres),
             stagnant_height: run.stagnant_height(),
             surface_slope: end.and_then(|it| surface_angle(&it, run.diameter, run.half_width)),

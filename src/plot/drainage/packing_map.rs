@@ -144,23 +144,33 @@ fn draw(
     let label = "local packing fraction".to_owned();
     let bar = ColorBar::new(RANGE.into_iter(), false, label).ok_or(PlotError::NoMeasures)?;
     let height = px(420);
-    let bar = bar.fitted(height / 2);
     let notes = [format!(
         "Volume over that of the Voronoi cells, of the spheres within {DISTANCE} diameters of a \
          place at $y$ = 0."
     )];
-    let page = Page::new(Plan {
-        title: source.sweep.title.as_deref(),
-        common,
-        frames: maps.iter().map(frame).collect(),
-        columns: maps.len().min(COLUMNS),
-        height,
-        aspect: Some(2.0 * extent[0] / extent[1].max(1e-9)),
-        aside: bar.width(),
-        labels: ["$x$ / $d$", "height $z$ / $d$"].map(str::to_owned),
-        notes: &notes,
-        ..Plan::default()
-    });
+    let page_beside = |bar: &ColorBar| {
+        Page::new(Plan {
+            title: source.sweep.title.as_deref(),
+            common,
+            frames: maps.iter().map(frame).collect(),
+            columns: maps.len().min(COLUMNS),
+            height,
+            aspect: Some(2.0 * extent[0] / extent[1].max(1e-9)),
+            aside: bar.width(),
+            labels: ["$x$ / $d$", "height $z$ / $d$"].map(str::to_owned),
+            notes: &notes,
+            ..Plan::default()
+        })
+    };
+    let tall = bar.clone().fitted(height / 2);
+    // Low maps leave less room.
+    let room = page_beside(&tall).panel.1;
+    let bar = if room < height / 2 {
+        bar.fitted(room)
+    } else {
+        tall
+    };
+    let page = page_beside(&bar);
     let (size, body) = page.draw(|sheet| {
         for index in 0..maps.len() {
             page.axes(sheet, index)?.draw()?;

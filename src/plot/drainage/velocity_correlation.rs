@@ -20,7 +20,7 @@ pub(super) static VELOCITY_CORRELATION: Overlay = Overlay {
     }],
     note: "Of displacements along x between snapshots, about the mean flow, in the middle 40 % of \
            the width at 30 to 80 % of the height. R: of two spots whose common volume falls as the \
-           correlation does. Bars: 95 %.",
+           correlation does above what all spheres share. Bars: 95 %.",
     lines,
     guides: overlay::none,
 };
@@ -32,7 +32,10 @@ fn lines(drainage: &Drainage<'_>) -> Lines {
     let radius = correlation_radius(drainage);
     let word = radius.map(|radius| {
         let [value, half] = [radius.value, radius.half_width].map(|it| it / diameter);
-        format!("$R$ = {value:.2} ± {half:.2} $d$")
+        match half.is_finite() {
+            true => format!("$R$ = {value:.2} ± {half:.2} $d$"),
+            false => format!("$R$ = {value:.2} $d$"),
+        }
     });
     Lines {
         curves: vec![Curve {

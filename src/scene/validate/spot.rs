@@ -7,6 +7,9 @@ use crate::scene::{Scene, Shape, Spot, Start, StartSphere};
 /// Largest displacement of a sphere at once, in diameters: beyond it spheres pass one another.
 const LONGEST_DISPLACEMENT: f64 = 0.5;
 
+/// Most spots that may be on their way at once.
+const MOST_SPOTS: f64 = 1e7;
+
 /// Deepest overlap at the start, in diameters: packings of soft spheres overlap a little.
 const DEEPEST_OVERLAP: f64 = 0.05;
 
@@ -44,6 +47,7 @@ impl Scene {
         self.check_box_of_spots(spot, problems);
         if problems.len() == before {
             self.check_sizes_of_spots(spot, problems);
+            self.check_number_of_spots(spot, problems);
             self.check_listed_packing(problems);
         }
     }
@@ -170,6 +174,16 @@ impl Scene {
             let help = "a spot covers several spheres: 2.6 diameters in the paper";
             problems.push(Problem::new("spot.radius", message).help(help));
         }
+        let region = spot.relaxation.radius.filter(|it| *it <= radius);
+        if let Some(region) = region {
+            let message = format!(
+                "a region of relaxation of radius {} m is no larger than a sphere of {} m",
+                number(region),
+                number(radius)
+            );
+            let help = "leave it out: it is that of the spot and a diameter";
+            problems.push(Problem::new("spot.relaxation.radius", message).help(help));
+        }
         let farthest = spot.farthest_displacement();
         let most = LONGEST_DISPLACEMENT * 2.0 * radius;
         if farthest > most {
@@ -188,6 +202,20 @@ impl Scene {
                 ),
             };
             problems.push(Problem::new(key, message).help(help));
+        }
+    }
+
+    fn check_number_of_spots(&self, spot: &Spot, problems: &mut Vec<Problem>) {
+        let moves = self.packed_height() / spot.vertical_step;
+        let spots = spot.insertion_rate * (moves / spot.move_rate).min(self.time.duration);
+        if spots > MOST_SPOTS {
+            let message = format!(
+                "about {} spots would be on their way at once, more than {}",
+                rounded(spots),
+                number(MOST_SPOTS)
+            );
+            let help = "make it smaller, or `move_rate` larger";
+            problems.push(Problem::new("spot.insertion_rate", message).help(help));
         }
     }
 

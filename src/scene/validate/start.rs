@@ -4,6 +4,9 @@ use super::{plural, rounded};
 use crate::document::{Problem, number};
 use crate::scene::{Scene, Shape, Start, Tank};
 
+/// Most spheres that the floor under a packing may have room for.
+const MOST_BESIDE: f64 = 1e7;
+
 impl Scene {
     pub(super) fn check_start(&self, problems: &mut Vec<Problem>) {
         match &self.start {
@@ -61,6 +64,7 @@ impl Scene {
             let help = format!("add `{key}` to [tank]");
             problems.push(Problem::new("start.kind", message).help(help));
         }
+        self.check_floor_of_packing(&tank, problems);
         let (smallest, largest) = self.radius_range();
         if smallest < largest {
             let message = "the program makes packings of spheres of one size";
@@ -70,6 +74,21 @@ impl Scene {
         if self.spheres.shape != Shape::Sphere {
             let message = "the program makes packings of spheres, not of discs";
             problems.push(Problem::new("spheres.shape", message).help("remove it"));
+        }
+    }
+
+    /// Cells of the size of a sphere are made for all of the box.
+    fn check_floor_of_packing(&self, tank: &Tank, problems: &mut Vec<Problem>) {
+        let diameter = 2.0 * self.radius_range().1;
+        let spheres = tank.area().map_or(0.0, |area| area / (diameter * diameter));
+        if spheres > MOST_BESIDE {
+            let message = format!(
+                "the floor of the box has room for {} spheres beside each other, more than {}",
+                rounded(spheres),
+                number(MOST_BESIDE)
+            );
+            let help = "make the tank narrower, or the spheres larger";
+            problems.push(Problem::new("tank.width", message).help(help));
         }
     }
 

@@ -47,5 +47,18 @@ impl Scene {
             let help = "use a longer duration: the run ends as soon as it is steady";
             refuse("steady.window", message, help.to_owned());
         }
+        if steady.check_interval > time.duration {
+            let message = format!(
+                "`steady.check_interval` = {} s is longer than the run, `time.duration` = {} s, \
+                 which would never be checked",
+                number(steady.check_interval),
+                number(time.duration),
+            );
+            refuse(
+                "steady.check_interval",
+                message,
+                "use a shorter one".to_owned(),
+            );
+        }
     }
 }

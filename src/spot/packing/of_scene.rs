@@ -42,7 +42,7 @@ pub fn name(scene: &Scene) -> String {
     blake3::hash(text.as_bytes()).to_hex()[..16].to_owned()
 }
 
-/// The centres (m) of the packing that a scene starts with.
+/// The centres (m) of the packing that a scene starts with, above its floor.
 ///
 /// # Errors
 /// If the spheres cannot be pushed apart.
@@ -61,9 +61,6 @@ pub fn make(scene: &Scene, threads: usize) -> Result<Vec<[f64; 3]>, PackingError
         wall_distance: 0.0,
         ..Parameters::figure_2(diameter)
     };
-    let floor = scene.tank.as_ref().and_then(|tank| tank.floor);
-    let floor = floor.unwrap_or(0.0);
     let centres = random_packing(&parameters, choice.spheres, choice.seed, threads)?;
-    let centres = centres.into_iter();
-    Ok(centres.map(|it| [it.x, it.y, it.z + floor]).collect())
+    Ok(centres.into_iter().map(|it| [it.x, it.y, it.z]).collect())
 }
