@@ -45,6 +45,12 @@ impl LabelTable {
         self.rows.iter().any(|row| row.verdict.steady.is_some())
     }
 
+    /// Number of runs that were still not steady when their time was up.
+    pub fn unsteady(&self) -> usize {
+        let rows = self.rows.iter();
+        rows.filter(|row| row.verdict.steady == Some(false)).count()
+    }
+
     /// Whether a run of a point was still not steady when its time was up.
     pub fn is_unsteady(&self, point: &Point) -> bool {
         let mut rows = point.rows.iter();

@@ -251,6 +251,11 @@ fn tell_of_problems(labelling: &Labelling, console: &Console) {
 fn tell_of_labels(labelled: &Labelled, folder: &Folder, console: &Console) {
     let runs = labelled.table.rows.len();
     console.result(describe_counts(&counts(&labelled.table), runs));
+    let unsteady = labelled.table.unsteady();
+    if unsteady > 0 {
+        let runs = format::count(unsteady, "run");
+        console.result(format_args!("{runs} NOT STEADY when its time was up"));
+    }
     match &labelled.since {
         Since::Nothing => {}
         Since::Unreadable(error) => console.note(format_args!(
@@ -279,9 +284,12 @@ fn counts(table: &LabelTable) -> Vec<(Label, usize)> {
 
 fn describe_counts(counts: &[(Label, usize)], runs: usize) -> String {
     let mut text = format!("{} labelled", format::count(runs, "run"));
-    for (label, number) in counts.iter().filter(|(_, number)| *number > 0) {
+    let counts = counts.iter().filter(|(_, number)| *number > 0);
+    let widths = counts.clone().map(|(label, _)| label.name.len());
+    let width = widths.max().unwrap_or(0).max(12);
+    for (label, number) in counts {
         let share = format::percent(*number, runs);
-        text += &format!("\n  {:<12} {number:>6} {share:>6}", label.name);
+        text += &format!("\n  {:<width$} {number:>6} {share:>6}", label.name);
     }
     text
 }

@@ -294,6 +294,7 @@ fn notes(lines: &[FittedLine], outlet: &Outlet, units: Units) -> Vec<String> {
     let without: usize = lines.iter().map(|line| line.without_rate).sum();
     let left_out = match without {
         0 => String::new(),
+        1 => " One run whose outflow stopped or did not end has no rate.".to_owned(),
         without => format!(" {without} runs whose outflow stopped or did not end have no rate."),
     };
     let (least, most) = ends(lines.iter().map(|line| line.bed.number_density));

@@ -11,6 +11,7 @@ use super::svg::Svg;
 use super::{Figure, PlotError, Source, palette};
 use crate::refine::{self, Code};
 use crate::sweep::{FAILED, Learnt};
+use plotters::style::WHITE;
 use std::collections::BTreeSet;
 
 /// Most panels along one axis.
@@ -32,6 +33,8 @@ struct Cell {
     certainty: f64,
     /// Whether a run was made there.
     is_run: bool,
+    /// Whether one was still not steady when its time was up.
+    is_unsteady: bool,
 }
 
 impl Figure for RefinedDiagram {
@@ -106,6 +109,12 @@ fn grid_of(source: &Source<'_>, learnt: &Learnt) -> Result<(Grid<Cell>, Vec<usiz
         .iter()
         .filter_map(|(run, _)| lattice.place_of(&run.values))
         .collect();
+    let table = source.table;
+    let points = table.points().into_iter();
+    let unsteady: BTreeSet<usize> = points
+        .filter(|point| table.is_unsteady(point))
+        .filter_map(|point| lattice.place_of(&point.values))
+        .collect();
     let (columns, rows) = (values(&grid.columns), values(&grid.rows));
     let mut of_panels = Vec::new();
     for row in rows {
@@ -130,6 +139,7 @@ fn grid_of(source: &Source<'_>, learnt: &Learnt) -> Result<(Grid<Cell>, Vec<usiz
                         code: learnt.map.label(place),
                         certainty: learnt.map.certainty(place),
                         is_run: run.contains(&place),
+                        is_unsteady: unsteady.contains(&place),
                     }));
                 }
             }
@@ -213,11 +223,15 @@ fn fill(source: &Source<'_>, code: Code, certainty: f64) -> Fill {
 }
 
 fn look(source: &Source<'_>, cell: Cell, is_plane: bool) -> Look {
+    let fill = match fill(source, cell.code, cell.certainty) {
+        Fill::Color(color) if cell.is_unsteady => Fill::Falling(color),
+        fill => fill,
+    };
     Look {
         // Of a plane, borders are curves.
         group: (!is_plane).then_some(cell.code),
         is_marked: cell.is_run,
-        ..Look::new(fill(source, cell.code, cell.certainty), None)
+        ..Look::new(fill, None)
     }
 }
 
@@ -246,6 +260,10 @@ fn legend(source: &Source<'_>, cells: &[Cell]) -> Vec<Entry> {
                 entries.push(Entry::new(Key::Fill(fill(source, code, low)), words));
             }
         }
+    }
+    if cells.iter().any(|cell| cell.is_unsteady) {
+        let key = Key::Fill(Fill::Falling(WHITE));
+        entries.push(Entry::new(key, "run that was not steady"));
     }
     entries.push(Entry::new(Key::Mark, "run"));
     entries

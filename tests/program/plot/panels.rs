@@ -221,6 +221,22 @@ fn a_refined_map_shows_borders_bands_runs_and_the_critical_rotation() {
     assert_eq!(dots.count(), 2 * (table.points().len() + 1));
 }
 
+/// Symptom: a refined map did not show which of its runs were not steady. Cause: only the phase
+/// diagram did.
+#[test]
+fn a_refined_map_shows_runs_that_were_not_steady() {
+    let axes = vec![
+        axis(RADIUS, &linear(0.002, 0.006, 13)),
+        axis(OMEGA, &linear(0.0, 40.0, 13)),
+    ];
+    let (sweep, mut table) = refined(axes);
+    for row in &mut table.rows {
+        row.verdict.steady = Some(row.values[0] < 0.004);
+    }
+    let svg = draw("refined-unsteady", "refined", &sweep, &table);
+    assert!(has(&svg, "run that was not steady"), "{:?}", texts(&svg));
+}
+
 #[test]
 fn a_third_axis_of_a_refined_map_has_four_panels() {
     let axes = vec![
