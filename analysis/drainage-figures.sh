@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Draws the figures of analysis/spot.md, and writes their tables, from the records of
-# analysis/drainage.sh. The figure of costs is drawn from records of benches/fidelity --keep.
+# analysis/drainage.sh, and the figure of costs from those of `benches/fidelity --keep FIDELITY`.
 #
-#   analysis/drainage-figures.sh [FOLDER [RESULTS]]
+#   analysis/drainage-figures.sh [FOLDER [RESULTS [FIDELITY]]]
 set -euo pipefail
 cd "$(dirname "$0")/.."
 phase=${PHASE:-target/release/phase}
 folder=${1:-scratch/drainage}
 results=${2:-results/drainage}
+fidelity=${3:-scratch/fidelity}
 
 # Draws figures of records: figures NAME "FIGURES" TIMES RECORD=LABEL...; the name may be empty.
 figures() {
@@ -41,6 +42,9 @@ figures pair mixing,diffusion,velocity-correlation,retention,residence 40,120 "$
 figures pair packing-map 20,120 "${pair[@]}"
 figures walls cross-profile 5,30 wall0.1="0.1" wall0.3="0.3" dt4="0.5" wall0.7="0.7" wall0.9="0.9"
 figures walls velocity-profile 40,120 dem="wall friction 0.5" dem-wall0.3="wall friction 0.3" dem-wall0.1="wall friction 0.1"
+folder=$fidelity figures fidelity cost-error 5,30 fidelity-0="discrete elements, Δt = 10⁻⁴ τ" \
+    fidelity-1="4 times the step" fidelity-2="spots, every move" fidelity-3="1 in 10" fidelity-4="every 10th" \
+    fidelity-5="1 in 100" fidelity-6="all, k = 1" fidelity-7="all, k = 10" fidelity-8="never"
 
 "$phase" compare "$folder"/{dem,base}.h5 --times 40,120 --out "$results/pair.csv"
 "$phase" compare "$folder"/{dt1,dt2,dt4,dt8,seed2}.h5 --times 5,30 --out "$results/steps.csv"
