@@ -89,7 +89,7 @@ fn runs_at_borders_are_the_same_however_they_come_about() {
 fn a_sweep_that_is_killed_at_borders_goes_on() {
     let place = Workplace::new();
     let slow = TinySweep {
-        duration: 60.0,
+        duration: 30.0,
         frame_interval: 0.1,
         ..tiny("at_borders = 4")
     };
