@@ -175,13 +175,9 @@ pub fn fitted_lines(source: &Source<'_>) -> Result<Vec<FittedLine>, PlotError> {
 
 /// The law, with markup.
 fn law(outlet: &Outlet) -> String {
-    let exponent = match outlet.opening {
-        Opening::Flat => "³⁄²",
-        Opening::Round => "⁵⁄²",
-    };
-    let width = match outlet.width {
-        1.0 => "",
-        _ => ", $D$ = 2 $R_o$",
+    let (exponent, width) = match outlet.opening {
+        Opening::Flat => ("³⁄²", ""),
+        Opening::Round => ("⁵⁄²", ", $D$ = 2 $R_o$"),
     };
     format!("$W$ = $C$ √$g$ $n$ ($D$ − $k$ $d$){exponent}{width}")
 }
