@@ -1,11 +1,12 @@
 //! Figures of made-up tables of a box that drains.
 
+use crate::made_up::{self, axis, source};
 use crate::support::texts;
-use phase::classify::{DRAINAGE, Label, LabelRow, LabelTable, Sieves, Verdict};
+use phase::classify::{DRAINAGE, Label, LabelTable, Verdict};
 use phase::plot::{self, FittedLine, PlotError, Source, fitted_lines};
 use phase::record::Program;
 use phase::scene::Scene;
-use phase::sweep::{Axis, PlotSettings, Sweep};
+use phase::sweep::Sweep;
 use serde_json::json;
 use std::f64::consts::PI;
 
@@ -28,49 +29,18 @@ fn scene(opening: &str) -> Scene {
 
 /// A sweep over the opening, and the table of its made-up runs.
 fn made_up(opening: &str, values: &[f64], rate: impl Fn(f64) -> f64) -> (Sweep, LabelTable) {
-    let name = opening.to_owned();
-    let row = |(index, &value): (usize, &f64)| LabelRow {
-        id: format!("{index:016x}"),
-        values: vec![value],
-        seed: 1,
-        verdict: Verdict::unmeasured(&DRAINAGE, Label::DRAINING)
+    let axes = vec![axis((&format!("tank.{opening}"), opening), values)];
+    let sweep = made_up::sweep("A made-up box", scene(opening), axes, &[1]);
+    let table = made_up::table(&DRAINAGE, &sweep, |values, _| {
+        Verdict::unmeasured(&DRAINAGE, Label::DRAINING)
             .with("start_packing_fraction", Some(PACKING))
-            .and_then(|it| it.with("outflow_rate", Some(rate(value))))
-            .unwrap(),
-    };
-    let table = LabelTable {
-        family: &DRAINAGE,
-        axes: vec![name.clone()],
-        rows: values.iter().enumerate().map(row).collect(),
-    };
-    let sweep = Sweep {
-        title: None,
-        scene: scene(opening),
-        axes: vec![Axis {
-            key: format!("tank.{opening}"),
-            name,
-            values: values.to_vec(),
-        }],
-        seeds: vec![1],
-        border_seeds: Vec::new(),
-        border_points: Vec::new(),
-        refine: None,
-        sieves: Sieves::default(),
-        plot: PlotSettings::default(),
-    };
+            .and_then(|it| it.with("outflow_rate", Some(rate(values[0]))))
+    });
     (sweep, table)
 }
 
 fn with<T>(sweep: &Sweep, table: &LabelTable, action: impl Fn(&Source<'_>) -> T) -> T {
-    action(&Source {
-        sweep,
-        table,
-        record: &|id| panic!("a figure of a table read the record {id}"),
-        points: &[],
-        times: None,
-        captions: &[],
-        program: &Program::current(),
-    })
+    action(&source(sweep, table, &Program::current()))
 }
 
 /// The only line that is fitted, and the text of the figure.

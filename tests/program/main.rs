@@ -21,6 +21,7 @@ mod format;
 mod formats;
 mod limits;
 mod loss;
+mod made_up;
 mod model;
 mod plot;
 mod published;

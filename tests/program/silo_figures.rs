@@ -2,14 +2,14 @@
 //!
 //! Every figure drawn here is left in `target/tmp` to look at.
 
+use crate::made_up::{self, axis, source};
 use crate::support::texts;
 use phase::beverloo::{Bed, Opening};
-use phase::classify::{FAMILIES, Label, SILO, Sieves, Verdict};
-use phase::classify::{LabelRow, LabelTable};
-use phase::plot::{self, PlotError, Source, fitted_lines};
+use phase::classify::{FAMILIES, Label, LabelTable, SILO, Verdict};
+use phase::plot::{self, PlotError, fitted_lines};
 use phase::record::Program;
 use phase::scene::Scene;
-use phase::sweep::{Axis, PlotSettings, Sweep};
+use phase::sweep::Sweep;
 use serde_json::json;
 use std::f64::consts::PI;
 use std::fs;
@@ -54,44 +54,14 @@ fn scene() -> Scene {
 /// A sweep over opening and friction, and the table of its made-up runs: they follow the law of
 /// Beverloo but for half a grain per second, and narrow openings are blocked if there is friction.
 fn made_up() -> (Sweep, LabelTable) {
-    let axis = |key: &str, name: &str, values: &[f64]| Axis {
-        key: key.to_owned(),
-        name: name.to_owned(),
-        values: values.to_vec(),
-    };
     let axes = vec![
-        axis("geometry.opening", "opening", &OPENINGS),
-        axis("friction.coefficient", "friction", &FRICTIONS),
+        axis(("geometry.opening", "opening"), &OPENINGS),
+        axis(("friction.coefficient", "friction"), &FRICTIONS),
     ];
-    let mut rows = Vec::new();
-    for opening in OPENINGS {
-        for friction in FRICTIONS {
-            for seed in SEEDS {
-                rows.push(LabelRow {
-                    id: format!("{:016x}", rows.len()),
-                    values: vec![opening, friction],
-                    seed,
-                    verdict: verdict(opening, friction, seed),
-                });
-            }
-        }
-    }
-    let table = LabelTable {
-        family: &SILO,
-        axes: vec!["opening".to_owned(), "friction".to_owned()],
-        rows,
-    };
-    let sweep = Sweep {
-        title: Some("A made-up silo".to_owned()),
-        scene: scene(),
-        axes,
-        seeds: SEEDS.to_vec(),
-        border_seeds: Vec::new(),
-        border_points: Vec::new(),
-        refine: None,
-        sieves: Sieves::default(),
-        plot: PlotSettings::default(),
-    };
+    let sweep = made_up::sweep("A made-up silo", scene(), axes, &SEEDS);
+    let table = made_up::table(&SILO, &sweep, |values, seed| {
+        Some(verdict(values[0], values[1], seed))
+    });
     (sweep, table)
 }
 
@@ -115,18 +85,6 @@ fn verdict(opening: f64, friction: f64, seed: u64) -> Verdict {
     values.into_iter().fold(verdict, |verdict, (name, value)| {
         verdict.with(name, value).unwrap()
     })
-}
-
-fn source<'a>(sweep: &'a Sweep, table: &'a LabelTable, program: &'a Program) -> Source<'a> {
-    Source {
-        sweep,
-        table,
-        record: &|id| panic!("a figure of a table read the record {id}"),
-        points: &[],
-        times: None,
-        captions: &[],
-        program,
-    }
 }
 
 fn drawn(figure: &str, sweep: &Sweep, table: &LabelTable) -> Result<String, PlotError> {
@@ -259,11 +217,7 @@ fn figures_of_the_other_family_are_refused() {
 fn the_law_is_fitted_with_the_gravity_of_each_line() {
     const GRAVITIES: [f64; 2] = [9.81, 2.4525];
     let (mut sweep, mut table) = made_up();
-    sweep.axes[1] = Axis {
-        key: "gravity.acceleration".to_owned(),
-        name: "gravity".to_owned(),
-        values: GRAVITIES.to_vec(),
-    };
+    sweep.axes[1] = axis(("gravity.acceleration", "gravity"), &GRAVITIES);
     table.axes[1] = "gravity".to_owned();
     for row in &mut table.rows {
         let gravity = if row.values[1] > 0.0 {

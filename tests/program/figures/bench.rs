@@ -1,8 +1,10 @@
 //! What the tests share: a made-up sweep with its runs, and what an SVG shows.
 
+use crate::made_up;
+pub(crate) use crate::made_up::axis;
 pub(crate) use crate::support::texts;
 use ndarray::{Array2, Array3};
-use phase::classify::{Label, Sieves, TANK, Verdict};
+use phase::classify::{Label, TANK, Verdict};
 use phase::classify::{LabelRow, LabelTable};
 use phase::observe::{Observations, Snapshot};
 use phase::plot::{self, PlotError, Source, Svg};
@@ -10,7 +12,7 @@ use phase::record::{Outcome, Program, RunRecord};
 use phase::scene::Scene;
 use phase::scene::{Coulomb, Friction};
 use phase::store::StoreError;
-use phase::sweep::{Axis, PlotSettings, Sweep, parse_point};
+use phase::sweep::{Sweep, parse_point};
 use serde_json::json;
 use std::cell::RefCell;
 use std::fs;
@@ -47,14 +49,9 @@ pub(crate) struct Tank {
 
 impl Tank {
     pub(crate) fn new(label: impl Fn(f64, f64, u64) -> Label) -> Self {
-        let axis = |key: &str, name: &str, values: &[f64]| Axis {
-            key: key.to_owned(),
-            name: name.to_owned(),
-            values: values.to_vec(),
-        };
         let axes = vec![
-            axis("spheres.radius", "radius", &[0.002, 0.004, 0.006]),
-            axis("swirl.omega", "omega", &[0.0, 2.0, 6.0, 12.0, 40.0]),
+            axis(("spheres.radius", "radius"), &[0.002, 0.004, 0.006]),
+            axis(("swirl.omega", "omega"), &[0.0, 2.0, 6.0, 12.0, 40.0]),
         ];
         let mut rows = Vec::new();
         for &radius in &axes[0].values {
@@ -77,17 +74,7 @@ impl Tank {
                 axes: axes.iter().map(|axis| axis.name.clone()).collect(),
                 rows,
             },
-            sweep: Sweep {
-                title: Some("A made-up tank".to_owned()),
-                scene: scene(),
-                axes,
-                seeds: vec![1, 2],
-                border_seeds: Vec::new(),
-                border_points: Vec::new(),
-                refine: None,
-                sieves: Sieves::default(),
-                plot: PlotSettings::default(),
-            },
+            sweep: made_up::sweep("A made-up tank", scene(), axes, &[1, 2]),
             duration: 5.0,
             read: RefCell::default(),
         }
@@ -119,11 +106,7 @@ impl Tank {
                 })
                 .collect();
             tank.table.axes.push(name.to_owned());
-            tank.sweep.axes.push(Axis {
-                key: key.to_owned(),
-                name: name.to_owned(),
-                values: values.to_vec(),
-            });
+            tank.sweep.axes.push(axis((key, name), &values));
         }
         tank
     }

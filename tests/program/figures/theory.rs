@@ -1,8 +1,7 @@
 //! Figures of theory alone.
 
-use super::bench::{Tank, lines, shows, texts};
+use super::bench::{Tank, axis, lines, shows, texts};
 use super::runs::svg_bottom;
-use phase::sweep::Axis;
 
 #[test]
 fn critical_rotation_is_that_of_the_theory() {
@@ -28,11 +27,7 @@ fn critical_rotation_is_that_of_the_theory() {
 #[test]
 fn critical_rotation_has_a_line_for_each_number_of_spheres() {
     let mut tank = Tank::settled();
-    tank.sweep.axes[1] = Axis {
-        key: "spheres.count".to_owned(),
-        name: "count".to_owned(),
-        values: vec![64.0, 256.0],
-    };
+    tank.sweep.axes[1] = axis(("spheres.count", "count"), &[64.0, 256.0]);
     let svg = tank.draw("critical-rotation-counts", "critical-rotation", &[]);
     shows(&svg, &["n = 64", "n = 256", "R = 60 mm, g = 9.8 m/s²"]);
     let lines = lines(&svg);

@@ -1,12 +1,14 @@
 //! What the tests share: synthetic tables, and what an SVG shows.
 
+use crate::made_up;
+pub(crate) use crate::made_up::axis;
 pub(crate) use crate::support::texts;
-use phase::classify::{Label, Sieves, TANK, Verdict};
+use phase::classify::{Label, TANK, Verdict};
 use phase::classify::{LabelRow, LabelTable};
-use phase::plot::{self, PlotError, Source, Svg};
+use phase::plot::{self, PlotError, Svg};
 use phase::record::Program;
 use phase::scene::Scene;
-use phase::sweep::{Axis, PlotSettings, Sweep};
+use phase::sweep::{Axis, Sweep};
 use serde_json::json;
 use std::fs;
 use std::path::Path;
@@ -49,14 +51,6 @@ fn scene() -> Scene {
     .unwrap()
 }
 
-pub(crate) fn axis((key, name): (&str, &str), values: &[f64]) -> Axis {
-    Axis {
-        key: key.to_owned(),
-        name: name.to_owned(),
-        values: values.to_vec(),
-    }
-}
-
 /// `count` values from `from` to `to`.
 pub(crate) fn linear(from: f64, to: f64, count: usize) -> Vec<f64> {
     (0..count)
@@ -65,49 +59,12 @@ pub(crate) fn linear(from: f64, to: f64, count: usize) -> Vec<f64> {
 }
 
 pub(crate) fn sweep(title: &str, axes: Vec<Axis>, seeds: &[u64]) -> Sweep {
-    Sweep {
-        title: Some(title.to_owned()),
-        scene: scene(),
-        axes,
-        seeds: seeds.to_vec(),
-        border_seeds: Vec::new(),
-        border_points: Vec::new(),
-        refine: None,
-        sieves: Sieves::default(),
-        plot: PlotSettings::default(),
-    }
+    made_up::sweep(title, scene(), axes, seeds)
 }
 
 /// The table of a sweep whose verdicts are given by values and seed.
 pub(crate) fn table(sweep: &Sweep, verdict: impl Fn(&[f64], u64) -> Option<Verdict>) -> LabelTable {
-    let mut points = vec![Vec::new()];
-    for axis in &sweep.axes {
-        points = points
-            .into_iter()
-            .flat_map(|point: Vec<f64>| {
-                let extend = move |value: &f64| [point.clone(), vec![*value]].concat();
-                axis.values.iter().map(extend).collect::<Vec<_>>()
-            })
-            .collect();
-    }
-    let mut rows = Vec::new();
-    for values in points {
-        for &seed in &sweep.seeds {
-            if let Some(verdict) = verdict(&values, seed) {
-                rows.push(LabelRow {
-                    id: format!("{:016x}", rows.len()),
-                    values: values.clone(),
-                    seed,
-                    verdict,
-                });
-            }
-        }
-    }
-    LabelTable {
-        family: &TANK,
-        axes: sweep.axes.iter().map(|axis| axis.name.clone()).collect(),
-        rows,
-    }
+    made_up::table(&TANK, sweep, verdict)
 }
 
 pub(crate) fn verdict(label: Label) -> Verdict {
@@ -160,16 +117,8 @@ pub(crate) fn made_up(radius: f64, omega: f64, jitter: f64) -> Verdict {
 
 /// A figure of a table alone.
 pub(crate) fn of_table(name: &str, sweep: &Sweep, table: &LabelTable) -> Result<Svg, PlotError> {
-    let source = Source {
-        sweep,
-        table,
-        record: &|id| panic!("a figure of a table read the record {id}"),
-        points: &[],
-        times: None,
-        captions: &[],
-        program: &program(),
-    };
-    plot::draw(name, &source)
+    let program = program();
+    plot::draw(name, &made_up::source(sweep, table, &program))
 }
 
 /// Draws a figure twice, checks that its bytes are equal, and leaves its files in target/tmp.
