@@ -46,8 +46,7 @@ impl Estimate {
 
 /// Ends of the interval of [`CONFIDENCE`] for a share found in that many independent trials:
 /// Wilson's score interval (E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927)). It stays between 0
-/// and 1. For the mean of shares it is wide enough, because no distribution on [0, 1] scatters more
-/// than that of yes and no.
+/// and 1.
 ///
 /// ```
 /// let [low, high] = phase::statistics::share_interval(1.0, 12);
@@ -62,6 +61,28 @@ pub fn share_interval(share: f64, trials: usize) -> [f64; 2] {
     let scatter = share * (1.0 - share) / count + 0.25 * square / count;
     let half = Z * scatter.sqrt() / (1.0 + square);
     [(centre - half).max(0.0), (centre + half).min(1.0)]
+}
+
+/// Ends of the interval of [`CONFIDENCE`] for the mean of independent shares; none without any. That
+/// of Student's t, cut off at 0 and 1; where all are 0 or 1, and may not have scattered by chance,
+/// that of Wilson ([`share_interval`]).
+///
+/// ```
+/// use phase::statistics::mean_share_interval;
+///
+/// let [low, high] = mean_share_interval(&[0.4, 0.5, 0.6]).unwrap();
+/// assert!((low - 0.251_6).abs() < 1e-4 && (high - 0.748_4).abs() < 1e-4);
+/// assert_eq!(mean_share_interval(&[0.5]), Some([0.0, 1.0]));
+/// let [low, high] = mean_share_interval(&[1.0, 1.0, 1.0]).unwrap();
+/// assert!((low - 0.438_5).abs() < 1e-4 && high == 1.0);
+/// ```
+pub fn mean_share_interval(shares: &[f64]) -> Option<[f64; 2]> {
+    let Estimate { value, half_width } = Estimate::of_mean(shares)?;
+    let are_yes_or_no = shares.iter().all(|share| [0.0, 1.0].contains(share));
+    Some(match are_yes_or_no {
+        true => share_interval(value, shares.len()),
+        false => [value - half_width, value + half_width].map(|end| end.clamp(0.0, 1.0)),
+    })
 }
 
 /// The t of Student's distribution with `freedom` (1 or more) degrees of freedom for which |T| <= t

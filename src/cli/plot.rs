@@ -296,7 +296,7 @@ fn print_fits(
         program: &program,
     });
     let entries = lines
-        .map_err(refused_or_failed)?
+        .map_err(|error| refused_or_failed(folder, error))?
         .into_iter()
         .map(|line| FitEntry {
             folder: folder.root().to_owned(),
@@ -365,7 +365,7 @@ pub(super) fn draw_round(
             program: &Program::current(),
         },
     );
-    let figure = figure.map_err(refused_or_failed)?;
+    let figure = figure.map_err(|error| refused_or_failed(folder, error))?;
     for (extension, bytes) in images(&figure)? {
         let path = folder.root().join(format!("{REFINED}.{extension}"));
         store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
@@ -396,16 +396,17 @@ fn draw(
             program: &program,
         },
     );
-    let figure = figure.map_err(refused_or_failed)?;
+    let figure = figure.map_err(|error| refused_or_failed(folder, error))?;
     let file = |extension: &str| place.join(format!("{name}.{extension}"));
     write(&figure, file, console)
 }
 
-fn refused_or_failed(error: PlotError) -> Failure {
-    if error.is_of_request() {
-        Failure::refused(error)
-    } else {
-        Failure::failed(error)
+/// Why a figure of a folder is not drawn.
+fn refused_or_failed(folder: &Folder, error: PlotError) -> Failure {
+    let text = format!("{}: {error}", folder.root().display());
+    match error.is_of_request() {
+        true => Failure::refused(text),
+        false => Failure::failed(text),
     }
 }
 

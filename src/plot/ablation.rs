@@ -31,7 +31,7 @@ pub fn draw(
     program: &Program,
 ) -> Result<Svg, PlotError> {
     if ablated.is_empty() {
-        return Err(PlotError::NoMeasures);
+        return Err(PlotError::NoMeasures { figure: "ablation" });
     }
     let title = sweep
         .title

@@ -94,10 +94,13 @@ impl Panel {
         Self { y, bars, ..self }
     }
 
-    /// The same with heights over powers of ten; all values must be above zero.
+    /// The same with heights over powers of ten; all values must be above zero. Intervals are in
+    /// sight down to a tenth of their value.
     pub(super) fn logarithmic(self) -> Self {
         let points = self.lines.iter().flat_map(|line| &line.points);
-        let y = decades(points.map(|point| point.1));
+        let bars = self.bars.iter();
+        let ends = bars.flat_map(|bar| [bar.ends[0].max(0.1 * bar.at.1), bar.ends[1]]);
+        let y = decades(points.map(|point| point.1).chain(ends));
         let logarithmic = [self.logarithmic[0], true];
         Self {
             y,
@@ -202,7 +205,8 @@ impl Panel {
             sheet.draw(&PathElement::new(points, style::line(line.color)))?;
         }
         for bar in &self.bars {
-            let ([low, high], ink) = (bar.ends, bar.color.filled().stroke_width(12));
+            let [low, high] = bar.ends.map(|end| end.clamp(self.y.0, self.y.1));
+            let ink = bar.color.filled().stroke_width(12);
             let (x, y) = bar.at;
             plot.draw(&ErrorBar::new_vertical(x, low, y, high, ink, px(6) as u32))?;
         }

@@ -7,7 +7,7 @@ use super::series::{self, Series};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
-use crate::statistics::{Estimate, share_interval};
+use crate::statistics::{Estimate, mean_share_interval};
 
 /// Every measure over the horizontal axis.
 pub(super) struct MeasuresFigure;
@@ -34,7 +34,8 @@ impl Figure for MeasuresFigure {
             .filter_map(|map| panel(source, map, &lines, &axis, x))
             .collect();
         if panels.is_empty() {
-            return Err(PlotError::NoMeasures);
+            let figure = self.name();
+            return Err(PlotError::NoMeasures { figure });
         }
         let named = lines.iter().filter(|line| !line.name.is_empty());
         let seeds = match (source.sweep.seeds.len(), source.sweep.border_seeds.len()) {
@@ -42,8 +43,8 @@ impl Figure for MeasuresFigure {
             (seeds, more) => format!("{seeds} seeds, at borders {}", seeds + more),
         };
         let note = format!(
-            "Points: means over {seeds}, or over those that have a value. Bars: 95 % \
-             intervals of the means (Student's t; of shares Wilson's)."
+            "Points: means over {seeds}, or over those that have a value. Bars: 95 % intervals of \
+             the means (Student's t, within 0 and 1 for shares; Wilson's where all are 0 or 1)."
         );
         Chart {
             name: self.name(),
@@ -81,10 +82,13 @@ fn panel(
                 let values = map.values(source, point);
                 let mean = Estimate::of_mean(&values)?;
                 let at = (axis.show(*at) + aside, mean.value);
-                Some(match map.is_share() {
-                    true => Bar::between(at, share_interval(mean.value, values.len()), line.color),
-                    false => Bar::about(at, mean.half_width, line.color),
-                })
+                match map.is_share() {
+                    true => {
+                        let ends = mean_share_interval(&values)?;
+                        Some(Bar::between(at, ends, line.color))
+                    }
+                    false => Some(Bar::about(at, mean.half_width, line.color)),
+                }
             })
             .collect();
         // A line between two points would only repeat them.

@@ -314,8 +314,11 @@ pub enum PlotError {
     )]
     EmptyTable,
     /// No run has what the figure shows.
-    #[error("no run has a measure that the figure shows")]
-    NoMeasures,
+    #[error("no run has a measure that the figure `{figure}` shows")]
+    NoMeasures {
+        /// The figure.
+        figure: &'static str,
+    },
     /// The table was not made of this sweep.
     #[error("the table has the axes {table}, but the sweep has {sweep}; classify it again")]
     OtherAxes {

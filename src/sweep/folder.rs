@@ -22,8 +22,8 @@ pub struct Folder {
 /// What can be wrong with a results folder.
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
-    /// The path is not a folder.
-    #[error("{}: there is no such folder; check the path", .0.display())]
+    /// Nothing is at the path.
+    #[error("{}: there is no such file or folder; check the path", .0.display())]
     Missing(PathBuf),
     /// The path is a file.
     #[error(

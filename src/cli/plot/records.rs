@@ -15,6 +15,8 @@ use std::path::{Path, PathBuf};
 pub(super) struct RecordFigure {
     pub(super) name: &'static str,
     description: &'static str,
+    /// Whether a record holds what it shows.
+    is_of: fn(&RunRecord) -> bool,
     draw: fn(&RunRecord) -> Result<Svg, PlotError>,
 }
 
@@ -23,11 +25,13 @@ pub(super) const OF_ONE: [RecordFigure; 2] = [
     RecordFigure {
         name: "tracks",
         description: "paths of the spheres, from the record of one run with its trajectory",
+        is_of: |record| record.trajectory.len() > 1,
         draw: plot::draw_tracks,
     },
     RecordFigure {
         name: "ledger",
         description: "where the energy went, from the record of one run with its ledger",
+        is_of: |record| !record.observations.residual.is_empty(),
         draw: plot::draw_ledger,
     },
 ];
@@ -56,18 +60,24 @@ pub(super) fn list(path: &Path) -> Result<Vec<Entry>, Failure> {
         default_runs: None,
         families: Vec::new(),
     });
-    Ok(of_one().into_iter().chain(of_runs).collect())
+    let of_one = OF_ONE.iter().filter(|figure| (figure.is_of)(&record));
+    Ok(of_one.map(RecordFigure::entry).chain(of_runs).collect())
 }
 
 /// The entries of what one record alone has.
 pub(super) fn of_one() -> Vec<Entry> {
-    let entry = |figure: RecordFigure| Entry {
-        name: figure.name,
-        description: figure.description.to_owned(),
-        default_runs: None,
-        families: Vec::new(),
-    };
-    OF_ONE.map(entry).into()
+    OF_ONE.iter().map(RecordFigure::entry).collect()
+}
+
+impl RecordFigure {
+    fn entry(&self) -> Entry {
+        Entry {
+            name: self.name,
+            description: self.description.to_owned(),
+            default_runs: None,
+            families: Vec::new(),
+        }
+    }
 }
 
 /// Draws figures of one record, or of several beside each other: NAME.h5 gives NAME-tracks.svg and
@@ -109,7 +119,9 @@ pub(super) fn draw(
         };
         match image {
             Err(
-                error @ (PlotError::NoTrajectory | PlotError::NoLedger | PlotError::NoMeasures),
+                error @ (PlotError::NoTrajectory
+                | PlotError::NoLedger
+                | PlotError::NoMeasures { .. }),
             ) if arguments.figure.is_empty() => {
                 missing.get_or_insert(error);
             }

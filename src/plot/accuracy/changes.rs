@@ -50,7 +50,9 @@ pub(super) fn draw(
         .flat_map(|panel| panel.cells.iter().flatten().copied());
     let bar = ColorBar::new(values, true, "labels changed".to_owned());
     let Some(bar) = bar else {
-        return Err(PlotError::NoMeasures);
+        return Err(PlotError::NoMeasures {
+            figure: "label-changes",
+        });
     };
     let diagram = Diagram {
         name: "label-changes",

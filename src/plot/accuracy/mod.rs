@@ -28,7 +28,7 @@ pub fn draw_all(
         let drawn = changes::draw(study, comparison, evaluation, program);
         figures.push(("label-changes", drawn));
     }
-    figures.retain(|(_, figure)| !matches!(figure, Err(PlotError::NoMeasures)));
+    figures.retain(|(_, figure)| !matches!(figure, Err(PlotError::NoMeasures { .. })));
     figures
 }
 

@@ -38,7 +38,9 @@ pub(super) fn draw(
 ) -> Result<Svg, PlotError> {
     let dots = dots(evaluation);
     if dots.is_empty() {
-        return Err(PlotError::NoMeasures);
+        return Err(PlotError::NoMeasures {
+            figure: "work-precision",
+        });
     }
     let mut methods: Vec<&str> = Vec::new();
     for dot in dots.iter().filter(|dot| !dot.is_base) {

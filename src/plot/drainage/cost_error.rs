@@ -54,7 +54,8 @@ impl Figure for CostError {
                 });
             }
         };
-        let panels = panels(reference, others).ok_or(PlotError::NoMeasures)?;
+        let figure = self.name();
+        let panels = panels(reference, others).ok_or(PlotError::NoMeasures { figure })?;
         let time = units.of_time();
         Chart {
             name: self.name(),

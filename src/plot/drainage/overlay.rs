@@ -121,7 +121,7 @@ impl Figure for Overlay {
             .iter()
             .all(|panel| panel.lines.iter().all(|it| it.points.is_empty()))
         {
-            return Err(PlotError::NoMeasures);
+            return Err(PlotError::NoMeasures { figure: self.name });
         }
         let count = shown.len();
         let named = shown.into_iter().enumerate();
@@ -224,6 +224,7 @@ impl Frame {
                 color,
             });
             let intervals = points.zip(&curve.half_widths);
+            let intervals = intervals.filter(|(at, _)| drawable(at));
             bars.extend(intervals.map(|(at, half)| Bar::about(at, *half, color)));
         }
         let places = lines.iter().flat_map(|line| &line.points);

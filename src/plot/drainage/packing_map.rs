@@ -142,7 +142,8 @@ fn draw(
         y: Span::linear((0.0, map.extent[1])),
     };
     let label = "local packing fraction".to_owned();
-    let bar = ColorBar::new(RANGE.into_iter(), false, label).ok_or(PlotError::NoMeasures)?;
+    let bar = ColorBar::new(RANGE.into_iter(), false, label);
+    let bar = bar.ok_or(PlotError::NoMeasures { figure: name })?;
     let height = px(420);
     let notes = [format!(
         "Volume over that of the Voronoi cells, of the spheres within {DISTANCE} diameters of a \

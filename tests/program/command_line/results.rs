@@ -109,7 +109,7 @@ fn a_folder_of_several_results_is_taken_as_all_of_them() {
     place
         .phase(&["status", "absent"])
         .code(2)
-        .complains("absent: there is no such folder");
+        .complains("absent: there is no such file or folder");
     place
         .phase(&["status", "results/a/records"])
         .code(2)

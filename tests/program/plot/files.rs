@@ -75,7 +75,7 @@ fn every_figure_can_be_drawn_of_a_table_without_values() {
     }
     // A panel per measure that a run has: of none there is nothing to draw.
     let nothing = of_table("measures", &sweep, &table);
-    assert!(matches!(nothing, Err(PlotError::NoMeasures)));
+    assert!(matches!(nothing, Err(PlotError::NoMeasures { .. })));
 }
 
 #[test]
