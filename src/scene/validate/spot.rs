@@ -192,6 +192,13 @@ impl Scene {
                 rounded(farthest)
             );
             let (key, help) = match &spot.weighting {
+                _ if spot.longest_step() > spot.radius => (
+                    match spot.horizontal_step() > spot.vertical_step {
+                        true => "spot.diffusion_length",
+                        false => "spot.vertical_step",
+                    },
+                    "make it smaller: a step of a spot is longer than its radius",
+                ),
                 Some(it) if it.volume_ratio / it.least_count > 1.0 / spot.displacement_ratio => (
                     "spot.weighting.least_count",
                     "make it larger, or `volume_ratio` smaller",
@@ -232,10 +239,15 @@ impl Spot {
         (2.0 * self.diffusion_length * self.vertical_step).sqrt()
     }
 
+    /// Length of a step of a spot that no wall cuts off (m).
+    fn longest_step(&self) -> f64 {
+        let across = self.horizontal_step();
+        (2.0 * across * across + self.vertical_step * self.vertical_step).sqrt()
+    }
+
     /// Longest displacement of a sphere in one move (m).
     fn farthest_displacement(&self) -> f64 {
-        let across = self.horizontal_step();
-        let step = (2.0 * across * across + self.vertical_step * self.vertical_step).sqrt();
+        let step = self.longest_step();
         let fixed = 1.0 / self.displacement_ratio;
         let weighted = self.weighting.map(|it| it.volume_ratio / it.least_count);
         // In a corner a sphere may be in the range of a spot and of three of its images.
