@@ -144,13 +144,14 @@ fn describe_sweep(sweep: &Sweep, jobs: usize) -> String {
     lines.push(line("seeds", seeds.join(", ") + &at_borders));
     if let Some(refining) = &sweep.refine {
         let settings = &refining.settings;
-        lines.push(line(
-            "refined",
-            format_args!(
-                "{jobs} to start, then rounds of {} up to {} in total",
-                settings.round, settings.budget
+        let (round, budget) = (settings.round, settings.budget);
+        let text = match budget > jobs {
+            true => format!("{jobs} to start, then rounds of {round} up to {budget} in total"),
+            false => format!(
+                "{jobs} to start, which are the budget: raise `refine.budget` for rounds of {round}"
             ),
-        ));
+        };
+        lines.push(line("refined", text));
     }
     lines.push(line("spheres", sweep.scene.spheres.count));
     lines.join("\n")
@@ -200,13 +201,12 @@ fn effects(scene: &Scene) -> Vec<String> {
 
 fn describe_time(scene: &Scene) -> String {
     let (steps, frames) = (scene.time.steps_per_frame(), scene.time.frames());
+    let (duration, unit) = (scene.time.duration, scene.units().of_time());
     if scene.spot.is_some() {
-        return format!("{} s in {frames} frames", scene.time.duration);
+        return format!("{duration} {unit} in {frames} frames");
     }
-    format!(
-        "{} s in {frames} frames of {steps} steps of {} s",
-        scene.time.duration, scene.time.dt
-    )
+    let dt = scene.time.dt;
+    format!("{duration} {unit} in {frames} frames of {steps} steps of {dt} {unit}")
 }
 
 /// The time step over the limit it must not exceed, and over those it had better not; with

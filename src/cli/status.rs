@@ -39,7 +39,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             folder.root().display(),
             text(&status, &sweep.axes, workers)
         ));
-        for line in describe_refined(&sweep, &status) {
+        for line in describe_refined(&sweep, &status, workers) {
             console.result(line);
         }
         folders.push(FolderAnswer {
@@ -62,17 +62,26 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 }
 
 /// How far a refined sweep is, and how well its borders are known.
-fn describe_refined(sweep: &Sweep, status: &Status) -> Vec<String> {
+fn describe_refined(sweep: &Sweep, status: &Status, workers: usize) -> Vec<String> {
     let Some(refining) = &sweep.refine else {
         return Vec::new();
     };
     let runs = status.done + status.failures.len();
+    let budget = refining.settings.budget;
     let mut lines = vec![format!(
-        "  refined    {} of at most {}, {}",
+        "  refined    {} of at most {budget}, {}",
         format::count(runs, "run"),
-        refining.settings.budget,
         format::count(refining.widths.len(), "border")
     )];
+    let more = budget.saturating_sub(runs);
+    if let Some(seconds) = status.cpu_seconds_per_job.filter(|_| more > 0) {
+        let workers = workers.min(more);
+        lines.push(format!(
+            "  budget     about {} with {}, if all of it is spent",
+            format::duration(seconds * more as f64 / workers as f64),
+            format::count(workers, "worker")
+        ));
+    }
     let borders = refined::describe_borders(sweep, refining).into_iter();
     lines.extend(borders.map(|border| format!("  border     {border}")));
     lines

@@ -26,6 +26,8 @@ pub struct Status {
     pub under_way: Vec<UnderWay>,
     /// Processor time that the jobs left may take (s), if any job is done to judge by.
     pub cpu_seconds_left: Option<f64>,
+    /// Mean processor time of the jobs that are done (s), if any is.
+    pub cpu_seconds_per_job: Option<f64>,
     /// Whether a process is at work in the folder.
     pub running: bool,
 }
@@ -94,10 +96,16 @@ impl Status {
                 .filter_map(|job| UnderWay::of(folder, job))
                 .collect(),
             cpu_seconds_left: cpu_seconds_left(plan),
+            cpu_seconds_per_job: cpu_seconds_per_job(plan),
             failures,
             running: folder.is_locked(),
         })
     }
+}
+
+fn cpu_seconds_per_job(plan: &Plan) -> Option<f64> {
+    let seconds: Vec<f64> = plan.done().map(|(_, done)| done.cpu_seconds).collect();
+    (!seconds.is_empty()).then(|| seconds.iter().sum::<f64>() / seconds.len() as f64)
 }
 
 /// Work left over the mean rate of the runs that are done.

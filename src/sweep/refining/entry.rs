@@ -155,7 +155,17 @@ impl RefineEntry {
             }
             axis.values = scale::finer(&axis.values, self.finer).map_err(broken)?;
         }
-        if sweep.points() > MOST_JOBS {
+        let jobs_of = |points: usize| points.saturating_mul(sweep.seeds.len());
+        let jobs = jobs_of(sweep.points());
+        if jobs > MOST_JOBS && jobs_of(of_axes) <= MOST_JOBS {
+            let message = format!(
+                "steps cut into {} parts make a grid of {jobs} jobs",
+                self.finer
+            );
+            let help = format!("{MOST_JOBS} are the most; cut steps into fewer parts");
+            return Err(Problem::new("refine.finer", message).help(help));
+        }
+        if jobs > MOST_JOBS {
             // Refused with the grid as a whole.
             return Ok(());
         }

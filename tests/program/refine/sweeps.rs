@@ -157,6 +157,20 @@ fn the_status_says_how_wide_borders_are() {
         .code(0)
         .says("6 to start, then rounds of 3 up to 14 in total")
         .says("1, 2 at most");
+    assert!(!status_text(&place).contains("if all of it is spent"));
+    // As after an interruption.
+    let sweep = place.read("results/sweep.json");
+    place.write(
+        "results/sweep.json",
+        &sweep.replace("\"budget\": 14", "\"budget\": 20"),
+    );
+    let text = status_text(&place);
+    assert!(text.contains("refined    14 runs of at most 20"), "{text}");
+    assert!(text.contains("if all of it is spent"), "{text}");
+}
+
+fn status_text(place: &Workplace) -> String {
+    place.phase(&["status", "results"]).code(0).stdout
 }
 
 /// What a folder holds but for times: the same runs, whatever was done to make them.
