@@ -204,7 +204,8 @@ fn run<'a>(
     if arguments.animate.is_none() && arguments.each.is_none() {
         let times = shown.iter().map(|at| words::brief(record, at.time));
         let times: Vec<String> = times.collect();
-        console.note(format_args!("shows t = {} s", times.join(", ")));
+        let unit = record.scene.units().of_time();
+        console.note(format_args!("shows t = {} {unit}", times.join(", ")));
     }
     Ok(Run { record, shown })
 }

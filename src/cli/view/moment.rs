@@ -73,7 +73,10 @@ fn nearest<'a>(
     record: &RunRecord,
     states: &'a [Snapshot],
 ) -> Result<&'a Snapshot, Failure> {
-    let interval = record.scene.time.frame_interval;
+    let (interval, unit) = (
+        record.scene.time.frame_interval,
+        record.scene.units().of_time(),
+    );
     let (first, last) = (states[0].time, states[states.len() - 1].time);
     let distance = |state: &Snapshot| (state.time - time).abs();
     states
@@ -82,8 +85,8 @@ fn nearest<'a>(
         .filter(|_| time >= first - 0.5 * interval && time <= last + 0.5 * interval)
         .ok_or_else(|| {
             Failure::refused(format_args!(
-                "there is no state at t = {time} s: the record holds them from {} to {} s \
-                 ({} frames of {interval} s)",
+                "there is no state at t = {time} {unit}: the record holds them from {} to {} {unit} \
+                 ({} frames of {interval} {unit})",
                 brief(record, first),
                 brief(record, last),
                 record.observations.frames()
@@ -97,6 +100,7 @@ fn since<'a>(
     record: &RunRecord,
     states: &'a [Snapshot],
 ) -> Result<&'a Snapshot, Failure> {
+    let unit = record.scene.units().of_time();
     let milestones = &record.milestones;
     let Some(milestone) = milestones.iter().find(|it| it.kind == kind) else {
         let known: Vec<String> = milestones.iter().map(|it| key(it.kind)).collect();
@@ -120,13 +124,13 @@ fn since<'a>(
         .ok_or_else(|| {
             let until = next.map_or(String::new(), |next| {
                 format!(
-                    " and before `{}` ({} s)",
+                    " and before `{}` ({} {unit})",
                     key(next.kind),
                     brief(record, next.time)
                 )
             });
             Failure::refused(format_args!(
-                "there is no state after `{}` ({} s){until}: store more of them with `phase run \
+                "there is no state after `{}` ({} {unit}){until}: store more of them with `phase run \
                  --snapshot-interval`",
                 key(kind),
                 brief(record, milestone.time)
