@@ -120,6 +120,7 @@ fn shipped_sweeps_have_the_grids_they_promise() {
         ("theoretical-refined", 6 * 6),
         ("theoretical-density", 6 * 6 * 3),
         ("realistic-refined", 6 * 6),
+        ("spot-refined", 6 * 6),
     ];
     for (name, jobs) in others {
         let sweep = load_sweep(format!("sweeps/{name}.toml"));
@@ -129,6 +130,7 @@ fn shipped_sweeps_have_the_grids_they_promise() {
         ("theoretical-refined", 41 * 41, 116),
         ("theoretical-density", 41 * 41 * 9, 400),
         ("realistic-refined", 41 * 41, 116),
+        ("spot-refined", 21 * 37, 72),
     ] {
         let sweep = load_sweep(format!("sweeps/{name}.toml"));
         assert_eq!(sweep.points(), points, "{name}");
