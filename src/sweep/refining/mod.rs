@@ -24,6 +24,10 @@ pub struct Refining {
     /// Runs that were in the folder when refining began; they count as part of the budget.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub given: Vec<Run>,
+    /// If the folder held the whole grid when refining began, and more runs than the budget: the
+    /// number of seeds that all its points had. Refining chooses among these runs alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seeds_there: Option<u64>,
     /// Runs that refining has chosen, in its order: the coarse grid first.
     pub chosen: Vec<Run>,
     /// Of all these, runs that failed.
@@ -39,6 +43,7 @@ impl Refining {
     fn new(settings: Settings, lattice: &Lattice) -> Self {
         Self {
             given: Vec::new(),
+            seeds_there: None,
             chosen: start(lattice, &settings),
             failed: Vec::new(),
             widths: Vec::new(),
@@ -59,6 +64,7 @@ impl Refining {
         Self {
             settings: self.settings.clone(),
             given: Vec::new(),
+            seeds_there: None,
             chosen: Vec::new(),
             failed: Vec::new(),
             widths: Vec::new(),

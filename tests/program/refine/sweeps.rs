@@ -247,6 +247,37 @@ fn nothing_is_run_of_a_full_grid() {
     assert_eq!(tables("results"), tables("alone"));
 }
 
+/// Symptom: of a folder with more runs than the budget, but not of the whole grid, those beside the
+/// coarse grid were thrown away, and others were run. Cause: runs counted as data only if they were
+/// fewer than the budget.
+#[test]
+fn nothing_is_run_of_a_part_of_the_grid_with_as_many_runs_as_the_budget() {
+    let place = Workplace::new();
+    let part = tiny(2.0, "").replace(
+        "[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]",
+        "[1.0, 3.0, 4.0, 5.0, 7.0]",
+    );
+    let first = bare(&place, &part, "results", &[]);
+    assert!(first.contains("15 jobs: 15 run now"), "{first}");
+    let said = bare(&place, &tiny(2.0, REFINE), "results", &[]);
+    assert!(said.contains("15 jobs: 0 run now"), "{said}");
+    assert!(said.contains("the budget of 14 runs is spent"), "{said}");
+    let again = bare(&place, &tiny(2.0, REFINE), "results", &[]);
+    assert!(again.contains("15 jobs: 0 run now"), "{again}");
+}
+
+/// Symptom: a finished grid of one seed was not enough for a refined sweep, which ran second seeds.
+#[test]
+fn nothing_is_run_of_a_full_grid_of_one_seed() {
+    let place = Workplace::new();
+    let full = bare(&place, &tiny(2.0, ""), "results", &[]);
+    assert!(full.contains("27 jobs: 27 run now"), "{full}");
+    for _ in 0..2 {
+        let said = bare(&place, &tiny(2.0, REFINE), "results", &[]);
+        assert!(said.contains("14 jobs: 0 run now"), "{said}");
+    }
+}
+
 #[test]
 fn runs_that_are_there_count_as_data() {
     let place = Workplace::new();
