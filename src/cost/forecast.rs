@@ -4,7 +4,7 @@ use super::representatives::{Representative, representatives};
 use super::{CostError, RECORD, RunCost, START};
 use crate::record::RunRecord;
 use crate::run::{self, RunError};
-use crate::scene::Scene;
+use crate::scene::{Scene, Start};
 use crate::store::{self, StoreError};
 use crate::sweep::{Job, work};
 use std::ops::ControlFlow;
@@ -126,6 +126,11 @@ fn try_job(job: &Job, budget: Duration, leaves: Leaves) -> Result<Trial, Forecas
         id: job.id.clone(),
         source,
     };
+    if matches!(job.scene.start, Start::Packing {}) {
+        // A packing is made once and kept: before the clock runs.
+        let built = run::model_of(&job.scene).build(&job.scene);
+        built.map_err(|source| failed(source.into()))?;
+    }
     // The rest of the budget is for runs that end, since only these tell the size of a whole
     // record.
     let cost = RunCost::measure(&job.scene, budget / 2).map_err(failed)?;
@@ -134,7 +139,7 @@ fn try_job(job: &Job, budget: Duration, leaves: Leaves) -> Result<Trial, Forecas
         (Leaves::Records, true) => size_of_record(&cost.record)?,
         (Leaves::Records, false) => {
             let all_frames = job.scene.time.frames();
-            size_of_whole_run(job, (cost.frames / 2).max(20).min(all_frames))?
+            size_of_whole_run(job, (cost.frames / 2).max(2).min(all_frames))?
         }
     };
     let start = cost.seconds(START);
@@ -144,7 +149,7 @@ fn try_job(job: &Job, budget: Duration, leaves: Leaves) -> Result<Trial, Forecas
         Leaves::Nothing => 0.0,
     };
     Ok(Trial {
-        step: (cost.elapsed - start).max(0.0) / cost.work.max(1) as f64,
+        step: cost.elapsed / cost.work.max(1) as f64,
         once: start + record,
         disk,
         // The record in memory and as the bytes of its file, neither compressed.

@@ -50,7 +50,7 @@ pub struct RunCost {
     /// What each part of what was run costs: those of the model's step, then observers, record and
     /// start.
     pub parts: Vec<PartCost>,
-    /// Time of day that it took (s), all but the record.
+    /// Time of day that its frames took (s): all but start and record.
     pub elapsed: f64,
     /// Work of what was run, in the unit of the model, sub-steps not counted.
     pub work: u64,
@@ -83,7 +83,6 @@ impl RunCost {
         scene: &Scene,
         budget: Duration,
     ) -> Result<Self, CostError> {
-        let clock = Instant::now();
         let mut meter = Meter::new();
         let mut run = Run::with_simulation(scene, model.build(scene)?);
         let start = meter.lap();
@@ -91,10 +90,11 @@ impl RunCost {
         // The profile finds out what one reading of the clock takes, which is no part of the run.
         let reading = run.profile().map_or(0.0, Profile::reading);
         meter.skip();
+        let (clock, begun) = (Instant::now(), meter.latest);
         let (mut advancing, mut observing, mut frames) = (0.0, 0.0, 0);
         let budget = budget.as_secs_f64();
         // One frame at least, or nothing is known of a step.
-        while !run.ended() && (frames == 0 || meter.latest - meter.started < budget) {
+        while !run.ended() && (frames == 0 || meter.latest - begun < budget) {
             run.advance_steps();
             advancing += meter.lap() - reading;
             run.look();
@@ -185,16 +185,13 @@ fn parts_of_steps(
 
 /// Processor time from one reading to the next.
 struct Meter {
-    started: f64,
     latest: f64,
 }
 
 impl Meter {
     fn new() -> Self {
-        let now = cpu_time::of_this_thread();
         Self {
-            started: now,
-            latest: now,
+            latest: cpu_time::of_this_thread(),
         }
     }
 
