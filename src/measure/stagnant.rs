@@ -7,11 +7,12 @@ const STRIP: f64 = 2.0;
 
 /// Height (m) up to which the spheres along the side walls x = -half_width and half_width are
 /// stagnant: of layers of a diameter, from the floor at `floor` up, how many hold spheres of which
-/// at most half moved farther than a diameter between two snapshots.
+/// at most half sank by more than a diameter between two snapshots. Those that were pushed aside or
+/// up take no part in the flow.
 ///
 /// * `diameter`: of the spheres (m)
 ///
-/// Spheres that have left between the snapshots moved.
+/// Spheres that have left between the snapshots sank.
 pub fn stagnant_height(
     before: &Snapshot,
     after: &Snapshot,
@@ -33,10 +34,8 @@ pub fn stagnant_height(
         if layers.len() <= layer {
             layers.resize(layer + 1, [0; 2]);
         }
-        let squares =
-            (0..3).map(|axis| (after[axis] - before[axis]) * (after[axis] - before[axis]));
         // Not a number where the sphere has left.
-        let stays = squares.sum::<f64>() <= diameter * diameter;
+        let stays = before[2] - after[2] <= diameter;
         layers[layer][usize::from(!stays)] += 1;
     }
     let is_stagnant = |[stay, move_on]: &&[usize; 2]| *stay > 0 && stay >= move_on;
@@ -69,6 +68,14 @@ mod tests {
         }
         let height = stagnant_height(&before, &after, 1.0, 10.0, 2.0);
         assert_eq!(height, 7.0);
+        // Symptom: corners that spots had pushed up by more than a diameter passed for flow.
+        let mut pushed = before.clone();
+        pushed
+            .position
+            .rows_mut()
+            .into_iter()
+            .for_each(|mut row| row[2] += 1.5);
+        assert_eq!(stagnant_height(&before, &pushed, 1.0, 10.0, 2.0), 20.0);
         after.position.fill(f64::NAN);
         assert_eq!(stagnant_height(&before, &after, 1.0, 10.0, 2.0), 0.0);
         assert_eq!(stagnant_height(&before, &before, 1.0, 10.0, 2.0), 20.0);

@@ -1,4 +1,4 @@
-//! The sieve for stagnant corners: spheres at the side walls that have not moved.
+//! The sieve for stagnant corners: spheres at the side walls that have not sunk.
 
 use super::run::Run;
 use crate::classify::measure::{evidence, measures};
@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Threshold of the stagnant sieve: corners are stagnant if the spheres at the side walls have not
-/// moved by a diameter up to this height.
+/// sunk by a diameter up to this height.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct StagnantSieve {
@@ -24,7 +24,7 @@ impl Default for StagnantSieve {
 }
 
 impl Label {
-    /// Spheres leave, and others at the side walls have not moved.
+    /// Spheres leave, and others at the side walls have not sunk.
     pub const STAGNANT_CORNERS: Self = Self::new(11, "stagnant-corners", 0x98_2c_74);
 }
 
