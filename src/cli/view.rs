@@ -10,7 +10,9 @@ use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::{folders, format};
 use moment::{Moment, evenly};
+use phase::compare::opened;
 use phase::record::RunRecord;
+use phase::scene::Tank;
 use phase::store;
 use sheets::{Run, Sheets};
 use std::path::{Path, PathBuf};
@@ -31,6 +33,7 @@ Example: two silos at rest beside each other
 
 Example: layers of a drainage in a cut through the middle, and what is near the orifice
   phase view drainage.h5 --time 60 --color layer --cut --out layers.png
+  phase view dem.h5 spots.h5 --time 0,60 --since-opening --color layer --cut --out pair.png
   phase view drainage.h5 --time 60 --color packing-fraction --cut --window -15,15,0,40
 
 Example: an animation in real time; APNG (.png) keeps smaller files, GIF is shown by every program
@@ -56,6 +59,10 @@ pub(crate) struct Arguments {
         allow_negative_numbers = true
     )]
     time: Vec<Moment>,
+    /// Count times, those in the picture too, from when the opening of a silo or box is open: from
+    /// when its door opened, if it has one.
+    #[arg(long, conflicts_with_all = ["frame", "animate"])]
+    since_opening: bool,
     /// The picture to write (PNG) [default: the record's name with .png].
     #[arg(short, long, value_name = "PNG", conflicts_with_all = ["animate", "each"])]
     out: Option<PathBuf>,
@@ -195,19 +202,42 @@ fn run<'a>(
     let interval = record.scene.time.frame_interval;
     let frames = arguments.frame.iter();
     let frames = frames.map(|&frame| Moment::Time(frame as f64 * interval));
-    let moments: Vec<Moment> = frames.chain(arguments.time.iter().copied()).collect();
+    let origin = origin(path, record, arguments)?;
+    let times = arguments.time.iter().map(|moment| moment.since(origin));
+    let moments: Vec<Moment> = frames.chain(times).collect();
     let shown = match (moments.is_empty(), arguments.each.is_some()) {
         (true, true) => states.iter().collect(),
         (true, false) => evenly(states, PANELS),
         (false, _) => moment::at(&moments, record, states)?,
     };
     if arguments.animate.is_none() && arguments.each.is_none() {
-        let times = shown.iter().map(|at| words::brief(record, at.time));
+        let times = shown
+            .iter()
+            .map(|at| words::brief(record, at.time - origin));
         let times: Vec<String> = times.collect();
         let unit = record.scene.units().of_time();
         console.note(format_args!("shows t = {} {unit}", times.join(", ")));
     }
-    Ok(Run { record, shown })
+    Ok(Run {
+        record,
+        shown,
+        origin,
+    })
+}
+
+/// Time of the run (s) from which times count.
+fn origin(path: &Path, record: &RunRecord, arguments: &Arguments) -> Result<f64, Failure> {
+    if !arguments.since_opening {
+        return Ok(0.0);
+    }
+    let tank = record.scene.tank.as_ref();
+    let has_opening = record.scene.dem.outlet.is_some() || tank.is_some_and(Tank::has_opening);
+    opened(record).filter(|_| has_opening).ok_or_else(|| {
+        Failure::refused(format_args!(
+            "{}: --since-opening is for silos and boxes with an opening that opens within the run",
+            path.display()
+        ))
+    })
 }
 
 /// The bytes of a picture of all panels beside each other.

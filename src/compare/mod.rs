@@ -10,7 +10,7 @@ mod simpler;
 mod spreading;
 mod table;
 
-pub use drainage::Drainage;
+pub use drainage::{Drainage, opened};
 pub use fit::SpotFit;
 pub use profiles::{DRAWN_HEIGHTS, cross_profile, flow_spread_of, profile_at};
 pub use quantities::{QUANTITIES, Quantity, badness_of, mixing, outflow, packing_fraction};

@@ -4,6 +4,7 @@ use super::vector::{self, Anchor};
 use super::{Camera, ColorBy, Image, Scenery, Stage, panel, strip};
 use crate::color::ColorMap;
 use crate::observe::Snapshot;
+use crate::scene::Units;
 
 /// Size of the letters over the width of a panel.
 const LETTERS: f64 = 0.048;
@@ -44,6 +45,8 @@ pub struct Sheet {
     /// What a flat view shows besides the spheres. Without it, panels show the view from the side
     /// and that from above.
     pub flat: Option<Scenery>,
+    /// Units of the scene.
+    pub units: Units,
 }
 
 impl Sheet {
@@ -172,35 +175,43 @@ impl Words {
     }
 
     fn draw_foot(&self, sheet: &Sheet, panel: usize) -> Image {
-        let legend = self.legend(&sheet.color);
+        let legend = self.legend(&sheet.color, sheet.units);
         let row = usize::from(!legend.is_empty() && !self.is_wide);
-        let elements = legend + &self.length(&sheet.stage, panel, row);
+        let elements = legend + &self.length(sheet, panel, row);
         vector::drawing(&elements, self.width, self.foot)
     }
 
     /// Which colour stands for what, as elements.
-    fn legend(&self, color: &ColorBy) -> String {
+    fn legend(&self, color: &ColorBy, units: Units) -> String {
         let (size, base) = (self.size, self.base(0) + self.gap());
         let words = |words: &str| vector::text(words, (size, base), size, Anchor::Start);
+        let labelled = |word: &str, unit| format!("{word} ({})", units.shown(unit));
         let (label, low, high) = match *color {
             ColorBy::Nothing => return String::new(),
             ColorBy::Index => return words("colours tell spheres apart"),
-            ColorBy::Speed { fastest } => ("speed (m/s)", 0.0, fastest),
-            ColorBy::Height { low, high } => ("height (m)", low, high),
-            ColorBy::Radius { low, high } => ("radius (mm)", 1e3 * low, 1e3 * high),
+            ColorBy::Speed { fastest } => (labelled("speed", "m/s"), 0.0, fastest),
+            ColorBy::Height { low, high } => (labelled("height", "m"), low, high),
+            ColorBy::Radius { low, high } if units == Units::OfSpheres => {
+                (labelled("radius", "m"), low, high)
+            }
+            ColorBy::Radius { low, high } => (labelled("radius", "mm"), 1e3 * low, 1e3 * high),
             ColorBy::Layer { thickness, .. } => {
                 let thickness = number(thickness);
-                return words(&format!("colours: layers of {thickness} m at the start"));
+                let unit = units.shown("m");
+                return words(&format!(
+                    "colours: layers of {thickness} {unit} at the start"
+                ));
             }
             ColorBy::PackingFraction { .. } => {
-                ("packing fraction", ColorBy::LOOSEST, ColorBy::DENSEST)
+                let label = "packing fraction".to_owned();
+                (label, ColorBy::LOOSEST, ColorBy::DENSEST)
             }
         };
         if low >= high {
             return words(&format!("{label}: {} everywhere", number(low)));
         }
-        let mut elements = words(label);
-        let mut x = 1.5 * size + vector::width(label, size);
+        let mut elements = words(&label);
+        let mut x = 1.5 * size + vector::width(&label, size);
         let mut number = |x: &mut f64, value: f64| {
             let text = number(value);
             elements += &vector::text(&text, (*x, base), size, Anchor::Start);
@@ -214,13 +225,15 @@ impl Words {
     }
 
     /// A length to compare with, as elements.
-    fn length(&self, stage: &Stage, panel: usize, row: usize) -> String {
-        let camera = Camera::side(stage);
+    fn length(&self, sheet: &Sheet, panel: usize, row: usize) -> String {
+        let camera = Camera::side(&sheet.stage);
         let length = round_down(0.5 * camera.view()[0]);
         let pixels = length * panel as f64 / camera.view()[0];
         let text = match length {
-            length if length < 1.0 => format!("{} mm", number(1e3 * length)),
-            length => format!("{} m", number(length)),
+            length if length < 1.0 && sheet.units == Units::Si => {
+                format!("{} mm", number(1e3 * length))
+            }
+            length => format!("{} {}", number(length), sheet.units.shown("m")),
         };
         let (size, base) = (self.size, self.base(row) + self.gap());
         let left = if self.is_wide {

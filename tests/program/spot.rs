@@ -335,6 +335,10 @@ fn layers_and_packing_fractions_are_viewed() {
         assert!(place.path(&out).exists());
     }
     place
+        .phase(&["view", "full.h5", "--time", "4", "--since-opening"])
+        .code(0)
+        .complains("shows t = 4 τ");
+    place
         .phase(&["view", "full.h5", "--window", "1,0,0,1"])
         .code(2)
         .complains("--window takes four numbers");

@@ -41,6 +41,7 @@ pub(super) fn animate(
     let runs = [Run {
         record,
         shown: shown.clone(),
+        origin: 0.0,
     }];
     let mut sheets = Sheets::new(&runs, arguments)?;
     if !sheets.are_flat() {
@@ -98,6 +99,7 @@ fn leave_out_arrivals(
     let arrived = [Run {
         record: run.record,
         shown: run.shown[first..].to_vec(),
+        origin: run.origin,
     }];
     let later = Sheets::new(&arrived, arguments)?.top();
     if later < sheets.top() {
@@ -116,7 +118,7 @@ pub(super) fn each(
     arguments: &Arguments,
     console: &Console,
 ) -> Result<(), Failure> {
-    let Run { record, shown } = &runs[0];
+    let Run { record, shown, .. } = &runs[0];
     folders::refuse_other_frames(folder, shown.len(), "png")?;
     let texts = words::texts(record);
     let mut sheets = Sheets::new(runs, arguments)?;

@@ -15,6 +15,16 @@ pub(super) enum Moment {
     Milestone(MilestoneKind),
 }
 
+impl Moment {
+    /// The same, with a time counted from the start of the run in place of an origin (s).
+    pub(super) fn since(self, origin: f64) -> Self {
+        match self {
+            Self::Time(time) => Self::Time(time + origin),
+            Self::Milestone(_) => self,
+        }
+    }
+}
+
 impl FromStr for Moment {
     type Err = String;
 

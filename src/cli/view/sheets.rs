@@ -16,6 +16,8 @@ const TALLEST: f64 = 8.0;
 pub(super) struct Run<'a> {
     pub(super) record: &'a RunRecord,
     pub(super) shown: Vec<&'a Snapshot>,
+    /// Time of the run (s) from which times count.
+    pub(super) origin: f64,
 }
 
 /// What all panels have in common, and the sheet of each run.
@@ -138,7 +140,7 @@ impl<'a> Sheets<'a> {
     }
 
     fn panel(&self, run: usize, state: &Snapshot, width: usize) -> Image {
-        let caption = self.caption(self.runs[run].record, state);
+        let caption = self.caption(&self.runs[run], state);
         self.sheets[run].panel(state, width, &caption)
     }
 
@@ -148,8 +150,9 @@ impl<'a> Sheets<'a> {
     }
 
     /// One run has its title above all panels, of several each panel says which it is of.
-    fn caption(&self, record: &RunRecord, state: &Snapshot) -> Vec<String> {
-        let time = words::caption(record, state);
+    fn caption(&self, run: &Run<'_>, state: &Snapshot) -> Vec<String> {
+        let record = run.record;
+        let time = words::caption(record, state, run.origin);
         if self.runs.len() == 1 {
             return vec![time];
         }
@@ -219,6 +222,7 @@ fn sheet(run: &Run<'_>, color: ColorBy) -> Sheet {
         color,
         sides: Sides::default(),
         flat,
+        units: record.scene.units(),
     }
 }
 

@@ -20,10 +20,10 @@ pub(super) fn brief(record: &RunRecord, time: f64) -> String {
         .map_or(text, |rounded: f64| rounded.to_string())
 }
 
-/// The caption of a state: its time, and what happened since the state before it.
-pub(super) fn caption(record: &RunRecord, state: &Snapshot) -> String {
+/// The caption of a state: its time after the origin (s), and what happened since the state before.
+pub(super) fn caption(record: &RunRecord, state: &Snapshot, origin: f64) -> String {
     let unit = record.scene.units().of_time();
-    let time = format!("t = {} {unit}", seconds(record, state.time));
+    let time = format!("t = {} {unit}", seconds(record, state.time - origin));
     let news = moment::news(record, state).map(|kind| kind.name().to_owned());
     let words: Vec<String> = std::iter::once(time).chain(news).collect();
     words.join(", ")
