@@ -1,4 +1,4 @@
-//! `phase compare`: the numbers of drainages beside each other, or the labels of two sweeps.
+//! `phase compare`: the numbers of runs beside each other, or the labels of two sweeps.
 
 mod inputs;
 mod sweeps;
@@ -7,16 +7,18 @@ mod table;
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::folders;
+use inputs::Column;
 use phase::compare::Row;
 use phase::statistics::Estimate;
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// Compare runs: records of drainages, or two folders of sweeps.
+/// Compare runs: records, or two folders of sweeps.
 ///
-/// Records are measured: outflow, widening of the flow, packing, mixing, surface. Every number has
-/// its interval of 95 % over blocks of time, where one can be told. Of two records the difference
-/// is told, too. Lengths are over the diameter of the spheres.
+/// Drainages are measured: outflow, widening of the flow, packing, mixing, surface. Every number
+/// has its interval of 95 % over ten states or blocks of time, where one can be told. Lengths are
+/// over the diameter of the spheres. Of tanks and silos the label and the measures of `labels.csv`
+/// are told. Of two records the difference is told, too.
 ///
 /// Beside records of phase there may be dumps of LAMMPS, extended XYZ files, and files of VTK by
 /// the collection (`.pvd`) or series (`.series`) that says their times. The scene of the first
@@ -44,6 +46,10 @@ pub(crate) struct Arguments {
     /// The scene of files of other programs [default: that of the first record].
     #[arg(long, value_name = "TOML")]
     scene: Option<PathBuf>,
+    /// What names a record, in the order of the records [default: its file, and the keys in which
+    /// they differ].
+    #[arg(long = "label", value_name = "TEXT")]
+    labels: Vec<String>,
     /// A table to write (CSV).
     #[arg(short, long, value_name = "CSV")]
     out: Option<PathBuf>,
@@ -58,11 +64,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         folders::make_for(table)?;
     }
     if arguments.paths.iter().any(|path| path.is_dir()) {
+        if !arguments.labels.is_empty() {
+            return Err(Failure::refused("--label names records, not folders"));
+        }
         return sweeps::main(arguments, console);
     }
     let inputs = inputs::read(&arguments.paths, arguments.scene.as_deref())?;
     let columns = inputs::columns(&inputs, arguments.times)?;
-    let names: Vec<String> = columns.iter().map(|it| it.name.clone()).collect();
+    let names = names(&columns, &arguments.labels)?;
     let rows = inputs::rows(&columns);
     for (index, name) in names.iter().enumerate() {
         console.result(format_args!("{}  {name}", letter(index)));
@@ -80,6 +89,20 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         files: console.files(),
     });
     Ok(Exit::Done)
+}
+
+/// The labels of all columns, or else their own names.
+fn names(columns: &[Column], labels: &[String]) -> Result<Vec<String>, Failure> {
+    if labels.is_empty() {
+        return Ok(columns.iter().map(|it| it.name.clone()).collect());
+    }
+    match labels.len() == columns.len() {
+        true => Ok(labels.to_vec()),
+        false => Err(Failure::refused(format_args!(
+            "--label names records: give it once for each of the {}, in their order",
+            columns.len()
+        ))),
+    }
 }
 
 /// What the columns of a record are called: A, B and so on.

@@ -25,6 +25,7 @@ mod progress;
 mod reference;
 mod refined;
 mod run;
+mod runs;
 mod schema;
 mod stability;
 mod status;

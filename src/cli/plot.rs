@@ -30,7 +30,8 @@ Example: two drainages in one figure, from when the flow has developed
   phase plot full.h5 coarse.h5 --figure radial-distribution --times 40,200 --out figures")]
 pub(crate) struct Arguments {
     /// A results folder of `phase sweep`, a folder that holds several, or a record (.h5); or
-    /// several records, for figures that show them beside each other.
+    /// several records, for figures that show them beside each other. Beside records there may be
+    /// files of other programs, as of `phase compare`.
     #[arg(required_unless_present = "list", value_name = "DIR|RECORD")]
     paths: Vec<PathBuf>,
     /// A figure to draw; may be given several times [default: phase and settle-time of a tank's
@@ -46,6 +47,9 @@ pub(crate) struct Arguments {
     /// fifth of the run to its end], or the two that `packing-map` shows.
     #[arg(long, value_name = "FROM,TO", value_parser = super::times)]
     times: Option<[f64; 2]>,
+    /// The scene of files of other programs [default: that of the first record].
+    #[arg(long, value_name = "TOML")]
+    scene: Option<PathBuf>,
     /// Folder for the figures [default: the results folder, or that of the record].
     #[arg(short, long, value_name = "DIR", conflicts_with = "list")]
     out: Option<PathBuf>,

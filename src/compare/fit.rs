@@ -1,6 +1,6 @@
 //! The parameters of the spot model that a drainage follows.
 
-use super::quantities::{outflow, over_blocks, packing_fraction};
+use super::quantities::{outflow, over_states, packing_fraction};
 use super::spreading::correlation_radius;
 use super::{Drainage, flow_spread_of, spreading};
 use crate::measure::{Centres, Region};
@@ -59,7 +59,7 @@ impl SpotFit {
         let radius =
             correlation_radius(drainage).ok_or("velocities that are correlated over a distance")?;
         let rate = outflow(drainage).ok_or("spheres that leave")?;
-        let fraction = over_blocks(drainage, |state| packing_fraction(drainage, state))
+        let fraction = over_states(drainage, |state| packing_fraction(drainage, state))
             .ok_or("spheres in the middle of the flow")?;
         let deficit = density_deficit(drainage).ok_or("a flow that is less dense")?;
         let vertical_step = STEP * diameter;
@@ -93,7 +93,7 @@ fn density_deficit(drainage: &Drainage<'_>) -> Option<Estimate> {
     let diameter = drainage.filled_box.diameter;
     let sphere = PI / 6.0 * diameter * diameter * diameter;
     let start = count_within(&Centres::of(drainage.start()), &region);
-    let deficit = over_blocks(drainage, |state| {
+    let deficit = over_states(drainage, |state| {
         let now = count_within(&Centres::of(state), &region);
         Some((start - now) * sphere / height)
     })?;

@@ -18,8 +18,8 @@ pub struct Quantity {
     pub unit: &'static str,
     /// Whether it describes the flow, so that its error counts where drainages are compared.
     pub is_of_flow: bool,
-    /// Measures it, with its interval of 95 % over blocks of time, infinite where nothing tells its
-    /// scatter. None where it is undefined.
+    /// Measures it, with its interval of 95 % over states or blocks of time, infinite where nothing
+    /// tells its scatter. None where it is undefined.
     pub measure: fn(&Drainage<'_>) -> Option<Estimate>,
 }
 
@@ -53,13 +53,13 @@ pub static QUANTITIES: [Quantity; 16] = [
         name: "packing fraction in the flow",
         unit: "",
         is_of_flow: true,
-        measure: |drainage| over_blocks(drainage, |state| packing_fraction(drainage, state)),
+        measure: |drainage| over_states(drainage, |state| packing_fraction(drainage, state)),
     },
     Quantity {
         name: "share of spheres in crystals, in the flow",
         unit: "",
         is_of_flow: true,
-        measure: |drainage| over_blocks(drainage, |state| solid_share(drainage, state)),
+        measure: |drainage| over_states(drainage, |state| solid_share(drainage, state)),
     },
     Quantity {
         name: "packing badness, of pairs",
@@ -72,7 +72,7 @@ pub static QUANTITIES: [Quantity; 16] = [
         unit: "",
         is_of_flow: false,
         measure: |drainage| {
-            over_blocks(drainage, |state| {
+            over_states(drainage, |state| {
                 Some(badness(drainage, state).as_printed())
             })
         },
@@ -147,7 +147,7 @@ fn exact(value: Option<f64>) -> Option<Estimate> {
 }
 
 /// Mean over at most ten states, evenly over the times that count.
-pub(super) fn over_blocks(
+pub(super) fn over_states(
     drainage: &Drainage<'_>,
     value: impl Fn(&Snapshot) -> Option<f64>,
 ) -> Option<Estimate> {
@@ -227,7 +227,7 @@ fn solid_share(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
 
 /// Overlaps over diameters of the pairs in the middle, per sphere.
 pub fn badness_of(drainage: &Drainage<'_>) -> Option<Estimate> {
-    over_blocks(drainage, |state| Some(badness(drainage, state).of_pairs()))
+    over_states(drainage, |state| Some(badness(drainage, state).of_pairs()))
 }
 
 fn badness(drainage: &Drainage<'_>, state: &Snapshot) -> Badness {

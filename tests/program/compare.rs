@@ -83,6 +83,29 @@ fn what_other_programs_write_is_measured_alike() {
     place
         .phase(&["compare", "run.dump", "--scene", "scene.toml"])
         .code(0);
+    // Figures take them too.
+    let plot = [
+        "plot",
+        "run.h5",
+        "run.dump",
+        "--figure",
+        "radial-distribution",
+        "--times",
+    ];
+    place.phase(&[&plot[..], &["1,4"]].concat()).code(0);
+    place
+        .phase(&["plot", "run.xyz", "--figure", "outflow"])
+        .code(2)
+        .complains("`--scene`");
+    let plot = [
+        "plot",
+        "run.xyz",
+        "--scene",
+        "scene.toml",
+        "--figure",
+        "outflow",
+    ];
+    place.phase(&plot).code(0).says("run-outflow.png");
     // Times that do not grow.
     let twice = lammps_dump(&record, f64::INFINITY);
     place.write("still.dump", &twice);
@@ -92,6 +115,41 @@ fn what_other_programs_write_is_measured_alike() {
         "{}",
         refused.stderr
     );
+}
+
+/// Symptom: two seeds of a tank, or two softnesses, could not be compared: only drainages were.
+#[test]
+fn runs_of_a_tank_are_compared_by_their_measures() {
+    let place = Workplace::new();
+    let scene = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/sweeps/scenes/theoretical.toml"
+    );
+    let small = ["--set", "spheres.count=20", "--set", "time.duration=2.5"];
+    for seed in ["1", "2"] {
+        let run = ["run", scene, "--seed", seed, "--out", &format!("{seed}.h5")];
+        place.phase(&[&run[..], &small].concat()).code(0);
+    }
+    let told = place.phase(&["compare", "1.h5", "2.h5"]).code(0);
+    told.says("B - A")
+        .says("packing height")
+        .says("hole radius");
+    let answer = place.phase(&["compare", "1.h5", "1.h5", "--json"]).code(0);
+    let answer: Value = serde_json::from_str(&answer.stdout).unwrap();
+    for row in answer["rows"].as_array().unwrap() {
+        let difference = &row["difference"];
+        assert!(difference.is_null() || difference == 0.0, "{row}");
+    }
+    place
+        .phase(&["compare", "1.h5", "2.h5", "--times", "1,2"])
+        .code(2)
+        .complains("--times is for drainages");
+    let (drained, _) = drained();
+    let other = drained.path("run.h5");
+    place
+        .phase(&["compare", "1.h5", other.to_str().unwrap()])
+        .code(2)
+        .complains("compare runs of one kind");
 }
 
 #[test]

@@ -1,14 +1,13 @@
 //! What is compared: records, files of other programs, tables of earlier comparisons.
 
 use super::super::exit::Failure;
+use super::super::runs;
 use super::table;
+use phase::classify::{DRAINAGE, Family, Measure, Sieves, classify};
 use phase::compare::{Comparison, Row};
 use phase::plot;
 use phase::record::RunRecord;
-use phase::replay::replay_states;
-use phase::scene::Scene;
 use phase::statistics::Estimate;
-use phase::store;
 use std::path::{Path, PathBuf};
 
 /// A file that is compared.
@@ -28,80 +27,38 @@ pub(super) struct Column {
 /// Reads all files. Those of other programs take the scene that is given, or that of the first
 /// record.
 pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<Input>, Failure> {
-    let mut scene = match scene {
-        Some(path) => Some(Scene::load(path).map_err(Failure::refused)?),
-        None => None,
-    };
-    let mut inputs: Vec<Option<Input>> = paths.iter().map(|_| None).collect();
-    for (input, path) in inputs.iter_mut().zip(paths) {
-        match kind(path) {
-            Kind::Record => {
-                let record = store::read_record(path).map_err(Failure::refused)?;
-                scene.get_or_insert_with(|| record.scene.clone());
-                *input = Some(Input::Run(path.clone(), Box::new(record)));
+    let is_table = |path: &&PathBuf| path.extension().is_some_and(|end| end == "csv");
+    let of_runs: Vec<PathBuf> = paths.iter().filter(|it| !is_table(it)).cloned().collect();
+    let mut records = runs::read(&of_runs, scene)?.into_iter();
+    let mut inputs = Vec::new();
+    for path in paths {
+        match is_table(&path) {
+            true => inputs.push(Input::Table(table::read(path)?)),
+            false => {
+                let record = records.next().map(Box::new);
+                inputs.extend(record.map(|record| Input::Run(path.clone(), record)));
             }
-            Kind::Table => *input = Some(Input::Table(table::read(path)?)),
-            Kind::States => {}
         }
     }
-    for (input, path) in inputs.iter_mut().zip(paths) {
-        if input.is_some() {
-            continue;
-        }
-        let scene = scene.as_ref().ok_or_else(|| {
-            Failure::refused(format_args!(
-                "{}: a file of another program does not say its box; give a record beside it, or \
-                 its scene with `--scene`",
-                path.display()
-            ))
-        })?;
-        let states = store::read_states(path).map_err(Failure::refused)?;
-        let record = replay_states(&states, scene)
-            .map_err(|error| Failure::refused(format_args!("{}: {error}", path.display())))?;
-        *input = Some(Input::Run(path.clone(), Box::new(record)));
-    }
-    Ok(inputs.into_iter().flatten().collect())
+    Ok(inputs)
 }
 
-enum Kind {
-    Record,
-    Table,
-    States,
-}
-
-fn kind(path: &Path) -> Kind {
-    let end = path.extension().and_then(|it| it.to_str());
-    match end {
-        Some("csv") => Kind::Table,
-        Some("xyz" | "extxyz" | "dump" | "lammpstrj") => Kind::States,
-        Some("pvd" | "series" | "vtk" | "vtp" | "vtu") => Kind::States,
-        _ => Kind::Record,
-    }
-}
-
-/// The numbers of all inputs, one column for each record.
+/// The numbers of all inputs, one column for each record: of drainages what is measured of their
+/// states within `times`, of other runs what their sieves measure.
 pub(super) fn columns(inputs: &[Input], times: Option<[f64; 2]>) -> Result<Vec<Column>, Failure> {
-    let runs = inputs.iter().filter_map(|input| match input {
+    let of_runs = inputs.iter().filter_map(|input| match input {
         Input::Run(path, record) => Some((path, &**record)),
         Input::Table(_) => None,
     });
-    let (paths, records): (Vec<&PathBuf>, Vec<&RunRecord>) = runs.unzip();
-    let comparison = Comparison::new(&records, times).map_err(|(place, needs)| {
-        let file = paths[place].display();
-        Failure::refused(format_args!(
-            "{file}: a comparison of drainages needs {needs}"
-        ))
-    })?;
-    let mut of_runs = names(&records, &paths)
-        .into_iter()
-        .enumerate()
-        .map(|(run, name)| {
-            let value = |row: &Row| ([row.name.clone(), row.unit.clone()], row.values[run]);
-            Column {
-                name,
-                values: comparison.rows.iter().map(value).collect(),
-            }
-        });
+    let (paths, records): (Vec<&PathBuf>, Vec<&RunRecord>) = of_runs.unzip();
+    let family = records.first().map(|record| Family::of(&record.scene));
+    let mut of_runs = match family {
+        Some(family) if family.measures().count() > 0 && family != &DRAINAGE => {
+            of_family(family, &paths, &records, times)?
+        }
+        _ => of_drainages(&paths, &records, times)?,
+    }
+    .into_iter();
     let mut columns = Vec::new();
     for input in inputs {
         match input {
@@ -113,6 +70,71 @@ pub(super) fn columns(inputs: &[Input], times: Option<[f64; 2]>) -> Result<Vec<C
         }
     }
     Ok(columns)
+}
+
+/// The columns of drainages.
+fn of_drainages(
+    paths: &[&PathBuf],
+    records: &[&RunRecord],
+    times: Option<[f64; 2]>,
+) -> Result<Vec<Column>, Failure> {
+    let comparison = Comparison::new(records, times).map_err(|(place, needs)| {
+        let file = paths[place].display();
+        Failure::refused(format_args!(
+            "{file}: a comparison of drainages needs {needs}"
+        ))
+    })?;
+    let named = names(records, paths).into_iter().enumerate();
+    let columns = named.map(|(run, name)| {
+        let value = |row: &Row| ([row.name.clone(), row.unit.clone()], row.values[run]);
+        Column {
+            name,
+            values: comparison.rows.iter().map(value).collect(),
+        }
+    });
+    Ok(columns.collect())
+}
+
+/// The columns of runs of another family, with their labels.
+fn of_family(
+    family: &'static Family,
+    paths: &[&PathBuf],
+    records: &[&RunRecord],
+    times: Option<[f64; 2]>,
+) -> Result<Vec<Column>, Failure> {
+    if times.is_some() {
+        return Err(Failure::refused(format_args!(
+            "--times is for drainages: the sieves of a {} look at the whole run",
+            family.name
+        )));
+    }
+    let named = names(records, paths).into_iter().zip(records);
+    let column = |((name, record), path): ((String, &&RunRecord), &&PathBuf)| {
+        let refused = |error: String| Failure::refused(format_args!("{}: {error}", path.display()));
+        let own = Family::of(&record.scene);
+        if own != family {
+            return Err(refused(format!(
+                "a run of a {}, and the first one is of a {}; compare runs of one kind",
+                own.name, family.name
+            )));
+        }
+        let verdict = classify(record, &Sieves::default());
+        let verdict = verdict.map_err(|error| refused(error.to_string()))?;
+        let measures = family.measures().filter(|measure| !measure.is_evidence);
+        let exact = |value: f64| Estimate {
+            value,
+            half_width: f64::INFINITY,
+        };
+        let value = |measure: &Measure| {
+            let key = [measure.name.replace('_', " "), measure.unit.to_owned()];
+            (key, verdict.value(measure.name).map(exact))
+        };
+        Ok(Column {
+            name: format!("{name}: {}", verdict.label.name),
+            values: measures.map(value).collect(),
+        })
+    };
+    named.zip(paths).map(column).collect()
 }
 
 /// A record by its file, and by what differs.

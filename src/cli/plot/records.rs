@@ -3,7 +3,7 @@
 use super::{Arguments, Entry, write};
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
-use crate::cli::folders;
+use crate::cli::{folders, runs};
 use phase::classify::{DRAINAGE, Family};
 use phase::plot::{self, About, PlotError, Svg};
 use phase::record::RunRecord;
@@ -87,8 +87,7 @@ pub(super) fn draw(
     arguments: &Arguments,
     console: &Console,
 ) -> Result<(), Failure> {
-    let read = |path: &PathBuf| store::read_record(path).map_err(Failure::refused);
-    let records: Vec<RunRecord> = paths.iter().map(read).collect::<Result<_, _>>()?;
+    let records: Vec<RunRecord> = runs::read(paths, arguments.scene.as_deref())?;
     let (Some(first), Some(record)) = (paths.first(), records.first()) else {
         return Ok(());
     };

@@ -1,0 +1,64 @@
+//! Runs that are measured together: records, and files of other programs.
+
+use super::exit::Failure;
+use phase::record::RunRecord;
+use phase::replay::replay_states;
+use phase::scene::Scene;
+use phase::store;
+use std::path::{Path, PathBuf};
+
+/// Whether a file is of another program: a dump of LAMMPS, an extended XYZ file, files of VTK.
+fn is_of_another_program(path: &Path) -> bool {
+    let end = path.extension().and_then(|it| it.to_str());
+    let ends = [
+        "xyz",
+        "extxyz",
+        "dump",
+        "lammpstrj",
+        "pvd",
+        "series",
+        "vtk",
+        "vtp",
+        "vtu",
+    ];
+    end.is_some_and(|end| ends.contains(&end))
+}
+
+/// Reads records and files of other programs. The latter take the scene that is given, or that of
+/// the first record.
+pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<RunRecord>, Failure> {
+    let mut scene = match scene {
+        Some(path) => Some(Scene::load(path).map_err(Failure::refused)?),
+        None => None,
+    };
+    let mut records: Vec<Option<RunRecord>> = Vec::new();
+    for path in paths {
+        if is_of_another_program(path) {
+            records.push(None);
+            continue;
+        }
+        let record = store::read_record(path).map_err(Failure::refused)?;
+        scene.get_or_insert_with(|| record.scene.clone());
+        records.push(Some(record));
+    }
+    let all = paths.iter().zip(records);
+    all.map(|(path, record)| match record {
+        Some(record) => Ok(record),
+        None => replayed(path, scene.as_ref()),
+    })
+    .collect()
+}
+
+/// The record of the states that a file of another program holds.
+fn replayed(path: &Path, scene: Option<&Scene>) -> Result<RunRecord, Failure> {
+    let scene = scene.ok_or_else(|| {
+        Failure::refused(format_args!(
+            "{}: a file of another program does not say its box; give a record beside it, or its \
+             scene with `--scene`",
+            path.display()
+        ))
+    })?;
+    let states = store::read_states(path).map_err(Failure::refused)?;
+    replay_states(&states, scene)
+        .map_err(|error| Failure::refused(format_args!("{}: {error}", path.display())))
+}
