@@ -4,6 +4,7 @@ use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::folders;
 use phase::compare::{Drainage, SpotFit};
+use phase::scene::{Scene, Units};
 use phase::statistics::Estimate;
 use phase::store;
 use serde::Serialize;
@@ -13,10 +14,10 @@ use std::path::PathBuf;
 ///
 /// By the procedure of Rycroft, Bazant, Grest and Landry (2006): b from the width of the flow, w
 /// from the diffusion of spheres, the radius from the correlation of velocities, the rates from the
-/// outflow and from the drop of the density. Each has its interval of 95 % over blocks of time.
+/// outflow and from the drop of the density. Each has its interval of 95 %, over ten states or blocks of time.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Example: discrete elements, and spots that flow alike
+Example: discrete elements, and spots with the parameters that these ask for
   phase fit dem.h5 --times 40,160 --out spots.toml
   phase run spots.toml
   phase compare dem.h5 results/spots.h5 --times 40,160")]
@@ -46,13 +47,24 @@ enum Model {
 }
 
 /// A parameter: its key in a scene, its symbol, what Rycroft, Wong and Bazant (2010) fitted to
-/// their discrete elements, in units of diameter and tau, and how.
+/// their discrete elements, in units of the spheres, and how.
 struct Parameter {
     key: &'static str,
     symbol: &'static str,
     paper: f64,
+    dimension: Dimension,
     from: &'static str,
     value: fn(&SpotFit) -> Estimate,
+}
+
+/// What a number is of.
+#[derive(Clone, Copy)]
+enum Dimension {
+    /// A length, in diameters d.
+    Length,
+    Ratio,
+    /// A rate, per tau = sqrt(d/g).
+    Rate,
 }
 
 const PARAMETERS: [Parameter; 5] = [
@@ -60,6 +72,7 @@ const PARAMETERS: [Parameter; 5] = [
         key: "diffusion_length",
         symbol: "b",
         paper: 2.28,
+        dimension: Dimension::Length,
         from: "width of the flow",
         value: |fit| fit.diffusion_length,
     },
@@ -67,6 +80,7 @@ const PARAMETERS: [Parameter; 5] = [
         key: "displacement_ratio",
         symbol: "w",
         paper: 399.0,
+        dimension: Dimension::Ratio,
         from: "diffusion of spheres",
         value: |fit| fit.displacement_ratio,
     },
@@ -74,6 +88,7 @@ const PARAMETERS: [Parameter; 5] = [
         key: "radius",
         symbol: "r_s",
         paper: 2.60,
+        dimension: Dimension::Length,
         from: "correlation of velocities",
         value: |fit| fit.radius,
     },
@@ -81,6 +96,7 @@ const PARAMETERS: [Parameter; 5] = [
         key: "insertion_rate",
         symbol: "λ",
         paper: 375.0,
+        dimension: Dimension::Rate,
         from: "outflow",
         value: |fit| fit.insertion_rate,
     },
@@ -88,6 +104,7 @@ const PARAMETERS: [Parameter; 5] = [
         key: "move_rate",
         symbol: "μ",
         paper: 28.0,
+        dimension: Dimension::Rate,
         from: "drop of the density",
         value: |fit| fit.move_rate,
     },
@@ -105,7 +122,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let drainage = Drainage::new(&record, arguments.times).map_err(lacks)?;
     let fit = SpotFit::of(&drainage).map_err(lacks)?;
     let head = ["key", "symbol", "fit", "paper", "from"].map(str::to_owned);
-    let rows = PARAMETERS.iter().map(|it| row(it, &fit));
+    let rows = PARAMETERS.iter().map(|it| row(it, &fit, &record.scene));
     let rows: Vec<[String; 5]> = std::iter::once(head).chain(rows).collect();
     for line in super::compare::in_columns(&rows) {
         console.result(line);
@@ -114,22 +131,53 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         let text = scene(&drainage, &fit);
         store::write_atomic(path, text.as_bytes()).map_err(Failure::failed)?;
         console.file(path);
+        if let Err(error) = Scene::from_toml(&text, path) {
+            console.warning(format_args!(
+                "spots of these parameters cannot be run in this box, as `phase run` will say too:\n\
+                 {error}"
+            ));
+        }
     }
+    let entry = |it: &Parameter| Entry::new(it, &fit, &record.scene);
     console.answer(&Answer {
-        parameters: PARAMETERS.iter().map(|it| Entry::new(it, &fit)).collect(),
+        parameters: PARAMETERS.iter().map(entry).collect(),
         files: console.files(),
     });
     Ok(Exit::Done)
 }
 
-fn row(parameter: &Parameter, fit: &SpotFit) -> [String; 5] {
+impl Parameter {
+    /// That of the paper in SI units for spheres of this scene; none if their tau is not known.
+    fn of_paper(&self, scene: &Scene) -> Option<f64> {
+        let diameter = 2.0 * scene.spheres.radius.mean();
+        let gravity = match (&scene.dem.effects.gravity, scene.units()) {
+            (Some(gravity), _) => Some(gravity.acceleration),
+            // Spots know no gravity.
+            (None, Units::OfSpheres) => Some(1.0),
+            (None, Units::Si) => None,
+        };
+        match self.dimension {
+            Dimension::Length => Some(self.paper * diameter),
+            Dimension::Ratio => Some(self.paper),
+            Dimension::Rate => gravity.map(|gravity| self.paper * (gravity / diameter).sqrt()),
+        }
+    }
+}
+
+fn row(parameter: &Parameter, fit: &SpotFit, scene: &Scene) -> [String; 5] {
+    let paper = parameter.of_paper(scene);
     [
         format!("spot.{}", parameter.key),
         parameter.symbol.to_owned(),
         super::compare::written((parameter.value)(fit)),
-        parameter.paper.to_string(),
+        paper.map_or_else(|| "-".to_owned(), |paper| rounded(paper).to_string()),
         parameter.from.to_owned(),
     ]
+}
+
+/// A number with four digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
 }
 
 /// First line of the scenes that this command writes.
@@ -160,10 +208,11 @@ fn scene(drainage: &Drainage<'_>, fit: &SpotFit) -> String {
         )
     });
     format!(
-        "{HEAD}\n\ntitle = \"Spots, fitted\"\n\n[spheres]\ncount = {}\nradius = {:?}\ndensity = \
+        "{HEAD}\n\ntitle = \"Spots, fitted\"\nseed = {}\n\n[spheres]\ncount = {}\nradius = {:?}\ndensity = \
          {:?}\n\n[tank]\n{}{opening}\n\n[start]\nkind = \"packing\"\n\n[spot]\n{}vertical_step = \
          {:?}    # a tenth of a diameter\n\n[time]\nduration = {:?}\nframe_interval = \
          {:?}\n\n[output]\nsnapshot_interval = {:?}\n",
+        scene.seed,
         scene.spheres.count,
         scene.spheres.radius.mean(),
         scene.spheres.density,
@@ -191,18 +240,18 @@ struct Entry {
     value: f64,
     /// Half the width of its interval of 95 %, if its scatter is known.
     half_width: Option<f64>,
-    /// That of Rycroft, Wong and Bazant (2010), in units of diameter and tau.
-    paper: f64,
+    /// That of Rycroft, Wong and Bazant (2010) for spheres of this size, if their tau is known.
+    paper: Option<f64>,
 }
 
 impl Entry {
-    fn new(parameter: &Parameter, fit: &SpotFit) -> Self {
+    fn new(parameter: &Parameter, fit: &SpotFit, scene: &Scene) -> Self {
         let Estimate { value, half_width } = (parameter.value)(fit);
         Self {
             key: format!("spot.{}", parameter.key),
             value,
             half_width: Some(half_width).filter(|it| it.is_finite()),
-            paper: parameter.paper,
+            paper: parameter.of_paper(scene).map(rounded),
         }
     }
 }

@@ -5,6 +5,7 @@ use crate::support::{Workplace, drainage_file};
 use phase::compare::{Drainage, outflow};
 use phase::store::{content_digest, read_record};
 use serde_json::Value;
+use std::ops::Range;
 
 /// A box of 400 spheres whose orifice opens after a second.
 const ELEMENTS: &str = r#"
@@ -56,6 +57,11 @@ fn a_silo_of_discrete_elements_opens_and_drains() {
         let same = row["difference"].is_null() || row["difference"] == 0.0;
         assert!(is_time || same, "{row}");
     }
+    // Pictures count from the opening, a second after the start, if they are asked to.
+    place
+        .phase(&["view", "run.h5", "--time", "3", "--since-opening"])
+        .code(0)
+        .complains("shows t = 3 τ");
     let drawn = place.phase(&["plot", "run.h5", "--figure", "outflow,velocity-correlation"]);
     drawn.code(0);
 }
@@ -89,12 +95,12 @@ fn wide() -> String {
         + "relaxation.method = \"global\"\n"
 }
 
-/// Spots of the fitted parameters drain nearly as fast as the drainage they are fitted to: they
-/// remove all overlaps, which holds spheres back. One seed; of seeds 1 to 4 the ratios of the outflow
-/// were .69, .68, .72 and .74.
+/// Spots of the fitted parameters drain two thirds to three quarters as fast as the drainage that
+/// they are fitted to: they remove all overlaps, which holds spheres back. One seed; of seeds 1 to 4
+/// the ratios of the outflow were .69, .68, .72 and .74.
 #[test]
 #[ignore = "the packing of 4,500 spheres: half a minute"]
-fn fitted_spots_drain_alike() {
+fn fitted_spots_drain_two_thirds_as_fast() {
     let place = Workplace::new();
     place.write("wide.toml", &wide());
     place
@@ -137,7 +143,7 @@ fn fitted_spots_drain_alike() {
             .value
     };
     let ratio = rate("fitted.h5") / rate("wide.h5");
-    assert!((0.55..1.0).contains(&ratio), "{ratio}");
+    assert!((0.6..0.85).contains(&ratio), "{ratio}");
     // A second time it does not replace another file.
     place.write("other.toml", "title = \"mine\"\n");
     let refused = place
@@ -145,6 +151,55 @@ fn fitted_spots_drain_alike() {
         .code(2);
     assert!(refused.stderr.contains("other.toml"), "{}", refused.stderr);
 }
+
+/// Symptom: the scene that a fit wrote was refused by `phase run`, and nothing had said so: spots
+/// of the fitted radius were wider than the box. The numbers of the paper stood in units of the
+/// spheres beside those in SI units. The seed of the record, and with it its packing, was lost.
+#[test]
+#[ignore = "5,500 spheres: a minute"]
+fn a_fit_of_discrete_elements_says_if_its_spots_are_too_wide_for_the_box() {
+    let place = Workplace::new();
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/sweeps/scenes/dem-small.toml");
+    let run = [
+        "run",
+        scene,
+        "--set",
+        "time.dt=4e-4",
+        "--set",
+        "time.duration=25",
+        "--seed",
+        "2",
+    ];
+    place
+        .phase(&[&run[..], &["--out", "run.h5"]].concat())
+        .code(0);
+    let fit = ["fit", "run.h5", "--times", "5,20", "--out", "fitted.toml"];
+    let fitted = place.phase(&fit).code(0);
+    let warns = fitted.stderr.contains("cannot be run in this box");
+    let check = place.phase(&["check", "fitted.toml", "--no-trial"]);
+    assert_eq!(
+        check.code,
+        Some(if warns { 2 } else { 0 }),
+        "{}",
+        fitted.stderr
+    );
+    assert!(place.read("fitted.toml").contains("seed = 2"));
+    for (key, fit, paper) in FITTED {
+        let line = fitted.stdout.lines().find(|line| line.starts_with(key));
+        let words: Vec<&str> = line.unwrap().split_whitespace().collect();
+        let found: f64 = words[2].parse().unwrap();
+        assert!(fit.contains(&found), "{key}: {found}");
+        assert!(words.contains(&paper), "{words:?}");
+    }
+}
+
+/// What the shorter box of discrete elements asks for, about (seeds 1 and 2 at 5 to 30 tau), and
+/// the paper's numbers.
+const FITTED: [(&str, Range<f64>, &str); 3] = [
+    ("spot.diffusion_length", 0.6..1.2, "2.28"),
+    ("spot.radius", 3.4..5.0, "2.6"),
+    ("spot.move_rate", 25.0..65.0, "28"),
+];
 
 #[test]
 fn what_does_not_flow_is_not_fitted() {
