@@ -10,6 +10,7 @@ use super::time_step::{self, Tightest, tightest_limits};
 use super::{classify, format, job};
 use phase::cost::{Forecast, Leaves, forecast};
 use phase::dem::timestep::{Limit, Standing};
+use phase::document::LoadError;
 use phase::scene::{FileKind, Scene, Start, Tank};
 use phase::study::{AnyFile, AnyStudy};
 use phase::sweep::{Axis, Job, Sweep, describe, work};
@@ -35,6 +36,12 @@ pub(crate) struct Arguments {
     /// Simulations at the same time [default: all cores].
     #[arg(short, long, value_name = "N", value_parser = super::sweep::at_least_one)]
     jobs: Option<usize>,
+    /// A key of the scene with another value, as of `phase run`; may be given several times.
+    #[arg(long, value_name = "KEY=VALUE", value_parser = super::run::setting)]
+    set: Vec<String>,
+    /// A table or key to leave out of the scene, as of `phase run`; may be given several times.
+    #[arg(long, value_name = "KEY")]
+    without: Vec<String>,
     /// Only validate: no trial, no forecast.
     #[arg(long)]
     no_trial: bool,
@@ -45,7 +52,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
-    let (sweep, kind) = match AnyFile::load(&arguments.file).map_err(Failure::refused)? {
+    let (sweep, kind) = match arguments.load().map_err(Failure::refused)? {
         AnyFile::Scene(scene) => (Sweep::of_scene(*scene), FileKind::Scene),
         AnyFile::Sweep(sweep) => (*sweep, FileKind::Sweep),
         AnyFile::Study(AnyStudy::Stability(study)) => {
@@ -125,6 +132,17 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         forecast: forecast.map(|forecast| ForecastAnswer::new(&forecast, workers)),
     });
     Ok(Exit::Done)
+}
+
+impl Arguments {
+    /// The file; of a scene with the keys that are to be set or left out.
+    fn load(&self) -> Result<AnyFile, LoadError> {
+        if self.set.is_empty() && self.without.is_empty() {
+            return AnyFile::load(&self.file);
+        }
+        let scene = Scene::load_with(&self.file, &self.set, &self.without)?;
+        Ok(AnyFile::Scene(Box::new(scene)))
+    }
 }
 
 fn line(name: &str, text: impl std::fmt::Display) -> String {

@@ -107,7 +107,7 @@ fn threads(text: &str) -> Result<usize, String> {
 }
 
 /// Parses a setting as far as it needs an equals sign.
-fn setting(text: &str) -> Result<String, String> {
+pub(super) fn setting(text: &str) -> Result<String, String> {
     match text.split_once('=') {
         Some((key, value)) if !key.trim().is_empty() && !value.trim().is_empty() => {
             Ok(text.to_owned())
