@@ -136,6 +136,8 @@ class Drainage(Box):
     def __init__(self, record, phase, folder):
         self.folder, self.density = folder, 6 / math.pi
         text = (FOLDER.parent / "sweeps/scenes/dem-drainage.toml").read_text()
+        # The orifice is open from the start.
+        text = self.replaced(text, {"[door]\nopens = 20.0    # s\n\n": ""})
         self.text = self.replaced(text, {"snapshot_interval = 2.0": "snapshot_interval = 0.0"})
         self.take(phase, record, [25.0, 4.0])
         self.count = len(self.spheres)
