@@ -10,14 +10,26 @@ folder=${1:-scratch/drainage}
 results=${2:-results/drainage}
 fidelity=${3:-scratch/fidelity}
 
-# Draws figures of records: figures NAME "FIGURES" TIMES RECORD=LABEL...; the name may be empty.
-figures() {
-    local name=$1 list=$2 times=$3 records=() labels=() pair
-    shift 3
+# Records and their labels from RECORD=LABEL...
+take() {
+    records=() labels=()
+    local pair
     for pair in "$@"; do
         records+=("$folder/${pair%%=*}.h5")
         labels+=(--label "${pair#*=}")
     done
+}
+
+# The numbers of records: table NAME TIMES RECORD=LABEL...
+table() {
+    take "${@:3}"
+    "$phase" compare "${records[@]}" "${labels[@]}" --times "$2" --out "$results/$1.csv" -q
+}
+
+# Draws figures of records: figures NAME "FIGURES" TIMES RECORD=LABEL...; the name may be empty.
+figures() {
+    local name=$1 list=$2 times=$3
+    take "${@:4}"
     [ -z "$name" ] || labels+=(--name "$name")
     "$phase" plot "${records[@]}" "${labels[@]}" --figure "$list" --times "$times" --out "$results" -q
 }
@@ -40,16 +52,19 @@ pair=(dem="discrete elements" base="spots")
 figures pair outflow,velocity-profile,cross-profile,surface-angle,radial-distribution,bond-angles 40,120 "${pair[@]}"
 figures pair mixing,diffusion,velocity-correlation,retention,residence 40,120 "${pair[@]}"
 figures pair packing-map 20,120 "${pair[@]}"
-figures walls cross-profile 5,30 wall0.1="0.1" wall0.3="0.3" dt4="0.5" wall0.7="0.7" wall0.9="0.9"
+figures walls cross-profile 5,30 wall0.1="wall friction 0.1" wall0.3="0.3" dt4="0.5" wall0.7="0.7" wall0.9="0.9"
 figures walls velocity-profile 40,120 dem="wall friction 0.5" dem-wall0.3="wall friction 0.3" dem-wall0.1="wall friction 0.1"
 folder=$fidelity figures fidelity cost-error 5,30 fidelity-0="discrete elements, Δt = 10⁻⁴ τ" \
     fidelity-1="4 times the step" fidelity-2="spots, every move" fidelity-3="1 in 10" fidelity-4="every 10th" \
     fidelity-5="1 in 100" fidelity-6="all, k = 1" fidelity-7="all, k = 10" fidelity-8="never"
 
-"$phase" compare "$folder"/{dem,base}.h5 --times 40,120 --out "$results/pair.csv"
-"$phase" compare "$folder"/{dt1,dt2,dt4,dt8,seed2}.h5 --times 5,30 --out "$results/steps.csv"
-"$phase" compare "$folder"/{wall0.1,wall0.3,dt4,wall0.7,wall0.9}.h5 --times 5,30 --out "$results/walls.csv"
+table pair 40,120 "${pair[@]}"
+table steps 5,30 dt1="step 1e-4" dt2="step 2e-4" dt4="step 4e-4" dt8="step 8e-4" seed2="step 4e-4, seed 2"
+table walls 5,30 wall0.1="wall friction 0.1" wall0.3="wall friction 0.3" dt4="wall friction 0.5" \
+    wall0.7="wall friction 0.7" wall0.9="wall friction 0.9"
+table walls-full 40,120 dem="wall friction 0.5" dem-wall0.3="wall friction 0.3" dem-wall0.1="wall friction 0.1"
 "$phase" fit "$folder/dem.h5" --times 40,120
-"$phase" view "$folder/dem.h5" --color layer --cut --time 20,80,140 --width 220 --palette --out "$results/pair-layers.png" -q
+"$phase" view "$folder"/{dem,base}.h5 --color layer --cut --time 0,60,120 --since-opening --width 220 --palette \
+    --out "$results/pair-layers.png" -q
 # These would be large.
 rm -f "$results"/{pair-packing-map,pair-velocity-profile,walls-velocity-profile,walls-cross-profile}.svg

@@ -12,8 +12,10 @@ folder=${1:-scratch/drainage}
 shift || true
 mkdir -p "$folder"
 
+# All spheres are relaxed once per step: cheap.
+global="spot.relaxation.method=global spot.relaxation.ratio=1"
 # NAME, the scene, then the keys that the run has in place of the scene's.
-runs=$(cat <<'RUNS'
+runs=$(cat <<RUNS
 dem dem-drainage time.dt=4e-4
 dem-wall0.1 dem-drainage time.dt=4e-4 time.duration=140 tank.friction_coefficient=0.1
 dem-wall0.3 dem-drainage time.dt=4e-4 time.duration=140 tank.friction_coefficient=0.3
@@ -26,23 +28,23 @@ wall0.1 dem-small time.dt=4e-4 tank.friction_coefficient=0.1
 wall0.3 dem-small time.dt=4e-4 tank.friction_coefficient=0.3
 wall0.7 dem-small time.dt=4e-4 tank.friction_coefficient=0.7
 wall0.9 dem-small time.dt=4e-4 tank.friction_coefficient=0.9
-none spot-drainage output.snapshot_interval=2 time.duration=200 spot.relaxation.method=off
-random100 spot-drainage output.snapshot_interval=2 time.duration=200 spot.relaxation.method=at-random spot.relaxation.ratio=100
-random10 spot-drainage output.snapshot_interval=2 time.duration=200 spot.relaxation.method=at-random spot.relaxation.ratio=10
-counted10 spot-drainage output.snapshot_interval=2 time.duration=200 spot.relaxation.method=counted spot.relaxation.ratio=10
-global1 spot-drainage output.snapshot_interval=2 time.duration=200 spot.relaxation.method=global spot.relaxation.ratio=1
-global10 spot-drainage output.snapshot_interval=2 time.duration=200 spot.relaxation.method=global spot.relaxation.ratio=10
-base spot-drainage output.snapshot_interval=2 time.duration=300
-coarse spot-drainage output.snapshot_interval=2 time.duration=300 spot.relaxation.method=global spot.relaxation.ratio=1
-bias3 spot-drainage output.snapshot_interval=2 time.duration=300 spot.relaxation.method=global spot.relaxation.ratio=1 spot.walk.bias=3 spot.weighting.above=30
-bias10 spot-drainage output.snapshot_interval=2 time.duration=300 spot.relaxation.method=global spot.relaxation.ratio=1 spot.walk.bias=10 spot.weighting.above=30
-walk spot-drainage output.snapshot_interval=2 time.duration=300 spot.relaxation.method=global spot.relaxation.ratio=1 spot.walk.bias=3
-weighting spot-drainage output.snapshot_interval=2 time.duration=300 spot.relaxation.method=global spot.relaxation.ratio=1 spot.weighting.above=30
-newest spot-drainage output.snapshot_interval=2 time.duration=120 spot.schedule=steps-newest-first
-dw0.5 spot-drainage output.snapshot_interval=2 time.duration=120 spot.relaxation.method=global spot.relaxation.ratio=1 spot.wall_distance=0.5
-dw0 spot-drainage output.snapshot_interval=2 time.duration=120 spot.relaxation.method=global spot.relaxation.ratio=1 spot.wall_distance=0
-dw-1.5 spot-drainage output.snapshot_interval=2 time.duration=120 spot.relaxation.method=global spot.relaxation.ratio=1 spot.wall_distance=-1.5
-reflection spot-drainage output.snapshot_interval=2 time.duration=120 spot.relaxation.method=global spot.relaxation.ratio=1 spot.wall_distance=0 spot.reflection=true
+none spot-drainage time.duration=200 spot.relaxation.method=off
+random100 spot-drainage time.duration=200 spot.relaxation.method=at-random spot.relaxation.ratio=100
+random10 spot-drainage time.duration=200 spot.relaxation.method=at-random spot.relaxation.ratio=10
+counted10 spot-drainage time.duration=200 spot.relaxation.method=counted spot.relaxation.ratio=10
+global1 spot-drainage time.duration=200 $global
+global10 spot-drainage time.duration=200 spot.relaxation.method=global spot.relaxation.ratio=10
+base spot-drainage time.duration=300
+coarse spot-drainage time.duration=300 $global
+bias3 spot-drainage time.duration=300 $global spot.walk.bias=3 spot.weighting.above=30
+bias10 spot-drainage time.duration=300 $global spot.walk.bias=10 spot.weighting.above=30
+walk spot-drainage time.duration=300 $global spot.walk.bias=3
+weighting spot-drainage time.duration=300 $global spot.weighting.above=30
+newest spot-drainage time.duration=120 spot.schedule=steps-newest-first
+dw0.5 spot-drainage time.duration=120 $global spot.wall_distance=0.5
+dw0 spot-drainage time.duration=120 $global spot.wall_distance=0
+dw-1.5 spot-drainage time.duration=120 $global spot.wall_distance=-1.5
+reflection spot-drainage time.duration=120 $global spot.wall_distance=0 spot.reflection=true
 RUNS
 )
 

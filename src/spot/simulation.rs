@@ -157,10 +157,6 @@ impl Simulation {
     /// Lets steps, relaxations of all spheres and sorting use this number of threads.
     ///
     /// # Errors
-    ///
-    /// If the system starts no more threads.
-    ///
-    /// # Errors
     /// If the system gives no threads.
     pub fn use_threads(&mut self, threads: usize) -> Result<(), ThreadPoolBuildError> {
         self.workers = Workers::new(threads)?;
