@@ -46,7 +46,6 @@ figures "" cross-profile 40,120 coarse='$d_w$ = $d$' dw0.5='$d_w$ = $d$/2' dw0='
     reflection='$d_w$ = 0, reflection' dw-1.5='$d_w$ = −3$d$/2'
 figures "" surface-angle 20,300 coarse="no bias" walk="bias 3" weighting="weighted" \
     bias3="bias 3, weighted" bias10="bias 10, weighted"
-"$phase" view "$folder/base.h5" --color layer --cut --time 0,60,120 --width 220 --palette --out "$results/layers.png" -q
 
 pair=(dem="discrete elements" base="spots")
 figures pair outflow,velocity-profile,cross-profile,surface-angle,radial-distribution,bond-angles 40,120 "${pair[@]}"

@@ -101,6 +101,6 @@ fn what_is_no_drainage_within_the_times_is_refused() {
     place
         .phase(&["run", "tank.toml", "--out", "tank.h5"])
         .code(0);
-    let answer = place.phase(&["compare", "tank.h5"]).code(2);
+    let answer = place.phase(&["fit", "tank.h5"]).code(2);
     answer.complains("a box with an opening");
 }
