@@ -63,9 +63,9 @@ pub fn share_interval(share: f64, trials: usize) -> [f64; 2] {
     [(centre - half).max(0.0), (centre + half).min(1.0)]
 }
 
-/// Ends of the interval of [`CONFIDENCE`] for the mean of independent shares; none without any. That
-/// of Student's t, cut off at 0 and 1; where all are 0 or 1, and may not have scattered by chance,
-/// that of Wilson ([`share_interval`]).
+/// Ends of the interval of [`CONFIDENCE`] for the mean of independent shares; none without any.
+/// That of Student's t, cut off at 0 and 1; where all are 0 or 1, and may not have scattered by
+/// chance, that of Wilson ([`share_interval`]).
 ///
 /// ```
 /// use phase::statistics::mean_share_interval;

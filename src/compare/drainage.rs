@@ -111,8 +111,8 @@ impl<'a> Drainage<'a> {
     }
 }
 
-/// When the opening of a silo or box opened (s), at the start if it has no door; none if its door is
-/// closed to the end.
+/// When the opening of a silo or box opened (s), at the start if it has no door; none if its door
+/// is closed to the end.
 pub fn opened(record: &RunRecord) -> Option<f64> {
     if record.scene.dem.door.is_none() {
         return Some(0.0);

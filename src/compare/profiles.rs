@@ -31,8 +31,8 @@ pub fn cross_profile(drainage: &Drainage<'_>) -> VelocityProfile {
     let filled_box = &drainage.filled_box;
     let bins = (CROSS_BINS * 2.0 * filled_box.half_depth / filled_box.diameter).round();
     let region = filled_box.part(CROSS.0, CROSS.1);
-    // An odd number: of an even one sides of bins lie where spheres touch the walls, half a diameter
-    // from them, and those at one wall only would be in the same bin as what is farther inside.
+    // An odd number: of an even one sides of bins lie where spheres touch the walls, half a
+    // diameter from them, and those at one wall alone would share a bin with what is inside.
     let profile = VelocityProfile::new(Axis::Y, region, bins.max(1.0) as usize | 1);
     filled(profile, drainage)
 }

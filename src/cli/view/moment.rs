@@ -140,8 +140,8 @@ fn since<'a>(
                 )
             });
             Failure::refused(format_args!(
-                "there is no state after `{}` ({} {unit}){until}: store more of them with `phase run \
-                 --snapshot-interval`",
+                "there is no state after `{}` ({} {unit}){until}: store more of them with `phase \
+                 run --snapshot-interval`",
                 key(kind),
                 brief(record, milestone.time)
             ))

@@ -67,8 +67,9 @@ impl Figure for CostError {
             y_label: "difference from the reference, over its value".to_owned(),
             legend: legend(reference, others),
             notes: vec![
-                "Bars: 95 % over ten states or blocks of time, of both runs; where nothing tells the scatter, \
-                 there is none. A difference below the interval of the reference cannot be told."
+                "Bars: 95 % over ten states or blocks of time, of both runs; where nothing tells \
+                 the scatter, there is none. A difference below the interval of the reference \
+                 cannot be told."
                     .to_owned(),
             ],
         }
