@@ -14,7 +14,8 @@ use std::path::PathBuf;
 ///
 /// By the procedure of Rycroft, Bazant, Grest and Landry (2006): b from the width of the flow, w
 /// from the diffusion of spheres, the radius from the correlation of velocities, the rates from the
-/// outflow and from the drop of the density. Each has its interval of 95 %, over ten states or blocks of time.
+/// outflow and from the drop of the density. Each has its interval of 95 %, over ten states or
+/// blocks of time.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: discrete elements, and spots with the parameters that these ask for
@@ -133,8 +134,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.file(path);
         if let Err(error) = Scene::from_toml(&text, path) {
             console.warning(format_args!(
-                "spots of these parameters cannot be run in this box, as `phase run` will say too:\n\
-                 {error}"
+                "spots of these parameters cannot be run in this box, as `phase run` will say \
+                 too:\n{error}"
             ));
         }
     }
@@ -208,10 +209,10 @@ fn scene(drainage: &Drainage<'_>, fit: &SpotFit) -> String {
         )
     });
     format!(
-        "{HEAD}\n\ntitle = \"Spots, fitted\"\nseed = {}\n\n[spheres]\ncount = {}\nradius = {:?}\ndensity = \
-         {:?}\n\n[tank]\n{}{opening}\n\n[start]\nkind = \"packing\"\n\n[spot]\n{}vertical_step = \
-         {:?}    # a tenth of a diameter\n\n[time]\nduration = {:?}\nframe_interval = \
-         {:?}\n\n[output]\nsnapshot_interval = {:?}\n",
+        "{HEAD}\n\ntitle = \"Spots, fitted\"\nseed = {}\n\n[spheres]\ncount = {}\nradius = {:?}\n\
+         density = {:?}\n\n[tank]\n{}{opening}\n\n[start]\nkind = \"packing\"\n\n[spot]\n{}\
+         vertical_step = {:?}    # a tenth of a diameter\n\n[time]\nduration = {:?}\n\
+         frame_interval = {:?}\n\n[output]\nsnapshot_interval = {:?}\n",
         scene.seed,
         scene.spheres.count,
         scene.spheres.radius.mean(),

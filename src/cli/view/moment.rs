@@ -95,8 +95,8 @@ fn nearest<'a>(
         .filter(|_| time >= first - 0.5 * interval && time <= last + 0.5 * interval)
         .ok_or_else(|| {
             Failure::refused(format_args!(
-                "there is no state at t = {time} {unit}: the record holds them from {} to {} {unit} \
-                 ({} frames of {interval} {unit})",
+                "there is no state at t = {time} {unit}: the record holds them from {} to {} \
+                 {unit} ({} frames of {interval} {unit})",
                 brief(record, first),
                 brief(record, last),
                 record.observations.frames()
