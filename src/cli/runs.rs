@@ -10,18 +10,8 @@ use std::path::{Path, PathBuf};
 /// Whether a file is of another program: a dump of LAMMPS, an extended XYZ file, files of VTK.
 fn is_of_another_program(path: &Path) -> bool {
     let end = path.extension().and_then(|it| it.to_str());
-    let ends = [
-        "xyz",
-        "extxyz",
-        "dump",
-        "lammpstrj",
-        "pvd",
-        "series",
-        "vtk",
-        "vtp",
-        "vtu",
-    ];
-    end.is_some_and(|end| ends.contains(&end))
+    let is_of_vtk = matches!(end, Some("pvd" | "series" | "vtk" | "vtp" | "vtu"));
+    is_of_vtk || matches!(end, Some("xyz" | "extxyz" | "dump" | "lammpstrj"))
 }
 
 /// Reads records and files of other programs. The latter take the scene that is given, or that of

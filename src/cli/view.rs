@@ -203,12 +203,11 @@ fn run<'a>(
     let frames = arguments.frame.iter();
     let frames = frames.map(|&frame| Moment::Time(frame as f64 * interval));
     let origin = origin(path, record, arguments)?;
-    let times = arguments.time.iter().map(|moment| moment.since(origin));
-    let moments: Vec<Moment> = frames.chain(times).collect();
+    let moments: Vec<Moment> = frames.chain(arguments.time.iter().copied()).collect();
     let shown = match (moments.is_empty(), arguments.each.is_some()) {
         (true, true) => states.iter().collect(),
         (true, false) => evenly(states, PANELS),
-        (false, _) => moment::at(&moments, record, states)?,
+        (false, _) => moment::at(&moments, record, states, origin)?,
     };
     if arguments.animate.is_none() && arguments.each.is_none() {
         let times = shown

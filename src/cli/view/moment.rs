@@ -15,16 +15,6 @@ pub(super) enum Moment {
     Milestone(MilestoneKind),
 }
 
-impl Moment {
-    /// The same, with a time counted from the start of the run in place of an origin (s).
-    pub(super) fn since(self, origin: f64) -> Self {
-        match self {
-            Self::Time(time) => Self::Time(time + origin),
-            Self::Milestone(_) => self,
-        }
-    }
-}
-
 impl FromStr for Moment {
     type Err = String;
 
@@ -56,7 +46,7 @@ pub(super) fn evenly(states: &[Snapshot], most: usize) -> Vec<&Snapshot> {
     (0..count).map(at).collect()
 }
 
-/// The states at these moments, in order of time.
+/// The states at these moments, in order of time. Times count from an origin (s).
 ///
 /// # Errors
 /// If there is no state at one of them.
@@ -64,11 +54,12 @@ pub(super) fn at<'a>(
     moments: &[Moment],
     record: &RunRecord,
     states: &'a [Snapshot],
+    origin: f64,
 ) -> Result<Vec<&'a Snapshot>, Failure> {
     let mut shown = moments
         .iter()
         .map(|moment| match moment {
-            Moment::Time(time) => nearest(*time, record, states),
+            Moment::Time(time) => nearest(*time, record, states, origin),
             Moment::Milestone(kind) => since(*kind, record, states),
         })
         .collect::<Result<Vec<_>, _>>()?;
@@ -82,13 +73,15 @@ fn nearest<'a>(
     time: f64,
     record: &RunRecord,
     states: &'a [Snapshot],
+    origin: f64,
 ) -> Result<&'a Snapshot, Failure> {
     let (interval, unit) = (
         record.scene.time.frame_interval,
         record.scene.units().of_time(),
     );
     let (first, last) = (states[0].time, states[states.len() - 1].time);
-    let distance = |state: &Snapshot| (state.time - time).abs();
+    let [first, last] = [first, last].map(|end| end - origin);
+    let distance = |state: &Snapshot| (state.time - origin - time).abs();
     states
         .iter()
         .min_by(|a, b| distance(a).total_cmp(&distance(b)))
