@@ -12,6 +12,7 @@ mod large;
 mod ledger;
 mod motion;
 mod openings;
+mod order;
 mod plane_sides;
 mod reproduction;
 mod rolling;
