@@ -68,7 +68,7 @@ impl Rounds<'_> {
             folder.write_sweep(sweep).map_err(Failure::failed)?;
         }
         self.tell_of_end(sweep, &refinement, end);
-        let done_before = plan.done().count().saturating_sub(run.report.finished);
+        let done_before = plan.labelled().count().saturating_sub(run.report.finished);
         let run = Run { done_before, ..run };
         let runs = refinement.runs();
         Ok((plan, run, Refined { runs, end }))

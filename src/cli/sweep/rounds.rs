@@ -47,7 +47,7 @@ impl Rounds<'_> {
             return Ok((plan, run));
         }
         let plan = self.plan_of_borders(sweep, &plan)?;
-        let done_before = plan.done().count() - run.report.finished;
+        let done_before = plan.labelled().count().saturating_sub(run.report.finished);
         let later = self.run_plan(&plan, sweep)?;
         let run = run.and(later);
         Ok((plan, Run { done_before, ..run }))
@@ -106,7 +106,7 @@ pub(super) struct Part {
 /// What was run now.
 pub(super) struct Run {
     pub(super) report: Report,
-    /// Jobs whose record was there before.
+    /// Jobs whose record, or label that counts without one, was there before.
     pub(super) done_before: usize,
     pub(super) seconds: f64,
     pub(super) workers: usize,
@@ -126,9 +126,9 @@ fn run(plan: &Plan, pool: Pool<'_>, part: Part, console: &Console) -> Result<Run
         console,
         Work {
             jobs,
-            jobs_done: plan.done().count(),
+            jobs_done: plan.labelled().count(),
             steps: (planned as f64 * scale) as u64,
-            steps_done: plan.done().map(|(job, _)| steps(job)).sum(),
+            steps_done: plan.labelled().map(steps).sum(),
             unit: model_of(&sweep.scene).work_unit(),
             head: part.head,
         },
@@ -167,7 +167,7 @@ fn run(plan: &Plan, pool: Pool<'_>, part: Part, console: &Console) -> Result<Run
         .collect();
     Ok(Run {
         report: report?,
-        done_before: plan.done().count(),
+        done_before: plan.labelled().count(),
         seconds,
         workers,
         unstable,
@@ -256,7 +256,7 @@ impl Run {
 
 /// Says what is done already, and what is run again and why.
 pub(super) fn tell_of_plan(plan: &Plan, console: &Console) {
-    let done = plan.done().count();
+    let done = plan.labelled().count();
     if done > 0 {
         console.note(format_args!(
             "{done} of {} are done already",
