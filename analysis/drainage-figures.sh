@@ -20,6 +20,14 @@ take() {
     done
 }
 
+# A picture of records beside each other: picture NAME "OPTIONS" RECORD=LABEL...
+picture() {
+    take "${@:3}"
+    # Options are several words.
+    # shellcheck disable=SC2086
+    "$phase" view "${records[@]}" "${labels[@]}" $2 --cut --palette --out "$results/$1.png" -q
+}
+
 # The numbers of records: table NAME TIMES RECORD=LABEL...
 table() {
     take "${@:3}"
@@ -63,7 +71,11 @@ table walls 5,30 wall0.1="wall friction 0.1" wall0.3="wall friction 0.3" dt4="wa
     wall0.7="wall friction 0.7" wall0.9="wall friction 0.9"
 table walls-full 40,120 dem="wall friction 0.5" dem-wall0.3="wall friction 0.3" dem-wall0.1="wall friction 0.1"
 "$phase" fit "$folder/dem.h5" --times 40,120
-"$phase" view "$folder"/{dem,base}.h5 --color layer --cut --time 0,60,120 --since-opening --width 220 --palette \
-    --out "$results/pair-layers.png" -q
+picture pair-layers "--color layer --time 0,60,120 --since-opening --width 170" "${pair[@]}"
+surfaces=(coarse="no bias" walk="bias 3" weighting="weighted" bias3="bias 3, weighted")
+picture surface-layers "--color layer --time 300 --width 150" "${surfaces[@]}"
+picture surface-packing "--color packing-fraction --time 300 --window=-25,25,50,90 --width 220" "${surfaces[@]}"
+picture relaxation-layers "--color layer --time 120 --window=-15,15,0,40 --width 170" base="every move" \
+    random100="at random, 1 in 100" global10="all, k = 10" none="never"
 # These would be large.
 rm -f "$results"/{pair-packing-map,pair-velocity-profile,walls-velocity-profile,walls-cross-profile}.svg

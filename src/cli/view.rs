@@ -36,6 +36,9 @@ Example: layers of a drainage in a cut through the middle, and what is near the 
   phase view dem.h5 spots.h5 --time 0,60 --since-opening --color layer --cut --out pair.png
   phase view drainage.h5 --time 60 --color packing-fraction --cut --window -15,15,0,40
 
+Example: two runs of one scene, with names of their own
+  phase view a.h5 b.h5 --label \"no bias\" --label \"a bias of 3\" --out pair.png
+
 Example: an animation in real time; APNG (.png) keeps smaller files, GIF is shown by every program
   phase run --from results/quick --point radius=0.003,omega=6 --snapshot-interval 0.05 \\
     --out spout.h5
@@ -47,6 +50,10 @@ pub(crate) struct Arguments {
     /// The record (HDF5); or several.
     #[arg(required = true, value_name = "RECORD")]
     records: Vec<PathBuf>,
+    /// What the picture calls a record, in place of its title and place in a sweep; once for each
+    /// record, in their order.
+    #[arg(long = "label", value_name = "TEXT")]
+    labels: Vec<String>,
     /// Frames to show, counted from 0 at the start.
     #[arg(long, value_name = "N", value_delimiter = ',', conflicts_with = "time")]
     frame: Vec<u64>,
@@ -133,6 +140,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             "--animate and --each take one record: give them one by one",
         ));
     }
+    if ![0, arguments.records.len()].contains(&arguments.labels.len()) {
+        return Err(Failure::refused(format_args!(
+            "--label names records: give it once for each of the {}, in their order",
+            arguments.records.len()
+        )));
+    }
     match &arguments.each {
         Some(folder) => {
             let records = read(arguments)?;
@@ -173,19 +186,20 @@ fn runs<'a>(
     arguments: &Arguments,
     console: &Console,
 ) -> Result<Vec<Run<'a>>, Failure> {
-    let named = arguments.records.iter().zip(records);
-    named
-        .map(|(path, record)| run(path, record, arguments, console))
+    let numbered = records.iter().enumerate();
+    numbered
+        .map(|(number, record)| run(number, record, arguments, console))
         .collect()
 }
 
-/// Which states of a record the command line asks for.
+/// Which states of a record, the one of that number, the command line asks for.
 fn run<'a>(
-    path: &Path,
+    number: usize,
     record: &'a RunRecord,
     arguments: &Arguments,
     console: &Console,
 ) -> Result<Run<'a>, Failure> {
+    let path = &arguments.records[number];
     let states = record.sound_states();
     if states.is_empty() {
         return Err(Failure::failed(format_args!(
@@ -221,6 +235,7 @@ fn run<'a>(
         record,
         shown,
         origin,
+        label: arguments.labels.get(number).cloned(),
     })
 }
 

@@ -42,6 +42,7 @@ pub(super) fn animate(
         record,
         shown: shown.clone(),
         origin: 0.0,
+        label: arguments.labels.first().cloned(),
     }];
     let mut sheets = Sheets::new(&runs, arguments)?;
     if !sheets.are_flat() {
@@ -99,7 +100,8 @@ fn leave_out_arrivals(
     let arrived = [Run {
         record: run.record,
         shown: run.shown[first..].to_vec(),
-        origin: run.origin,
+        label: None,
+        ..*run
     }];
     let later = Sheets::new(&arrived, arguments)?.top();
     if later < sheets.top() {

@@ -18,6 +18,19 @@ pub(super) struct Run<'a> {
     pub(super) shown: Vec<&'a Snapshot>,
     /// Time of the run (s) from which times count.
     pub(super) origin: f64,
+    /// What the picture calls it.
+    pub(super) label: Option<String>,
+}
+
+impl Run<'_> {
+    /// What the picture calls it: its label, or title and place in a sweep.
+    fn names(&self) -> Vec<String> {
+        if let Some(label) = &self.label {
+            return vec![label.clone()];
+        }
+        let title = self.record.scene.title.iter().cloned();
+        title.chain([words::place(self.record)]).collect()
+    }
 }
 
 /// What all panels have in common, and the sheet of each run.
@@ -63,9 +76,7 @@ impl<'a> Sheets<'a> {
             ));
         }
         if runs.len() == 1 {
-            let record = runs[0].record;
-            let title = record.scene.title.iter().cloned();
-            sheets[0].title = title.chain([words::place(record)]).collect();
+            sheets[0].title = runs[0].names();
         }
         let stages = sheets.iter().map(|sheet| sheet.stage.seen);
         let mut seen = stages.reduce(union).unwrap_or_default();
@@ -151,17 +162,23 @@ impl<'a> Sheets<'a> {
 
     /// One run has its title above all panels, of several each panel says which it is of.
     fn caption(&self, run: &Run<'_>, state: &Snapshot) -> Vec<String> {
-        let record = run.record;
-        let time = words::caption(record, state, run.origin);
+        let time = words::caption(run.record, state, run.origin);
         if self.runs.len() == 1 {
             return vec![time];
         }
-        let title = record.scene.title.clone().unwrap_or_default();
-        vec![title, words::place(record), time]
+        let mut lines = vec![String::new(); self.caption_lines() - 1];
+        let names = run.names();
+        let first = lines.len() - names.len();
+        lines[first..].clone_from_slice(&names);
+        lines.into_iter().chain([time]).collect()
     }
 
+    /// Lines above each panel.
     fn caption_lines(&self) -> usize {
-        if self.runs.len() == 1 { 1 } else { 3 }
+        match self.runs {
+            [_] => 1,
+            all => 1 + all.iter().map(|run| run.names().len()).max().unwrap_or(0),
+        }
     }
 }
 

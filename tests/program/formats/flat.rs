@@ -125,6 +125,28 @@ fn captions_name_what_happened() {
     );
 }
 
+/// A label stands in one line, where title and place in a sweep take two.
+#[test]
+fn runs_are_called_by_labels() {
+    let place = silo();
+    let view = |labels: &[&str]| {
+        let arguments = ["view", "silo.h5", "silo.h5", "--width", "100"];
+        let labels: Vec<&str> = labels.iter().flat_map(|it| ["--label", it]).collect();
+        let out = ["--time", "at-rest", "--out", "both.png"];
+        place.phase(&[&arguments[..], &labels, &out].concat())
+    };
+    let drawn = |labels: &[&str]| {
+        view(labels).code(0);
+        let (_, height, _, pixels) = decode(&place, "both.png");
+        (height, pixels)
+    };
+    let (unnamed, one, other) = (drawn(&[]), drawn(&["one", "two"]), drawn(&["one", "three"]));
+    assert!(one.0 < unnamed.0);
+    assert_eq!(one.0, other.0);
+    assert_ne!(one.1, other.1);
+    view(&["one"]).code(2).complains("once for each of the 2");
+}
+
 #[test]
 fn several_runs_stand_beside_each_other() {
     let place = silo();
