@@ -8,6 +8,7 @@ use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
 use crate::statistics::{Estimate, mean_share_interval};
+use crate::sweep::Sweep;
 
 /// Every measure over the horizontal axis.
 pub(super) struct MeasuresFigure;
@@ -38,14 +39,6 @@ impl Figure for MeasuresFigure {
             return Err(PlotError::NoMeasures { figure });
         }
         let named = lines.iter().filter(|line| !line.name.is_empty());
-        let seeds = match (source.sweep.seeds.len(), source.sweep.border_seeds.len()) {
-            (seeds, 0) => format!("{seeds} seeds"),
-            (seeds, more) => format!("{seeds} seeds, at borders {}", seeds + more),
-        };
-        let note = format!(
-            "Points: means over {seeds}, or over those that have a value. Bars: 95 % intervals of \
-             the means (Student's t, within 0 and 1 for shares; Wilson's where all are 0 or 1)."
-        );
         Chart {
             name: self.name(),
             columns: 2,
@@ -53,11 +46,27 @@ impl Figure for MeasuresFigure {
             panels,
             x_label: axis.label(),
             legend: named.map(|line| (line.color, line.name.clone())).collect(),
-            notes: [Some(note), left_out].into_iter().flatten().collect(),
+            notes: [Some(note(source.sweep)), left_out]
+                .into_iter()
+                .flatten()
+                .collect(),
             ..Chart::default()
         }
         .draw(source)
     }
+}
+
+/// What points and bars are.
+fn note(sweep: &Sweep) -> String {
+    let seeds = match (sweep.seeds.len(), sweep.border_seeds.len()) {
+        (1, 0) => return "Points: one run each.".to_owned(),
+        (seeds, 0) => format!("{seeds} seeds"),
+        (seeds, more) => format!("{seeds} seeds, at borders {}", seeds + more),
+    };
+    format!(
+        "Points: means over {seeds}, or over those that have a value. Bars: 95 % intervals of the \
+         means (Student's t, within 0 and 1 for shares; Wilson's where all are 0 or 1)."
+    )
 }
 
 /// The panel of a measure; none if no run has it.
@@ -82,7 +91,8 @@ fn panel(
                 let values = map.values(source, point);
                 let mean = Estimate::of_mean(&values)?;
                 let at = (axis.show(*at) + aside, mean.value);
-                match map.is_share() {
+                // One run says nothing of its scatter.
+                match map.is_share() && values.len() > 1 {
                     true => {
                         let ends = mean_share_interval(&values)?;
                         Some(Bar::between(at, ends, line.color))

@@ -54,11 +54,15 @@ fn scene() -> Scene {
 /// A sweep over opening and friction, and the table of its made-up runs: they follow the law of
 /// Beverloo but for half a grain per second, and narrow openings are blocked if there is friction.
 fn made_up() -> (Sweep, LabelTable) {
+    made_up_of(&SEEDS)
+}
+
+fn made_up_of(seeds: &[u64]) -> (Sweep, LabelTable) {
     let axes = vec![
         axis(("geometry.opening", "opening"), &OPENINGS),
         axis(("friction.coefficient", "friction"), &FRICTIONS),
     ];
-    let sweep = made_up::sweep("A made-up silo", scene(), axes, &SEEDS);
+    let sweep = made_up::sweep("A made-up silo", scene(), axes, seeds);
     let table = made_up::table(&SILO, &sweep, |values, seed| {
         Some(verdict(values[0], values[1], seed))
     });
@@ -192,6 +196,38 @@ fn measures_are_drawn_if_a_run_has_them() {
     for word in ["discharge rate (kg/s)", "hole", "margin"] {
         assert!(!shown.contains(word), "{word} in {shown}");
     }
+}
+
+/// How many bars of a figure are higher than nothing. Axes are black.
+fn upright(svg: &str) -> usize {
+    let colored = svg.lines().filter(|line| !line.contains("#000000"));
+    let ends = colored.filter_map(|line| {
+        let (_, path) = line.split_once("d=\"M")?;
+        let (from, to) = path.split_once('"')?.0.split_once('L')?;
+        Some((from.split_once(' ')?, to.split_once(' ')?))
+    });
+    ends.filter(|(from, to)| from.0 == to.0 && from.1 != to.1)
+        .count()
+}
+
+/// Symptom: bars from 0 to 1 at every share, and "means over 1 seeds". Cause: the interval of one run
+/// is infinite, and was cut to what shares can be.
+#[test]
+fn one_run_has_no_interval() {
+    let figure = |seeds: &[u64]| {
+        let (sweep, table) = made_up_of(seeds);
+        drawn("measures", &sweep, &table).unwrap()
+    };
+    let (one, three) = (figure(&SEEDS[..1]), figure(&SEEDS));
+    assert_eq!(
+        [upright(&one), upright(&three)].map(|bars| bars > 0),
+        [false, true]
+    );
+    let shown = text(&one);
+    assert!(
+        shown.contains("one run each") && !shown.contains("1 seeds"),
+        "{shown}"
+    );
 }
 
 #[test]
