@@ -115,6 +115,7 @@ fn shipped_sweeps_have_the_grids_they_promise() {
         ("beverloo", 8 * 2 * 4),
         ("beverloo-orifice", 5 * 2),
         ("spot", 7 * 6 * 3),
+        ("spot-parameters", 3 * 3 * 3),
         ("silo-fillings", 2 * 12),
         // Coarse grids.
         ("theoretical-refined", 6 * 6),
