@@ -291,6 +291,24 @@ fn records_are_compared() {
         let difference = &row["difference"];
         assert!(difference.is_null() || *difference == 0.0, "{row}");
     }
+    // Two seeds differ by their spread: twice the interval of a difference is passed by chance in
+    // one of 10,000, and there are some eight of them.
+    let other = ["--seed", "2", "--out", "other.h5"];
+    place
+        .phase(&[&["run", "scene.toml"], &other[..]].concat())
+        .code(0);
+    let seeds = answer("other.h5");
+    let number = |row: &serde_json::Value, key: &str| row[key].as_f64();
+    let pairs = seeds["rows"].as_array().unwrap().iter();
+    let pairs = pairs.filter_map(|row| {
+        let interval = number(row, "difference_half_width")?;
+        Some((number(row, "difference")?, interval, row))
+    });
+    let pairs: Vec<_> = pairs.collect();
+    assert!(pairs.len() >= 6 && pairs.iter().any(|pair| pair.0 != 0.0));
+    for (difference, interval, row) in pairs {
+        assert!(difference.abs() <= 2.0 * interval, "{row}");
+    }
     let outflow = named(rows, "outflow");
     assert!(outflow["half_widths"][0].as_f64().unwrap() > 0.0);
     let other = answer("off.h5");
