@@ -109,6 +109,7 @@ fn shipped_sweeps_have_the_grids_they_promise() {
     assert_eq!(sweep.jobs().unwrap().len(), 180);
     let others = [
         ("realistic-steady", 9 * 9),
+        ("theoretical-until-steady", 9 * 9),
         ("steel-softened", 9 * 9 * 3),
         ("silo", 10 * 6 * 3),
         ("silo-quick", 3 * 2),
