@@ -134,6 +134,14 @@ fn runs_of_a_tank_are_compared_by_their_measures() {
     told.says("B - A")
         .says("packing height")
         .says("hole radius");
+    let named = [
+        "compare", "1.h5", "2.h5", "--label", "one", "--label", "two",
+    ];
+    place.phase(&named).code(0).says("A  one").says("B  two");
+    place
+        .phase(&named[..5])
+        .code(2)
+        .complains("once for each of the 2");
     let answer = place.phase(&["compare", "1.h5", "1.h5", "--json"]).code(0);
     let answer: Value = serde_json::from_str(&answer.stdout).unwrap();
     for row in answer["rows"].as_array().unwrap() {

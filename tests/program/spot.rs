@@ -403,7 +403,18 @@ fn keys_are_set_on_the_command_line() {
             .code(2)
             .complains(complaint);
         assert!(!place.path("no.h5").exists());
+        place
+            .phase(&["check", "scene.toml", option, setting])
+            .code(2)
+            .complains(complaint);
     }
+    let check = |more: &[&str]| {
+        place
+            .phase(&[&["check", "scene.toml"], more].concat())
+            .code(0)
+    };
+    check(&[]).says("4 τ in 8 frames");
+    check(&["--set", "time.duration=1.0"]).says("1 τ in 2 frames");
 }
 
 /// Spheres on a cubic lattice in a box of 12 x 6 x 42 diameters, as a table of positions.
