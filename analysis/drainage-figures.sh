@@ -58,7 +58,7 @@ figures "" surface-angle 20,300 coarse="no bias" walk="bias 3" weighting="weight
 pair=(dem="discrete elements" base="spots")
 figures pair outflow,velocity-profile,cross-profile,surface-angle,radial-distribution,bond-angles 40,120 "${pair[@]}"
 figures pair mixing,diffusion,velocity-correlation,retention,residence 40,120 "${pair[@]}"
-figures pair packing-map 20,120 "${pair[@]}"
+figures pair packing-map 20,120 "${pair[@]}" newest="spots, newest first"
 figures walls cross-profile 5,30 wall0.1="wall friction 0.1" wall0.3="0.3" dt4="0.5" wall0.7="0.7" wall0.9="0.9"
 figures walls velocity-profile 40,120 dem="wall friction 0.5" dem-wall0.3="wall friction 0.3" dem-wall0.1="wall friction 0.1"
 folder=$fidelity figures fidelity cost-error 5,30 fidelity-0="discrete elements, Δt = 10⁻⁴ τ" \
