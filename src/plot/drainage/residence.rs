@@ -30,7 +30,7 @@ pub(super) static RESIDENCE: Overlay = Overlay {
         },
     ],
     note: "Of the inner, the third and the outer of five parts of the half width. A line ends \
-           where less than half have left.",
+           where less than half have left; a panel without lines is where they have left nowhere.",
     lines,
     guides: overlay::none,
 };
