@@ -37,7 +37,7 @@ struct Pieces {
 impl Pieces {
     /// The exponent of the root mean square error over the step.
     fn order(&self) -> f64 {
-        0.5 * (self.squares[0] / self.squares[STEPS.len() - 1]).log2() / HALVINGS
+        0.5 * libm::log2(self.squares[0] / self.squares[STEPS.len() - 1]) / HALVINGS
     }
 }
 
@@ -54,7 +54,7 @@ fn velocities(scene: &Scene, steps: u64) -> Vec<Vector> {
     scene.time.dt = PIECE / steps as f64;
     let mut simulation = Simulation::new(&scene).unwrap();
     simulation.advance(steps).unwrap();
-    simulation.particles().velocity.to_vec()
+    simulation.particles().velocity.clone()
 }
 
 /// Which spheres overlap each other, the floor and the wall.
@@ -69,7 +69,8 @@ fn contacts(scene: &Scene, simulation: &Simulation) -> Vec<bool> {
         touching
             .extend(others.map(|other| (*place - *other).norm_squared() < 4.0 * radius * radius));
         touching.push(place.z < floor + radius);
-        touching.push(place.x.hypot(place.y) > wall - radius);
+        let rho = (place.x * place.x + place.y * place.y).sqrt();
+        touching.push(rho > wall - radius);
     }
     touching
 }
@@ -85,7 +86,7 @@ fn reference(scene: &Scene) -> (Vec<Vector>, bool) {
         simulation.advance(REFERENCE / LOOKS).unwrap();
         changed |= contacts(&scene, &simulation) != first;
     }
-    (simulation.particles().velocity.to_vec(), changed)
+    (simulation.particles().velocity.clone(), changed)
 }
 
 /// The collapse of `sweeps/scenes/collapse.toml`, cut into pieces: those in which all contacts
