@@ -27,8 +27,8 @@ pub(super) static DIFFUSION: Overlay = Overlay {
     ],
     note: "Of the spheres that start in the middle 40 % of the width at 30 to 80 % of the height; \
            about a mean flow that is linear in cells of two diameters. Pe = $V$ $d$ / $D$ across, \
-           of the longest distance that is measured eight times, with its 95 % interval. Voids on a \
-           lattice (Caram and Hong, 1991) move grains by ± $d$/2 in rows of √3/2 $d$.",
+           of the longest distance that is measured eight times, with its 95 % interval. Voids on \
+           a lattice (Caram and Hong, 1991) move grains by ± $d$/2 in rows of √3/2 $d$.",
     lines,
     guides,
 };
