@@ -27,6 +27,7 @@ fn without_shield(mut scene: Scene) -> Scene {
 }
 
 #[test]
+#[ignore = "takes a quarter of a minute"]
 fn bits_do_not_depend_on_the_neighbour_list() {
     for scene in tanks().flat_map(|scene| [without_shield(scene.clone()), scene]) {
         let expected = run(&scene, STEPS).bits();

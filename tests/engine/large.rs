@@ -116,6 +116,7 @@ fn few_spheres_stay_in_the_order_of_the_scene() {
 }
 
 #[test]
+#[ignore = "takes ten seconds"]
 fn an_interrupted_run_goes_on_with_the_same_bits() {
     // With the ledger and without it in turn.
     for (integrator, ledger) in INTEGRATORS
@@ -165,6 +166,7 @@ fn bits_do_not_depend_on_the_threads() {
 }
 
 #[test]
+#[ignore = "takes seven seconds"]
 fn bits_do_not_depend_on_lists_or_on_being_watched() {
     let mut scene = large(mindlin(), Integrator::SymplecticEuler);
     for updraught in [
@@ -292,6 +294,7 @@ impl Lattice {
 /// Of many contacts spheres are moved while others are still to come; step by step they are moved
 /// after all of them.
 #[test]
+#[ignore = "takes seven seconds"]
 fn bits_do_not_depend_on_when_spheres_are_moved() {
     let unlike = Lattice {
         alike: false,

@@ -122,6 +122,7 @@ fn collapse_in_pieces(friction: bool) -> [Pieces; 2] {
 /// without any. Where some begin or end it is 1.47 and 1.58: force and stiffness begin as powers 3/2
 /// and 1/2 of the overlap, and damping with them.
 #[test]
+#[ignore = "takes twenty seconds"]
 fn order_is_lost_only_where_contacts_begin_or_end() {
     for friction in [true, false] {
         let [lasting, changing] = collapse_in_pieces(friction);

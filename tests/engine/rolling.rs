@@ -138,6 +138,7 @@ fn the_books_of_a_tank_close() {
 /// Many spheres, which are sorted in memory on the way: springs follow them, on any number of
 /// threads, and through a checkpoint.
 #[test]
+#[ignore = "takes a quarter of a minute"]
 fn springs_follow_spheres_that_are_sorted() {
     for (friction, integrator) in all() {
         let mut scene = resisting(large(Some(friction), integrator));

@@ -21,6 +21,7 @@ output = { snapshot_interval = 0.5 }
 "#;
 
 #[test]
+#[ignore = "takes ten seconds"]
 fn a_silo_of_discrete_elements_opens_and_drains() {
     let place = Workplace::new();
     place.write("elements.toml", ELEMENTS);

@@ -1,6 +1,6 @@
 //! Published tables: every one is read, and written again has the same bytes.
 
-use phase::classify::{Family, SILO, TANK};
+use phase::classify::{DRAINAGE, Family, SILO, TANK};
 use phase::store::{read_labels, write_labels, write_points};
 use phase::sweep::Folder;
 use std::fs;
@@ -26,7 +26,7 @@ fn published_tables_keep_their_bytes() {
             assert!(same, "{}", published.display());
         }
     }
-    for family in [&TANK, &SILO] {
+    for family in [&TANK, &SILO, &DRAINAGE] {
         assert!(families.contains(&family), "no table of a {}", family.name);
     }
 }

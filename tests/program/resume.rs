@@ -50,6 +50,7 @@ fn the_number_of_workers_changes_no_bit() {
 }
 
 #[test]
+#[ignore = "takes half a minute"]
 fn a_killed_sweep_goes_on_where_it_was() {
     let place = Workplace::new();
     let slow = TinySweep::slow();

@@ -287,6 +287,16 @@ fn whole_number_keys_can_be_varied() {
     assert_eq!([0, 1].map(|job| jobs[job].scene.spheres.count), [5, 10]);
 }
 
+/// The identity of the first job of a sweep, without making all the others of a grid.
+fn first_job(mut sweep: Sweep) -> String {
+    if sweep.refine.is_none() {
+        for axis in &mut sweep.axes {
+            axis.values.truncate(1);
+        }
+    }
+    sweep.jobs().unwrap().swap_remove(0).id
+}
+
 #[test]
 fn sweeps_survive_json_exactly() {
     for path in files("sweeps") {
@@ -294,7 +304,7 @@ fn sweeps_survive_json_exactly() {
         let text = serde_json::to_string_pretty(&sweep).unwrap();
         let back: Sweep = serde_json::from_str(&text).unwrap();
         assert_eq!(back, sweep);
-        assert_eq!(back.jobs().unwrap()[0].id, sweep.jobs().unwrap()[0].id);
+        assert_eq!(first_job(back), first_job(sweep));
     }
 }
 

@@ -22,6 +22,7 @@ fn swept() -> Workplace {
 }
 
 #[test]
+#[ignore = "takes forty seconds"]
 fn the_quick_sweep_has_all_states_and_its_figures() {
     let place = swept();
     let table = read_labels(&place.path(&format!("{FOLDER}/labels.csv"))).unwrap();

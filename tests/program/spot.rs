@@ -26,6 +26,7 @@ fn least_distance(record: &RunRecord) -> f64 {
 }
 
 #[test]
+#[ignore = "takes twenty seconds"]
 fn a_box_drains_with_the_same_bits_for_any_number_of_threads() {
     let place = Workplace::new();
     let text = drainage_file();
@@ -83,6 +84,7 @@ fn a_run_replaces_its_own_table() {
 
 /// The start packing is dense and without overlap, is kept, and serves both models.
 #[test]
+#[ignore = "takes a quarter of a minute"]
 fn both_models_start_with_the_same_packing() {
     let place = Workplace::new();
     let text = drainage_file();
@@ -129,6 +131,7 @@ fn both_models_start_with_the_same_packing() {
 
 /// A sweep has labels, measures, and the figures of its family.
 #[test]
+#[ignore = "takes a quarter of a minute"]
 fn a_sweep_over_the_orifice_is_labelled_and_drawn() {
     let place = Workplace::new();
     let scene = drainage_file().replace("duration = 4.0", "duration = 8.0");
@@ -153,6 +156,7 @@ fn a_sweep_over_the_orifice_is_labelled_and_drawn() {
 }
 
 #[test]
+#[ignore = "takes ten seconds"]
 fn what_new_writes_runs() {
     let place = Workplace::new();
     place.phase(&["new", "spot", "mine"]).code(0);
@@ -195,6 +199,7 @@ fn two_runs() -> Workplace {
 
 /// Several records share a figure, in which what differs names them.
 #[test]
+#[ignore = "takes ten seconds"]
 fn records_are_drawn_beside_each_other() {
     let place = two_runs();
     for figure in [
@@ -274,6 +279,7 @@ fn records_are_drawn_beside_each_other() {
 
 /// A record compared with itself differs by nothing, and without relaxation spheres overlap more.
 #[test]
+#[ignore = "takes a quarter of a minute"]
 fn records_are_compared() {
     let place = two_runs();
     let answer = |other: &str| {
@@ -341,6 +347,7 @@ fn records_are_compared() {
 
 /// Layers and packing fractions are shown in a cut through the middle.
 #[test]
+#[ignore = "takes seven seconds"]
 fn layers_and_packing_fractions_are_viewed() {
     let place = two_runs();
     for color in ["layer", "packing-fraction"] {
@@ -432,6 +439,7 @@ fn lattice() -> String {
 
 /// A packing from elsewhere drains too; voids and the kinematic flow stand beside its mixing.
 #[test]
+#[ignore = "takes a quarter of a minute"]
 fn positions_from_a_file_drain_and_are_compared_with_simpler_models() {
     let place = Workplace::new();
     place.write("lattice.csv", &lattice());

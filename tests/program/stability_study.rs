@@ -93,6 +93,7 @@ fn limit_on_the_floor(study: &Study, damping: f64, integrator: Integrator) -> f6
 }
 
 #[test]
+#[ignore = "takes a quarter of a minute"]
 fn an_oscillator_breaks_at_the_limit_of_its_integrator() {
     let study = study(OSCILLATOR);
     let rows = run(&study);

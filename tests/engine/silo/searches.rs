@@ -32,6 +32,7 @@ fn searches(scene: &Scene) -> Vec<Neighbours> {
 }
 
 #[test]
+#[ignore = "takes seven seconds"]
 fn bits_do_not_depend_on_the_search() {
     let frictions = [
         r#"friction = { law = "cundall-strack", coefficient = 0.2, stiffness = 70.0, damping = 0.02 }"#,
@@ -152,6 +153,7 @@ fn cells_that_are_too_small_are_refused_with_the_reason() {
 }
 
 #[test]
+#[ignore = "takes seven seconds"]
 fn searches_are_compared_in_a_table_and_two_figures() {
     let place = Workplace::new();
     place.write("silo.toml", super::HOPPER);

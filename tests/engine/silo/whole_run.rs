@@ -106,6 +106,7 @@ fn assert_silo(seeds: &[Option<u64>], tolerances: f64) {
 }
 
 #[test]
+#[ignore = "takes a quarter of a minute"]
 fn the_shipped_silo_meets_its_numbers() {
     assert_silo(&[None], 1.26);
 }
@@ -237,6 +238,7 @@ fn friction_lets_grains_arch() {
 }
 
 #[test]
+#[ignore = "takes a quarter of a minute"]
 fn two_and_a_half_thousand_grains_and_more() {
     // Small grains by the thousand, fed in fast: nothing is limited to the document's 2500.
     let scene = hopper(&[

@@ -81,6 +81,7 @@ fn steel_at_full_stiffness_rebounds_as_soft_spheres_do() {
 }
 
 #[test]
+#[ignore = "takes a quarter of a minute"]
 fn steel_that_strikes_steel_askew_keeps_its_momenta_and_gains_no_energy() {
     for integrator in Integrator::ALL {
         for coefficient in [0.0, 0.1, 0.5] {
@@ -108,6 +109,7 @@ fn steel_that_strikes_steel_askew_keeps_its_momenta_and_gains_no_energy() {
 }
 
 #[test]
+#[ignore = "takes a quarter of a minute"]
 fn restitution_near_zero_and_one_is_what_the_scene_says() {
     for integrator in Integrator::ALL {
         for restitution in [1e-3, 0.5, 0.999] {

@@ -82,6 +82,7 @@ pub(crate) fn column_frictions() -> [Option<Friction>; 3] {
 }
 
 #[test]
+#[ignore = "takes seven seconds"]
 fn a_column_of_a_hundred_stays_at_rest() {
     for integrator in Integrator::ALL {
         for friction in column_frictions() {
@@ -158,6 +159,7 @@ fn a_leaning_column_with_static_friction_does_not_creep() {
 /// that should come to rest changes sign from step to step. Measured: 0.02 to 0.8 radii in 5 s at
 /// the limit of twelve contacts, and 3e-5 at a twentieth of it.
 #[test]
+#[ignore = "takes twenty seconds"]
 fn a_leaning_column_with_regularised_friction_trembles_where_the_step_is_coarse() {
     let friction = Friction::Coulomb(Coulomb {
         coefficient: 0.5,
@@ -227,6 +229,7 @@ pub(crate) fn falls_soundly(scene: &Scene, steps: u64, looks: u64) {
 }
 
 #[test]
+#[ignore = "takes twenty seconds"]
 fn eight_hundred_spheres_dropped_at_once_come_to_rest() {
     for integrator in Integrator::ALL {
         for friction in [None, Some(MINDLIN)] {
@@ -237,6 +240,7 @@ fn eight_hundred_spheres_dropped_at_once_come_to_rest() {
 }
 
 #[test]
+#[ignore = "takes seven seconds"]
 fn a_heap_of_steel_at_full_stiffness_loses_energy() {
     for integrator in Integrator::ALL {
         let mut scene = of_steel(dropped(60, Some(MINDLIN)));

@@ -118,6 +118,7 @@ fn whirled(young_modulus: f64) -> Scene {
 /// Hard spheres are pressed to the wall by 240,000 m/s2 and turn with the air; soft ones cannot
 /// bear it.
 #[test]
+#[ignore = "takes twenty seconds"]
 fn air_at_two_thousand_radians_per_second() {
     for integrator in Integrator::ALL {
         let scene = crowded(&whirled(2e10), integrator, LIMIT);

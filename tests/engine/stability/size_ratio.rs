@@ -93,6 +93,7 @@ fn a_small_sphere_falls_from_the_neck_between_two_large_ones() {
 }
 
 #[test]
+#[ignore = "takes a quarter of a minute"]
 fn what_traps_a_small_sphere_is_the_time_step() {
     for integrator in TRAPPING {
         assert!(falls(&at(&neck(10.0), integrator, 0.2)));

@@ -24,6 +24,7 @@ const REACHED: [(&str, f64, [f64; 4]); 4] = [
 ];
 
 #[test]
+#[ignore = "takes seven seconds"]
 fn a_tenth_of_the_runs_gives_the_map() {
     for (name, share, least) in REACHED {
         let map = map(name);
@@ -47,6 +48,7 @@ fn a_tenth_of_the_runs_gives_the_map() {
 
 /// With noise, a tenth of the runs tells the majority label as often as one seed does.
 #[test]
+#[ignore = "takes seven seconds"]
 fn a_tenth_of_the_runs_is_as_right_as_a_seed() {
     for name in ["theoretical", "theoretical-quadratic"] {
         let noisy = NoisyMap::calibrated(map(name), &map(&format!("{name}-9x9")));

@@ -198,6 +198,7 @@ fn the_runs_are_the_same_for_any_number_of_workers() {
 }
 
 #[test]
+#[ignore = "takes seven seconds"]
 fn a_refined_sweep_that_is_killed_goes_on() {
     let place = Workplace::new();
     let slow = tiny(8.0, REFINE);
