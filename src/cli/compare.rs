@@ -7,6 +7,7 @@ mod table;
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::folders;
+use super::runs::check_labels;
 use inputs::Column;
 use phase::compare::Row;
 use phase::statistics::Estimate;
@@ -64,9 +65,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         folders::make_for(table)?;
     }
     if arguments.paths.iter().any(|path| path.is_dir()) {
-        if !arguments.labels.is_empty() {
-            return Err(Failure::refused("--label names records, not folders"));
-        }
+        check_labels(&arguments.labels, arguments.paths.len(), true)?;
         return sweeps::main(arguments, console);
     }
     let inputs = inputs::read(&arguments.paths, arguments.scene.as_deref())?;
@@ -96,13 +95,8 @@ fn names(columns: &[Column], labels: &[String]) -> Result<Vec<String>, Failure> 
     if labels.is_empty() {
         return Ok(columns.iter().map(|it| it.name.clone()).collect());
     }
-    match labels.len() == columns.len() {
-        true => Ok(labels.to_vec()),
-        false => Err(Failure::refused(format_args!(
-            "--label names records: give it once for each of the {}, in their order",
-            columns.len()
-        ))),
-    }
+    check_labels(labels, columns.len(), false)?;
+    Ok(labels.to_vec())
 }
 
 /// What the columns of a record are called: A, B and so on.

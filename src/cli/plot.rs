@@ -5,6 +5,7 @@ mod records;
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::folders;
+use super::runs::check_labels;
 use phase::classify::{FAMILIES, Family, LabelTable};
 use phase::plot::{self, PlotError, Svg};
 use phase::record::Program;
@@ -116,12 +117,7 @@ impl Arguments {
                 "--name is for figures of records: those of a folder have their own names",
             ));
         }
-        if !self.labels.is_empty() && (is_one_folder || self.labels.len() != self.paths.len()) {
-            return Err(Failure::refused(
-                "--label names records: give it once for each, in their order",
-            ));
-        }
-        Ok(())
+        check_labels(&self.labels, self.paths.len(), is_one_folder)
     }
 }
 

@@ -39,6 +39,22 @@ pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<RunRec
     .collect()
 }
 
+/// Refuses labels, unless there is one for each of so many records; folders have none.
+pub(super) fn check_labels(
+    labels: &[String],
+    records: usize,
+    folders: bool,
+) -> Result<(), Failure> {
+    match labels {
+        [] => Ok(()),
+        _ if folders => Err(Failure::refused("--label names records, not folders")),
+        _ if labels.len() == records => Ok(()),
+        _ => Err(Failure::refused(format_args!(
+            "--label names records: give it once for each of the {records}, in their order"
+        ))),
+    }
+}
+
 /// The record of the states that a file of another program holds.
 fn replayed(path: &Path, scene: Option<&Scene>) -> Result<RunRecord, Failure> {
     let scene = scene.ok_or_else(|| {

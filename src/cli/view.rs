@@ -8,6 +8,7 @@ mod words;
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
+use super::runs::check_labels;
 use super::{folders, format};
 use moment::{Moment, evenly};
 use phase::compare::opened;
@@ -140,12 +141,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             "--animate and --each take one record: give them one by one",
         ));
     }
-    if ![0, arguments.records.len()].contains(&arguments.labels.len()) {
-        return Err(Failure::refused(format_args!(
-            "--label names records: give it once for each of the {}, in their order",
-            arguments.records.len()
-        )));
-    }
+    check_labels(&arguments.labels, arguments.records.len(), false)?;
     match &arguments.each {
         Some(folder) => {
             let records = read(arguments)?;
