@@ -187,22 +187,20 @@ fn list(cases: &[&Case], console: &Console) -> Result<Exit, Failure> {
 
 /// A case with an integrator in one line, and its quantities in further ones.
 fn line(case: &Case, integrator: Integrator, outcome: &Result<Outcome, VerifyError>) -> String {
-    let head = format!(
-        "{}: {} ({})",
-        case.setup.name(),
-        case.name,
-        integrator.name()
-    );
+    let head = format!("{}: {}", case.setup.name(), case.name);
+    let with_integrator = format!("{head} ({})", integrator.name());
     let outcome = match outcome {
         Ok(outcome) => outcome,
-        Err(error) => return format!("FAILED  {head}\n        {error}"),
+        Err(error) => return format!("FAILED  {with_integrator}\n        {error}"),
     };
     let verdict = if outcome.passed() { "ok" } else { "FAILED" };
-    let mut text = format!(
-        "{verdict:<7} {head}, {} steps, {}",
-        outcome.steps,
-        format::duration(outcome.cpu_seconds)
-    );
+    // Spots and closed forms know no integrator.
+    let what = match outcome.steps {
+        0 => head,
+        steps => format!("{with_integrator}, {steps} steps"),
+    };
+    let time = format::duration(outcome.cpu_seconds);
+    let mut text = format!("{verdict:<7} {what}, {time}");
     for check in &outcome.checks {
         text += &format!(
             "\n        {:<22} expected {:>16.9e}, got {:>16.9e}, error {:.1e} of {:.0e}",
