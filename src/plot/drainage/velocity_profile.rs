@@ -37,10 +37,15 @@ impl Figure for VelocityProfiles {
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
         let mut time = Units::Si.of_time();
-        let (common, panels) = each(source, self.name(), |place, drainage| {
+        let (common, mut panels) = each(source, self.name(), |place, drainage| {
             time = drainage.units().of_time();
             panel(place, drainage)
         })?;
+        // Velocities of runs beside each other are compared by eye.
+        let highest = panels.iter().map(|it| it.y.1).fold(0.0, f64::max);
+        for panel in &mut panels {
+            panel.y.1 = highest;
+        }
         let legend = COLORS.into_iter().zip(DRAWN_HEIGHTS);
         let legend = legend
             .map(|(color, share)| (color, format!("at {:.0} % of the height", 100.0 * share)));
