@@ -249,7 +249,11 @@ fn describe_limit(tightest: &Tightest<'_>, axes: &[Axis], explain: bool) -> Stri
     } = limit;
     let kind = if decisive { "limit" } else { "advised limit" };
     let at = describe(axes, &tightest.job.values, tightest.job.seed);
-    let mut text = format!("{ratio:.2} of the {kind} {seconds:.2e} s ({name}) at {at}");
+    let ratio = match ratio < 0.01 {
+        true => format!("{ratio:.0e}"),
+        false => format!("{ratio:.2}"),
+    };
+    let mut text = format!("{ratio} of the {kind} {seconds:.2e} s ({name}) at {at}");
     if explain {
         text += &format!("\n{:14}{explanation}", "");
     }
