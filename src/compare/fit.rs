@@ -55,7 +55,8 @@ impl SpotFit {
         let spread = flow_spread_of(drainage)
             .ok_or("a flow that widens upwards, at six heights below its surface")?;
         let peclet = spreading(drainage).peclet;
-        let [across, _] = peclet.ok_or("spheres that stray, in ten pairs of snapshots or more")?;
+        let [across, _] =
+            peclet.ok_or("spheres that stray, in eight pairs of snapshots or more")?;
         let radius =
             correlation_radius(drainage).ok_or("velocities that are correlated over a distance")?;
         let rate = outflow(drainage).ok_or("spheres that leave")?;

@@ -31,7 +31,7 @@ pub(super) fn engine(
     }
     let dt = scene.time.dt;
     let spheres = (setup, particles);
-    let radius = scene.spheres.radius.mean();
+    let radius = scene.mean_radius();
     let mass = scene.spheres.shape.mass(scene.spheres.density, radius) * scene.inertial_factor();
     let at_walls = scene.friction_at_walls();
     macro_rules! of_pair {

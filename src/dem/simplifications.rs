@@ -9,7 +9,7 @@ use crate::scene::{Contact, Scene};
 /// [`Scene::simplified`] makes another scene of that can be run.
 pub fn simplifications(scene: &Scene) -> Vec<Simplification> {
     let (spheres, effects) = (&scene.spheres, &scene.dem.effects);
-    let radius = spheres.radius.mean();
+    let radius = scene.mean_radius();
     let mean = MeanSphere {
         radius,
         mass: spheres.shape.mass(spheres.density, radius),

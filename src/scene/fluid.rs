@@ -9,6 +9,11 @@ impl Scene {
         self.dem.effects.gravity_in_fluid(self.spheres.density)
     }
 
+    /// Mass of the fluid that a sphere displaces and of its added mass, over its mass.
+    pub fn pressed_mass_ratio(&self) -> f64 {
+        self.dem.effects.pressed_mass_ratio(self.spheres.density)
+    }
+
     /// Inertial mass over mass of a sphere: 1, or more with an added mass.
     pub fn inertial_factor(&self) -> f64 {
         1.0 + self.dem.effects.added_mass_ratio(self.spheres.density)

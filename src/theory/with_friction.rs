@@ -30,6 +30,11 @@ const HALVINGS: usize = 80;
 ///
 /// Omega_mu = Omega_c + sqrt(5 mu m (g max(1 - L, 0) + Omega_c^2 R) / (3 c2)) / R.
 ///
+/// In a fluid the weight is less its buoyancy, the mass at the wall m + C rho V, and the pressure of
+/// the fluid that turns takes (rho_b + C rho_a) V Omega_mu^2 R off the load on the wall, at most all
+/// of it; Omega_c stays, as weight and centrifugal force of a bed that turns with its fluid are less
+/// by the same part.
+///
 /// Left out: the height of the bed, over which the updraught decays, and the weight that leans on
 /// the wall.
 ///
@@ -39,7 +44,7 @@ pub fn critical_rotation_with_friction(scene: &Scene) -> Option<f64> {
         scene.spheres.count as f64,
         scene.spheres.radius.of_mean_volume(),
         scene.tank.as_ref()?.radius?,
-        scene.gravity_in_fluid()?.acceleration,
+        scene.dem.effects.gravity.as_ref()?.acceleration,
     );
     let bed = Bed::of(scene, without)?;
     // The torque of the air rises with its rotation, and the load on the floor does not.
@@ -79,6 +84,9 @@ struct Bed<'a> {
     gravity: f64,
     /// Spheres in a column of the shield, N.
     column: f64,
+    /// Inertial mass over mass, and mass that the fluid's pressure accelerates over mass.
+    inertial_factor: f64,
+    pressed_mass_ratio: f64,
 }
 
 impl<'a> Bed<'a> {
@@ -99,6 +107,8 @@ impl<'a> Bed<'a> {
             gravity: scene.gravity_in_fluid()?.acceleration,
             column: 16.0 * spheres.count as f64 * radius * radius
                 / (PI * tank_radius * tank_radius),
+            inertial_factor: scene.inertial_factor(),
+            pressed_mass_ratio: scene.pressed_mass_ratio(),
         })
     }
 
@@ -116,14 +126,16 @@ impl<'a> Bed<'a> {
         (at(0) + inner + at(PARTS)) / (3.0 * PARTS as f64)
     }
 
-    /// mu m (g max(1 - L, 0) + Omega_c^2 R) (N) in air of a rotation (rad/s).
+    /// mu m (g max(1 - L, 0) + Omega_c^2 R) (N) in air of a rotation (rad/s); in a fluid less.
     fn friction_at(&self, omega: f64) -> f64 {
         let lifted = self
             .updraught
             .map_or(0.0, |updraught| self.lifted(updraught, omega));
         let weight = self.gravity * (1.0 - lifted).max(0.0);
-        let centrifugal = self.rotation * self.rotation * self.tank_radius;
-        self.friction * self.mass * (weight + centrifugal)
+        let outward = self.inertial_factor * self.rotation * self.rotation;
+        let pressed = self.pressed_mass_ratio * omega * omega;
+        let on_wall = (outward - pressed).max(0.0) * self.tank_radius;
+        self.friction * self.mass * (weight + on_wall)
     }
 
     /// The part L of the weight that the updraught carries.
@@ -141,6 +153,7 @@ impl<'a> Bed<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Buoyancy;
     use std::path::Path;
 
     /// Steel in air, of a radius (m).
@@ -196,6 +209,10 @@ mod tests {
         scene = scene.with_values([("friction.coefficient", 0.0)]).unwrap();
         let omega = critical_rotation_with_friction(&scene).unwrap();
         assert!((omega - without(0.004)).abs() < 1e-9);
+        // Symptom: 22 % less in water. Its weight was less its buoyancy, the centrifugal force not.
+        scene.dem.effects.buoyancy = Some(Buoyancy { density: 998.0 });
+        let in_water = critical_rotation_with_friction(&scene).unwrap();
+        assert!((in_water - without(0.004)).abs() < 1e-9);
         scene.dem.friction = None;
         assert_eq!(critical_rotation_with_friction(&scene), None);
         let thesis = Scene::load(Path::new("sweeps/scenes/theoretical.toml")).unwrap();

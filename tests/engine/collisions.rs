@@ -432,3 +432,23 @@ fn discs_part_with_the_restitution_of_the_scene() {
     close(speeds[0], -0.25, 1e-4);
     close(speeds[1], 0.25, 1e-4);
 }
+
+/// Symptom: spheres parted with a restitution of 0.69 in place of 0.5, without a warning. Cause: the
+/// damping took the mass of `spheres.radius`, which the radii of the list replace.
+#[test]
+fn listed_spheres_part_with_the_restitution_of_the_scene() {
+    for radius in [0.004, 0.008] {
+        let text = format!(
+            "spheres = {{ count = 2, radius = {radius}, density = 1e3 }}
+            contact = {{ law = 'hertz', young_modulus = 1e6, poisson_ratio = 0.3, restitution = 0.5 }}
+            start = {{ kind = 'list', spheres = [
+                {{ position = [-0.009, 0.0, 0.0], velocity = [0.5, 0.0, 0.0], radius = 0.008 }},
+                {{ position = [0.009, 0.0, 0.0], velocity = [-0.5, 0.0, 0.0], radius = 0.008 }},
+            ] }}
+            time = {{ dt = 1e-6, duration = 0.05, frame_interval = 0.01 }}
+            output = {{ trajectory = true }}"
+        );
+        let scene = Scene::from_toml(&text, Path::new("spheres.toml")).unwrap();
+        close(velocity(last(&run(&scene)), 1)[0], 0.25, 1e-4);
+    }
+}

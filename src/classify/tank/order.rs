@@ -10,7 +10,7 @@ measures! {
         /// Mean radius of the hole about the axis, over R.
         hole_radius: measured("hole radius / $R$", ""),
         /// Curvature of the paraboloid z = z0 + a rho^2 fitted to the mean surface profile, as the
-        /// angular velocity sqrt(2 g a) (rad/s) of the fluid that has it (Rice, 2012, eq. 38);
+        /// angular velocity sqrt(2 g a) (rad/s) of the fluid that has it (Rice, 2012, eq. 40);
         /// negative for a heap. Bins count that are occupied at least half of the time; empty if
         /// those are fewer than three.
         paraboloid_rotation: measured("paraboloid rotation", "rad/s").signed(),

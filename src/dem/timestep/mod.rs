@@ -106,14 +106,9 @@ pub fn shortest_contact(scene: &Scene) -> Option<f64> {
 
 /// The properties of a scene on which the limits of effects and laws depend.
 fn regime(scene: &Scene) -> Regime<'_> {
-    let Spheres {
-        radius,
-        density,
-        shape,
-        ..
-    } = &scene.spheres;
+    let Spheres { density, shape, .. } = &scene.spheres;
     let (smallest_radius, largest_radius) = scene.radius_range();
-    let mean_radius = radius.mean();
+    let mean_radius = scene.mean_radius();
     let inertial_factor = scene.inertial_factor();
     let inertial_mass = |radius: f64| shape.mass(*density, radius) * inertial_factor;
     let fastest_impact = fastest_impact(scene);

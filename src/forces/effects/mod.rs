@@ -81,7 +81,8 @@ effects! {
     /// another formula.
     drag: Drag = "",
     /// Drag toward air in rigid rotation about the axis, of velocity Omega x r (Rice, 2012, eqs. 21
-    /// to 27): F = drag(Omega x r - v). Absent: none.
+    /// to 27): F = drag(Omega x r - v). With `buoyancy` or `added_mass` also the pressure of the
+    /// fluid that turns, -(rho_b + C rho_a) V Omega^2 (x, y), with their densities. Absent: none.
     swirl: Swirl = "swirl",
     /// Rising air that lower spheres shield (Rice, 2012, eq. 24): F_z = s exp(-beta (z - z0))
     /// alpha^n drag(v_air - v_z), with n the number of lower spheres whose centre lies within 2r in
@@ -200,6 +201,13 @@ impl Effects {
     /// Added mass over mass of spheres of a density (kg/m3).
     pub(crate) fn added_mass_ratio(&self, density: f64) -> f64 {
         self.added_mass.as_ref().map_or(0.0, |it| it.ratio(density))
+    }
+
+    /// Mass of the fluid that a sphere displaces and of its added mass, over the mass of spheres of
+    /// a density (kg/m3): what a fluid that is accelerated takes with it.
+    pub(crate) fn pressed_mass_ratio(&self, density: f64) -> f64 {
+        let displaced = self.buoyancy.as_ref().map_or(0.0, |it| it.ratio(density));
+        displaced + self.added_mass_ratio(density)
     }
 
     /// Names of the effects that the scene has and that are forces themselves.

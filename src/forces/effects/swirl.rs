@@ -1,4 +1,4 @@
-//! Drag toward air in rigid rotation about the axis.
+//! Drag toward air in rigid rotation about the axis, and the pressure of a fluid that turns.
 
 use super::drag::{
     Coefficients, DragKernel, Form, Linear, QuadraticComponents, QuadraticVector, missing_drag,
@@ -15,7 +15,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::marker::PhantomData;
 
-/// Air in rigid rotation about the axis (Rice, 2012, eqs. 21 to 27).
+/// Air in rigid rotation about the axis (Rice, 2012, eqs. 21 to 27); with `buoyancy` or `added_mass`
+/// a fluid, whose pressure rises outward.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Swirl {
@@ -26,20 +27,26 @@ pub struct Swirl {
 
 impl EffectKeys for Swirl {
     fn effect(&self, all: &Effects, targets: &Targets<'_>) -> Option<Box<dyn Effect>> {
-        fn boxed<K: DragKernel>(omega: f64, coefficients: Coefficients) -> Box<dyn Effect> {
+        fn boxed<K: DragKernel>(
+            [omega, pressure]: [f64; 2],
+            coefficients: Coefficients,
+        ) -> Box<dyn Effect> {
             Box::new(SwirlForce::<K> {
                 omega,
+                pressure,
                 coefficients,
                 kernel: PhantomData,
             })
         }
         let drag = all.drag.as_ref()?;
         let coefficients = Coefficients::new(drag, targets.radii);
+        let pressure = all.pressed_mass_ratio(targets.scene.density) * self.omega * self.omega;
+        let rates = [self.omega, pressure];
         Some(match drag.kernel() {
-            Form::Linear => boxed::<Linear>(self.omega, coefficients),
-            Form::Vector => boxed::<QuadraticVector>(self.omega, coefficients),
-            Form::Components => boxed::<QuadraticComponents>(self.omega, coefficients),
-            Form::SchillerNaumann => boxed::<SchillerNaumann>(self.omega, coefficients),
+            Form::Linear => boxed::<Linear>(rates, coefficients),
+            Form::Vector => boxed::<QuadraticVector>(rates, coefficients),
+            Form::Components => boxed::<QuadraticComponents>(rates, coefficients),
+            Form::SchillerNaumann => boxed::<SchillerNaumann>(rates, coefficients),
         })
     }
 
@@ -74,8 +81,14 @@ impl EffectKeys for Swirl {
 
 /// Rice (2012), eqs. 21 to 27: drag toward the air's velocity Omega x r, on all three
 /// components, the air's own vertical speed being zero in this term.
+///
+/// A fluid that turns is accelerated toward the axis by its pressure, and so is what it displaces,
+/// with the added mass: -(rho_b + C rho_a) V Omega^2 (x, y) (Maxey and Riley, Phys. Fluids 26, 883
+/// (1983), eq. 48: the fluid's acceleration in buoyancy and added mass).
 struct SwirlForce<K> {
     omega: f64,
+    /// (rho_b + C rho_a) / rho Omega^2 (1/s2), 0 in air.
+    pressure: f64,
     coefficients: Coefficients,
     kernel: PhantomData<K>,
 }
@@ -101,6 +114,13 @@ impl<K: DragKernel> OneBody for SwirlForce<K> {
             fx[k] += force.x;
             fy[k] += force.y;
             fz[k] += force.z;
+        }
+        if self.pressure != 0.0 {
+            for k in 0..BLOCK {
+                let inward = self.pressure * bodies.mass[k];
+                fx[k] -= inward * x[k];
+                fy[k] -= inward * y[k];
+            }
         }
     }
 }

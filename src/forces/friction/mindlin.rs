@@ -80,7 +80,7 @@ pub(super) fn mindlin_modulus(young_modulus: f64, poisson_ratio: f64) -> f64 {
 ///
 /// The force of a spring that holds still stays when the normal force falls, although its
 /// stiffness does not (Thornton, Cummins and Cleary, Powder Technology 233, 30 (2013), shrink it):
-/// an elastic impact can so gain energy, less than 1e-5 of it for nu > 0.2 and mu < 3, up to
+/// an elastic impact can so gain energy, less than 1e-5 of it for nu >= 0.22 and mu < 3, up to
 /// 4e-4 for nu = 0 and mu = 0.5.
 #[derive(Clone, Copy, Debug)]
 pub struct MindlinLaw {

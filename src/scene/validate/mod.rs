@@ -147,6 +147,18 @@ impl Scene {
         })
     }
 
+    /// The mean radius of the spheres (m), with those that a list gives.
+    pub fn mean_radius(&self) -> f64 {
+        let mean = self.spheres.radius.mean();
+        match &self.start {
+            Start::List { spheres } if spheres.iter().any(|it| it.radius.is_some()) => {
+                let radii = spheres.iter().map(|sphere| sphere.radius.unwrap_or(mean));
+                radii.sum::<f64>() / spheres.len() as f64
+            }
+            _ => mean,
+        }
+    }
+
     /// The smallest radius of a sphere (m).
     pub fn smallest_radius(&self) -> f64 {
         self.radius_range().0
