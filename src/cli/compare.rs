@@ -66,6 +66,13 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     if arguments.paths.iter().any(|path| path.is_dir()) {
         check_labels(&arguments.labels, arguments.paths.len(), true)?;
+        if let Some(file) = arguments.paths.iter().find(|path| !path.is_dir()) {
+            return Err(Failure::refused(format_args!(
+                "{}: this is no folder, and folders are compared with folders; compare records with \
+                 records",
+                file.display()
+            )));
+        }
         return sweeps::main(arguments, console);
     }
     let inputs = inputs::read(&arguments.paths, arguments.scene.as_deref())?;

@@ -29,6 +29,13 @@ pub(super) fn refuse_to_replace_any(
     kind: &str,
     signatures: &[&[u8]],
 ) -> Result<(), Failure> {
+    let written = path.as_os_str().as_encoded_bytes();
+    if written.ends_with(b"/") || written.ends_with(b"/.") {
+        return Err(Failure::refused(format_args!(
+            "{}: this is the name of a folder; give that of a file in it",
+            path.display()
+        )));
+    }
     let Ok(file) = File::open(path) else {
         return Ok(());
     };

@@ -3,10 +3,10 @@
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::{folders, plot};
-use phase::cost::neighbours::{Cost, Moment};
+use phase::cost::neighbours::{Cost, Moment, StudyError};
 use phase::plot::step_time::{self, Against, StepTimes};
 use phase::record::Program;
-use phase::scene::{Neighbours, Scene};
+use phase::scene::{Neighbours, Scene, Start};
 use phase::store;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ pub(crate) struct Arguments {
     scene: PathBuf,
     /// Numbers of spheres [default: one to eight eighths of the scene's].
     #[arg(long, value_name = "N", value_delimiter = ',')]
-    #[arg(value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     count: Vec<u32>,
     /// Side of the cells that are compared with the other searches (m) [default: that of the scene,
     /// or else the least that is valid].
@@ -59,6 +59,7 @@ struct Row {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let scene = Scene::load(&arguments.scene).map_err(Failure::refused)?;
+    refuse_without_search(&scene, &arguments.scene)?;
     let length = side(&scene, arguments.length)?;
     let mut counts: Vec<usize> = arguments
         .count
@@ -79,7 +80,13 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.note(format_args!(
             "{count} spheres: runs the scene until they are in"
         ));
-        moments.push(Moment::of_scene(&scene, count).map_err(Failure::failed)?);
+        let moment = Moment::of_scene(&scene, count).map_err(|error| match error {
+            StudyError::Problem { .. } => {
+                Failure::refused(format_args!("{}: {error}", arguments.scene.display()))
+            }
+            error => Failure::failed(error),
+        });
+        moments.push(moment?);
     }
     let mut study = Study::default();
     console.result(format_args!(
@@ -117,6 +124,22 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     } else {
         Exit::Failed
     })
+}
+
+/// Refuses scenes in which nothing is searched, or not yet.
+fn refuse_without_search(scene: &Scene, path: &Path) -> Result<(), Failure> {
+    let reason = if scene.spot.is_some() {
+        "spots search no contacts: give a scene of discrete elements"
+    } else if matches!(scene.start, Start::Packing {}) {
+        "a packing is made for all of its spheres: start from places, such as `kind = \"random\"` or \
+         `kind = \"file\"`"
+    } else {
+        return Ok(());
+    };
+    Err(Failure::refused(format_args!(
+        "{}: {reason}",
+        path.display()
+    )))
 }
 
 /// The side of the cells (m).

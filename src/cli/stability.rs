@@ -10,8 +10,8 @@ use phase::scene::Integrator;
 use phase::study::stability::{self, Label, Report, Row, Study, Trials};
 use phase::sweep::{Job, describe};
 use serde::Serialize;
-use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::collections::{BTreeMap, HashSet};
+use std::path::{Path, PathBuf};
 
 /// Try integrators over two keys of a scene, such as time step and stiffness: a phase diagram of
 /// the numerics.
@@ -44,6 +44,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         true => Vec::new(),
         false => stability::read_stability(&study.axes, &table).map_err(Failure::refused)?,
     };
+    refuse_to_lose(&known, &jobs, &table)?;
     let trials = Trials {
         study: &study,
         jobs: &jobs,
@@ -153,6 +154,21 @@ impl Tried {
             _ => {}
         }
         text
+    }
+}
+
+/// Refuses a table with rows that this study would not write again.
+fn refuse_to_lose(known: &[Row], jobs: &[Job], table: &Path) -> Result<(), Failure> {
+    let own: HashSet<&str> = jobs.iter().map(|job| job.id.as_str()).collect();
+    let others = known.iter().filter(|row| !own.contains(row.id.as_str()));
+    match others.count() {
+        0 => Ok(()),
+        lost => Err(Failure::refused(format_args!(
+            "{}: {} of another study would be lost; choose another folder with --out, or write the \
+             table anew with --force",
+            table.display(),
+            super::format::count(lost, "row")
+        ))),
     }
 }
 

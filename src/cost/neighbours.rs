@@ -2,6 +2,7 @@
 
 use crate::cpu_time;
 use crate::dem::{BuildError, Simulation};
+use crate::document::Problem;
 use crate::record::Instability;
 use crate::scene::{DemScene, Neighbours, Radii, Scene, Start, StartSphere};
 
@@ -17,6 +18,14 @@ const ROUNDS: usize = 7;
 /// Why nothing can be measured.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
+    /// With that number of spheres it is no scene.
+    #[error("with {count} spheres: {problem}")]
+    Problem {
+        /// Number of spheres.
+        count: usize,
+        /// What is wrong.
+        problem: Problem,
+    },
     /// The scene cannot be built.
     #[error(transparent)]
     Build(#[from] BuildError),
@@ -65,6 +74,10 @@ impl Moment {
         }
         if let Some(spheres) = scene.start.list_mut() {
             spheres.truncate(count);
+        }
+        scene.dem.driven.retain(|driven| driven.sphere < count);
+        if let Some(problem) = scene.problems().into_iter().next() {
+            return Err(StudyError::Problem { count, problem });
         }
         let mut simulation = Simulation::new(&scene)?;
         let steps = |time: f64| ((time / scene.time.dt).round() as u64).max(1);

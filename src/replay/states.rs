@@ -7,6 +7,10 @@ use crate::simulation::{Flow, Snapshot};
 use ndarray::Array2;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Farthest that a sphere may be from the origin along an axis, in diameters: what is measured of
+/// states divides the room that they take.
+const FARTHEST: f64 = 1e4;
+
 /// A state that another program wrote: when, and where its spheres are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WrittenState {
@@ -34,6 +38,20 @@ pub enum StatesError {
     /// Times do not grow.
     #[error("state {0} is not later than the one before")]
     Order(usize),
+    /// No state has a sphere.
+    #[error("no state has a sphere")]
+    Empty,
+    /// A sphere is so far off that nothing can be measured around it.
+    #[error(
+        "state {state}: sphere {number} is more than {FARTHEST} diameters from the origin; leave it \
+         out, or give a scene of the units of the file"
+    )]
+    Far {
+        /// The state, from 1.
+        state: usize,
+        /// The number of the sphere.
+        number: u64,
+    },
     /// Two spheres of a state have one number.
     #[error("state {state} has two spheres of the number {number}")]
     Twice {
@@ -56,6 +74,10 @@ pub fn replay_states(states: &[WrittenState], scene: &Scene) -> Result<RunRecord
     let times = times(states, scene.time.dt)?;
     let numbers = numbers(states)?;
     let count = numbers.len();
+    if count == 0 {
+        return Err(StatesError::Empty);
+    }
+    check_places(states, FARTHEST * 2.0 * scene.mean_radius())?;
     let mut scene = scene.clone();
     scene.spheres.count = count;
     scene.dem.door = None;
@@ -100,6 +122,18 @@ pub fn replay_states(states: &[WrittenState], scene: &Scene) -> Result<RunRecord
         radius,
         mass,
     })
+}
+
+/// Refuses spheres that are that far (m) or farther from the origin along an axis.
+fn check_places(states: &[WrittenState], farthest: f64) -> Result<(), StatesError> {
+    for (state, written) in (1..).zip(states) {
+        let far = |place: &[f64; 3]| !place.iter().all(|value| value.abs() < farthest);
+        let found = written.spheres.iter().find(|(_, place)| far(place));
+        if let Some(&(number, _)) = found {
+            return Err(StatesError::Far { state, number });
+        }
+    }
+    Ok(())
 }
 
 /// Shows the spheres of a state to an observer.

@@ -43,6 +43,7 @@ pub(crate) use keys::leaf;
 pub use output::Output;
 pub use radius::{Radii, RadiusShare};
 pub use spheres::{Shape, Spheres};
+pub(crate) use spot::STICKING_OUT;
 pub use spot::{RelaxationMethod, Spot, SpotRelaxation, SpotSchedule, SpotWalk, SpotWeighting};
 pub(crate) use start::LIST_KEY;
 use start::START_SPHERE;

@@ -7,6 +7,10 @@ use crate::document::quantity;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// Spheres may stick out of the box by this share of the diameter at the start, as packings from
+/// elsewhere do; their first move puts them back.
+pub(crate) const STICKING_OUT: f64 = 1e-3;
+
 /// Spots of free volume that enter through the orifice of the tank, walk upward at random, and move
 /// the spheres that they pass a little the other way (Rycroft, Wong and Bazant, 2010). With this
 /// table nothing else moves the spheres: no contacts, no effects.

@@ -14,6 +14,7 @@ use super::threads::Workers;
 use super::walk::Spot;
 use crate::particles::block::ROWS;
 use crate::particles::vector::Vector;
+use crate::scene::STICKING_OUT;
 use crate::simulation::Profile;
 use rayon::ThreadPoolBuildError;
 
@@ -298,15 +299,11 @@ fn failure(fault: Fault, ids: Option<&[u32]>, counts: &Counts, time: f64) -> Fai
     }
 }
 
-/// Spheres may stick out of the box by this share of the diameter, as packings from elsewhere do;
-/// their first move puts them back.
-const TOLERANCE: f64 = 1e-3;
-
 fn check_positions(parameters: &Parameters, position: &[Vector]) -> Result<(), StartError> {
     if position.len() > (u32::MAX / 64) as usize {
         return Err(StartError::TooMany(position.len()));
     }
-    let least = (0.5 - TOLERANCE) * parameters.diameter;
+    let least = (0.5 - STICKING_OUT) * parameters.diameter;
     let [x, y] = [parameters.half_width, parameters.half_depth].map(|half| half - least);
     let inside =
         |it: &Vector| it.x.abs() <= x && it.y.abs() <= y && it.z >= least && it.z.is_finite();

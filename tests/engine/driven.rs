@@ -89,3 +89,42 @@ fn a_scene_without_driven_spheres_knows_none() {
         "{text}"
     );
 }
+
+/// Symptom: the run was ended by its first step, as not a number. Cause: the effective mass, or the
+/// inertia against rolling, of two partners that both keep to their ways was infinite.
+#[test]
+fn a_driven_sphere_may_touch_the_floor_and_another_driven_one() {
+    let silbert = "contact = { law = 'silbert', stiffness = 2e5, damping = 50.0 }
+        friction = { law = 'silbert', coefficient = 0.5, stiffness = 57e3, damping = 25.0 }";
+    let hertz = "contact = { law = 'hertz', young_modulus = 1e7, poisson_ratio = 0.3, dissipation_time = 1e-5 }
+        friction = { law = 'mindlin', coefficient = 0.3 }
+        rolling = { coefficient = 0.1, damping = 0.3 }";
+    for laws in [silbert, hertz] {
+        for integrator in Integrator::ALL {
+            let text = format!(
+                "{laws}
+                spheres = {{ count = 2, radius = 0.5, density = 1.9 }}
+                tank = {{ width = 6.0, depth = 4.0, floor = 0.0 }}
+                time = {{ dt = 1e-5, duration = 1.0, frame_interval = 1.0 }}
+                start = {{ kind = 'list', spheres = [
+                    {{ position = [0.0, 0.0, 0.499] }}, {{ position = [0.999, 0.0, 0.499] }},
+                ] }}
+                driven = [
+                    {{ sphere = 0, velocity = [0.5, 0.0, 0.0] }},
+                    {{ sphere = 1, velocity = [0.5, 0.0, 0.0] }},
+                ]"
+            );
+            let mut scene: Scene = toml::from_str(&text).unwrap();
+            scene.time.integrator = integrator;
+            let mut simulation = Simulation::new(&scene).unwrap();
+            simulation.advance(1000).unwrap();
+            let particles = simulation.particles();
+            assert!((particles.position[1].x - 1.004).abs() < 1e-9);
+            assert!(
+                particles.spin.iter().all(|it| it.norm() == 0.0),
+                "{:?}",
+                particles.spin
+            );
+        }
+    }
+}

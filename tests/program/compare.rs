@@ -186,6 +186,69 @@ fn a_table_takes_the_place_of_its_records() {
     );
 }
 
+/// Symptom: of two records of one name the second was lost, in tables written and read.
+#[test]
+fn a_table_has_one_number_for_each_name() {
+    let (place, _) = drained();
+    let alike = [
+        "compare", "run.h5", "run.h5", "--label", "a", "--label", "a",
+    ];
+    place.phase(&alike).code(0);
+    place
+        .phase(&[&alike[..], &["--out", "alike.csv"]].concat())
+        .code(2)
+        .complains("two records are called `a`");
+    let head = "quantity,unit,record,value,half_width\noutflow,1/s,a,4,1\n";
+    for (row, reason) in [
+        (
+            "outflow,1/s,a,5,1",
+            "again.csv:3: a second `outflow` of `a`",
+        ),
+        (
+            "outflow,1/s,b,4,-1",
+            "again.csv:3: a half width is not negative",
+        ),
+        (
+            "outflow,1/s,b,1e400,1",
+            "again.csv:3: `1e400` is not a finite number",
+        ),
+    ] {
+        place.write("again.csv", &format!("{head}{row}\n"));
+        let table = ["compare", "again.csv"];
+        place.phase(&table).code(2).complains(reason);
+    }
+}
+
+/// Symptom: the record was said to be a folder without labels.
+#[test]
+fn records_and_folders_do_not_mix() {
+    let (place, _) = drained();
+    let folder = std::path::absolute("results/theoretical-9x9").unwrap();
+    place
+        .phase(&["compare", "run.h5", folder.to_str().unwrap()])
+        .code(2)
+        .complains("run.h5: this is no folder");
+}
+
+/// Symptom: a panic, or more memory than there is.
+#[test]
+fn states_without_spheres_or_far_off_are_refused() {
+    let place = Workplace::new();
+    place.write("scene.toml", &crate::support::drainage_file());
+    let compare = ["compare", "states.xyz", "--scene", "scene.toml"];
+    let state = |time: u32, spheres: &str, count: usize| {
+        format!("{count}\nProperties=species:S:1:pos:R:3 Time={time}\n{spheres}")
+    };
+    for (spheres, count, reason) in [
+        ("", 0, "no state has a sphere"),
+        ("A 0.0 0.0 1e9\n", 1, "state 1: sphere"),
+    ] {
+        let both = state(0, spheres, count) + &state(1, spheres, count);
+        place.write("states.xyz", &both);
+        place.phase(&compare).code(2).complains(reason);
+    }
+}
+
 #[test]
 fn folders_of_sweeps_are_compared() {
     let place = Workplace::new();

@@ -346,6 +346,23 @@ fn a_step_longer_than_the_run_is_refused() {
     }
 }
 
+/// Symptom: a study with fewer values, or over other keys, wrote the table anew without a word.
+#[test]
+fn rows_of_another_study_are_not_lost() {
+    let place = Workplace::new();
+    place.write("drop.toml", TINY);
+    let run = ["stability", "drop.toml", "--no-plot"];
+    place.phase(&run).code(0);
+    let table = place.read("results/stability/drop/stability.csv");
+    place.write("drop.toml", &TINY.replace("1e-2]", "2e-2]"));
+    place
+        .phase(&run)
+        .code(2)
+        .complains("of another study would be lost");
+    assert_eq!(place.read("results/stability/drop/stability.csv"), table);
+    place.phase(&[&run[..], &["--force"]].concat()).code(0);
+}
+
 /// Symptom: rows of any build were taken over without a word.
 #[test]
 fn rows_of_another_build_are_told_of_until_they_are_made_anew() {

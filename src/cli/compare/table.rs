@@ -13,6 +13,13 @@ pub(super) const QUANTITY: &str = "quantity";
 const COLUMNS: [&str; 5] = [QUANTITY, "unit", "record", "value", "half_width"];
 
 pub(super) fn write(path: &Path, rows: &[Row], names: &[String]) -> Result<(), Failure> {
+    let mut again = names.iter().enumerate();
+    if let Some((_, name)) = again.find(|(place, name)| names[..*place].contains(name)) {
+        return Err(Failure::refused(format_args!(
+            "two records are called `{name}`, and a table tells them apart by name; give each a \
+             `--label` of its own"
+        )));
+    }
     let text = written(rows, names).map_err(Failure::failed)?;
     store::write_atomic(path, &text).map_err(Failure::failed)
 }
@@ -57,11 +64,15 @@ pub(super) fn read(path: &Path) -> Result<Vec<Column>, Failure> {
         let record = record.map_err(failed)?;
         let number = |place: usize, empty: f64| match &record[place] {
             "" => Ok(empty),
-            text => text
-                .parse::<f64>()
-                .map_err(|_| refuse(line, &format!("`{text}` is not a number"))),
+            text => match text.parse::<f64>() {
+                Ok(number) if number.is_finite() => Ok(number),
+                _ => Err(refuse(line, &format!("`{text}` is not a finite number"))),
+            },
         };
         let [value, half_width] = [number(3, f64::NAN)?, number(4, f64::INFINITY)?];
+        if half_width < 0.0 {
+            return Err(refuse(line, "a half width is not negative"));
+        }
         let value = (!value.is_nan()).then_some(Estimate { value, half_width });
         let name = &record[2];
         let place = columns.iter().position(|it| it.name == name);
@@ -73,7 +84,12 @@ pub(super) fn read(path: &Path) -> Result<Vec<Column>, Failure> {
             columns.len() - 1
         });
         let quantity = [&record[0], &record[1]].map(str::to_owned);
-        columns[place].values.push((quantity, value));
+        let values = &mut columns[place].values;
+        if values.iter().any(|(it, _)| *it == quantity) {
+            let reason = format!("a second `{}` of `{name}`; keep one of them", quantity[0]);
+            return Err(refuse(line, &reason));
+        }
+        values.push((quantity, value));
     }
     match columns.is_empty() {
         true => Err(refuse(1, "it holds no numbers")),

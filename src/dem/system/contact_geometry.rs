@@ -11,6 +11,13 @@ use crate::forces::friction::{TangentialLaw, sliding_velocity};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
 
+/// 1 / x, or zero of zero: a contact between partners that both keep to their ways moves nothing,
+/// whatever its force, which must stay a number.
+#[inline(always)]
+pub(super) fn inverse_or_zero(x: f64) -> f64 {
+    if x > 0.0 { 1.0 / x } else { 0.0 }
+}
+
 /// What the laws need of the geometry of a contact. The second partner may be a wall.
 pub(super) struct ContactGeometry {
     /// Whether the two touch. If not, all else is meaningless.
@@ -69,11 +76,11 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         contact_radius(overlap, state.effective_radius())
     }
 
-    /// 1 / (1 / m1 + 1 / m2) (kg), if a law needs it.
+    /// 1 / (1 / m1 + 1 / m2) (kg), if a law needs it; zero where neither partner yields.
     #[inline(always)]
     pub(super) fn effective_mass([one, other]: [SphereProperties; 2]) -> f64 {
         match Self::NEEDS_EFFECTIVE_MASS {
-            true => 1.0 / (one.inverse_mass + other.inverse_mass),
+            true => inverse_or_zero(one.inverse_mass + other.inverse_mass),
             false => 0.0,
         }
     }

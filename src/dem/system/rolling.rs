@@ -7,7 +7,7 @@
 use super::System;
 use super::adaptive::IslandContacts;
 use super::contact_block::EarlierRows;
-use super::contact_geometry::ContactGeometry;
+use super::contact_geometry::{ContactGeometry, inverse_or_zero};
 use super::contact_laws::Laws;
 use super::contact_state::ContactState;
 use super::ledger::{Books, Ledger};
@@ -190,7 +190,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         rolling.law.rates(
             self.normal.stiffness(overlap, effective_radius),
             effective_radius,
-            1.0 / inverse.sum::<f64>(),
+            inverse_or_zero(inverse.sum()),
             turning.sum(),
         )
     }
@@ -360,7 +360,7 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
             normal_force: force.max(0.0),
             effective_radius: *effective_radius,
             stiffness: present.1,
-            inertia: 1.0 / (inverse[0] + inverse[1]),
+            inertia: inverse_or_zero(inverse[0] + inverse[1]),
             rate: present.0,
             loading_rate,
             loading_stiffness,

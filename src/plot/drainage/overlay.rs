@@ -232,9 +232,13 @@ impl Frame {
         // Dots at the ends of an axis of their own would be cut in half.
         let is_dotted = !bars.is_empty() && self.y != Scale::Decades;
         let margin = if is_dotted { 0.02 * (high - low) } else { 0.0 };
-        let x = self.x.unwrap_or(match low < high {
-            true => (low - margin, high + margin),
-            false => (0.0, 1.0),
+        let x = self.x.unwrap_or(if low < high {
+            (low - margin, high + margin)
+        } else if low == high && low > 0.0 {
+            // One place.
+            (0.5 * low, 2.0 * low)
+        } else {
+            (0.0, 1.0)
         });
         let is_inside = |point: &(f64, f64)| (x.0..=x.1).contains(&point.0);
         for line in &mut lines {

@@ -2,13 +2,16 @@
 
 use super::rounded;
 use crate::document::{Problem, number};
-use crate::scene::{Scene, Shape, Spot, Start, StartSphere};
+use crate::scene::{STICKING_OUT, Scene, Shape, Spot, Start, StartSphere};
 
 /// Largest displacement of a sphere at once, in diameters: beyond it spheres pass one another.
 const LONGEST_DISPLACEMENT: f64 = 0.5;
 
 /// Most spots that may be on their way at once.
 const MOST_SPOTS: f64 = 1e7;
+
+/// How much higher than all spheres on top of each other one may start, in diameters.
+const HIGHEST: f64 = 1000.0;
 
 /// Deepest overlap at the start, in diameters: packings of soft spheres overlap a little.
 const DEEPEST_OVERLAP: f64 = 0.05;
@@ -48,8 +51,39 @@ impl Scene {
         if problems.len() == before {
             self.check_sizes_of_spots(spot, problems);
             self.check_number_of_spots(spot, problems);
+            self.check_listed_places(problems);
             self.check_listed_packing(problems);
         }
+    }
+
+    /// Refuses spheres that start outside the box, or higher than all of them would reach on top of
+    /// each other.
+    fn check_listed_places(&self, problems: &mut Vec<Problem>) {
+        let (Start::List { spheres }, Some(tank)) = (&self.start, &self.tank) else {
+            return;
+        };
+        let diameter = 2.0 * self.radius_range().1;
+        let floor = tank.floor.unwrap_or(0.0);
+        let highest = floor + (HIGHEST + spheres.len() as f64) * diameter;
+        let inside = |place: [f64; 3]| -> bool {
+            let ends =
+                [tank.width, tank.depth].map(|side| side.map_or(f64::INFINITY, |it| 0.5 * it));
+            let least = (0.5 - STICKING_OUT) * diameter;
+            place[0].abs() <= ends[0] - least
+                && place[1].abs() <= ends[1] - least
+                && (floor + least..=highest).contains(&place[2])
+        };
+        let Some(sphere) = spheres.iter().position(|it| !inside(it.position)) else {
+            return;
+        };
+        let [x, y, z] = spheres[sphere].position.map(number);
+        let message = format!("sphere {sphere} at ({x}, {y}, {z}) is not inside the box");
+        let help = format!(
+            "centres are at least a radius from the walls, and at most {} m high",
+            number(highest)
+        );
+        let path = format!("start.spheres[{sphere}]");
+        problems.push(Problem::new(path, message).help(help));
     }
 
     /// Refuses spheres that start within each other: relaxation would throw them apart.

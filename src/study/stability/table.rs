@@ -58,11 +58,10 @@ pub fn write_stability<'a>(
     write_atomic(path, &bytes)
 }
 
-/// Reads the table of a study with these axes. There are no rows where there is no file, or where
-/// it is one of other axes.
+/// Reads the table of a study with these axes. There are no rows where there is no file.
 ///
 /// # Errors
-/// If the file cannot be read or is no such table.
+/// If the file cannot be read, is no such table, or one of other axes, whose rows would be lost.
 pub fn read_stability(axes: &[Axis], path: &Path) -> Result<Vec<Row>, StoreError> {
     if !path.exists() {
         return Ok(Vec::new());
@@ -72,7 +71,9 @@ pub fn read_stability(axes: &[Axis], path: &Path) -> Result<Vec<Row>, StoreError
     let header = table.headers();
     let header = header.map_err(|error| StoreError::reading(path, error.into()))?;
     if header.iter().ne(columns(axes)) {
-        return Ok(Vec::new());
+        let reason = "its columns are not those of this study: other axes; move it away, or write it \
+                      anew with --force";
+        return Err(StoreError::text(path, 1, reason));
     }
     let mut rows = Vec::new();
     for row in table.records() {
@@ -204,7 +205,9 @@ mod tests {
         assert_eq!(read_stability(&axes, &path).unwrap(), []);
         write_stability(&axes, rows.iter(), &path).unwrap();
         assert_eq!(read_stability(&axes, &path).unwrap(), rows);
-        assert_eq!(read_stability(&axes[..1], &path).unwrap(), []);
+        // Symptom: a table of other axes was written over without a word.
+        let message = read_stability(&axes[..1], &path).unwrap_err().to_string();
+        assert!(message.contains("other axes"), "{message}");
 
         let makers = BTreeMap::from([("0123456789abcdef".to_owned(), Program::current())]);
         assert_eq!(read_makers(&path).unwrap(), BTreeMap::new());

@@ -1,7 +1,7 @@
 //! `phase run` and `phase check`.
 
 use super::bench::swept;
-use crate::support::{TinySweep, Workplace, scene_file};
+use crate::support::{TinySweep, Workplace, drainage_file, scene_file};
 
 #[test]
 fn one_scene_is_run_and_stored() {
@@ -92,4 +92,47 @@ fn bad_files_are_refused_before_anything_is_done() {
             .complains("omeg");
     }
     assert!(!place.path("results").exists());
+}
+
+/// Symptom: the scene ran as it is, and the point was not said to be ignored.
+#[test]
+fn a_point_of_a_scene_is_refused() {
+    let place = Workplace::new();
+    place.write("scene.toml", &scene_file());
+    place
+        .phase(&["run", "scene.toml", "--point", "radius=0.003"])
+        .code(2)
+        .complains("--point is a job of a sweep");
+    assert!(!place.path("results").exists());
+}
+
+/// Symptom: the run was made, and then had no file to be written to.
+#[test]
+fn a_record_that_is_named_like_a_folder_is_refused_before_the_run() {
+    let place = Workplace::new();
+    place.write("scene.toml", &scene_file());
+    for out in ["new/", "new/."] {
+        place
+            .phase(&["run", "scene.toml", "--out", out])
+            .code(2)
+            .complains("this is the name of a folder");
+    }
+}
+
+/// Symptom: a panic, and messages for those who write programs.
+#[test]
+fn scenes_without_a_search_are_refused() {
+    let place = Workplace::new();
+    place.write("spots.toml", &drainage_file());
+    place
+        .phase(&["neighbours", "spots.toml"])
+        .code(2)
+        .complains("spots.toml: spots search no contacts");
+    let driven = "[[driven]]\nsphere = 2\nvelocity = [0.0, 0.0, 0.0]\n";
+    place.write("driven.toml", &(scene_file() + driven));
+    let answer = place.phase(&["neighbours", "driven.toml", "--count", "1"]);
+    assert!(!answer.stderr.contains("panicked"), "{answer:?}");
+    place
+        .phase(&["neighbours", "driven.toml", "--count", "4000000000"])
+        .code(2);
 }

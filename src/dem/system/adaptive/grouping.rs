@@ -186,6 +186,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             [_at_a_wall] => &self.tangential_at_walls,
             _ => &self.tangential,
         };
+        if yielding == 0.0 {
+            return [0.0; 2];
+        }
         let effective_mass = 1.0 / yielding;
         let overlap =
             normal.deepest_overlap(overlap, speed + gain, effective_radius, effective_mass);
