@@ -68,8 +68,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         check_labels(&arguments.labels, arguments.paths.len(), true)?;
         if let Some(file) = arguments.paths.iter().find(|path| !path.is_dir()) {
             return Err(Failure::refused(format_args!(
-                "{}: this is no folder, and folders are compared with folders; compare records with \
-                 records",
+                "{}: this is no folder, and folders are compared with folders; compare records \
+                 with records",
                 file.display()
             )));
         }

@@ -131,8 +131,8 @@ fn refuse_without_search(scene: &Scene, path: &Path) -> Result<(), Failure> {
     let reason = if scene.spot.is_some() {
         "spots search no contacts: give a scene of discrete elements"
     } else if matches!(scene.start, Start::Packing {}) {
-        "a packing is made for all of its spheres: start from places, such as `kind = \"random\"` or \
-         `kind = \"file\"`"
+        "a packing is made for all of its spheres: start from places, such as `kind = \"random\"` \
+         or `kind = \"file\"`"
     } else {
         return Ok(());
     };

@@ -120,8 +120,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     // The parser asks for --from beside --point only where no scene file is given.
     if arguments.point.is_some() && arguments.from.is_none() {
         return Err(Failure::refused(
-            "--point is a job of a sweep: give the sweep's results folder with --from in place of a \
-             scene file",
+            "--point is a job of a sweep: give the sweep's results folder with --from in place of \
+             a scene file",
         ));
     }
     let (mut scene, default_path, original) = match (&arguments.scene, &arguments.from) {

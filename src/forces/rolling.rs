@@ -17,7 +17,9 @@ pub struct Rolling {
     /// Coefficient mu_r: a sphere stays on a slope up to tan(theta) = mu_r. It sets the stiffness
     /// too, k_r = 2.25 k_n mu_r^2 R_eff^2 with the stiffness k_n of the contact.
     #[schemars(
-        transform = quantity("μ_r", "", "coefficient of rolling resistance").at_least(0.0).at_most(100.0)
+        transform = quantity("μ_r", "", "coefficient of rolling resistance")
+            .at_least(0.0)
+            .at_most(100.0)
     )]
     pub coefficient: f64,
     /// Viscous damping ratio eta_r below the cap: 1 is critical.

@@ -43,8 +43,8 @@ pub enum StatesError {
     Empty,
     /// A sphere is so far off that nothing can be measured around it.
     #[error(
-        "state {state}: sphere {number} is more than {FARTHEST} diameters from the origin; leave it \
-         out, or give a scene of the units of the file"
+        "state {state}: sphere {number} is more than {FARTHEST} diameters from the origin; leave \
+         it out, or give a scene of the units of the file"
     )]
     Far {
         /// The state, from 1.

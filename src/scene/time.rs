@@ -20,7 +20,7 @@ pub struct Time {
     /// included (default 0.2). Absent once the step is chosen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(
-        transform = quantity("f", "", "time step over its least limit").at_least(1e-4).at_most(1.0)
+        transform = quantity("f", "", "time step over its least limit").above(0.0).at_most(1.0)
     )]
     pub safety_factor: Option<f64>,
     /// Duration of the run (s).
@@ -37,7 +37,9 @@ pub struct Time {
     /// more per impact). Smaller is more accurate and costs more; above 1 contacts may gain energy.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(
-        transform = quantity("ε", "rad", "resolution of adaptive Verlet").above(0.0).at_most(1.0)
+        transform = quantity("ε", "rad", "resolution of adaptive Verlet")
+            .at_least(1e-4)
+            .at_most(1.0)
     )]
     pub resolution: Option<f64>,
 }

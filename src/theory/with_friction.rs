@@ -30,10 +30,10 @@ const HALVINGS: usize = 80;
 ///
 /// Omega_mu = Omega_c + sqrt(5 mu m (g max(1 - L, 0) + Omega_c^2 R) / (3 c2)) / R.
 ///
-/// In a fluid the weight is less its buoyancy, the mass at the wall m + C rho V, and the pressure of
-/// the fluid that turns takes (rho_b + C rho_a) V Omega_mu^2 R off the load on the wall, at most all
-/// of it; Omega_c stays, as weight and centrifugal force of a bed that turns with its fluid are less
-/// by the same part.
+/// In a fluid the weight is less its buoyancy, the mass at the wall m + C rho V, and the pressure
+/// of the fluid that turns takes (rho_b + C rho_a) V Omega_mu^2 R off the load on the wall, at most
+/// all of it; Omega_c stays, as weight and centrifugal force of a bed that turns with its fluid are
+/// less by the same part.
 ///
 /// Left out: the height of the bed, over which the updraught decays, and the weight that leans on
 /// the wall.

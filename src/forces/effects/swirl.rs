@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 use std::marker::PhantomData;
 
-/// Air in rigid rotation about the axis (Rice, 2012, eqs. 21 to 27); with `buoyancy` or `added_mass`
-/// a fluid, whose pressure rises outward.
+/// Air in rigid rotation about the axis (Rice, 2012, eqs. 21 to 27); with `buoyancy` or
+/// `added_mass` a fluid, whose pressure rises outward.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Swirl {

@@ -71,8 +71,8 @@ pub fn read_stability(axes: &[Axis], path: &Path) -> Result<Vec<Row>, StoreError
     let header = table.headers();
     let header = header.map_err(|error| StoreError::reading(path, error.into()))?;
     if header.iter().ne(columns(axes)) {
-        let reason = "its columns are not those of this study: other axes; move it away, or write it \
-                      anew with --force";
+        let reason = "its columns are not those of this study: other axes; move it away, or write \
+                      it anew with --force";
         return Err(StoreError::text(path, 1, reason));
     }
     let mut rows = Vec::new();

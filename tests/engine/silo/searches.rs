@@ -197,7 +197,7 @@ fn too_many_spheres_are_found_before_anything_is_measured() {
     place.write("silo.toml", super::HOPPER);
     let answer = place
         .phase(&["neighbours", "silo.toml", "--count", "10,100000"])
-        .code(1)
-        .complains("100000 spheres are not in after time.duration");
+        .code(2)
+        .complains("with 100000 spheres: the last sphere would come in at");
     assert_eq!(answer.stdout, "");
 }
