@@ -17,6 +17,13 @@ RADIUS, DENSITY, YOUNG, POISSON, DISSIPATION, MU, DT = 0.004, 1e4, 2e5 * math.sq
 MASS = 4 / 3 * math.pi * RADIUS**3 * DENSITY
 
 
+def last_rows(folder):
+    """The spheres of the last state of a record that was exported to CSV files there, as rows by column."""
+    tables = sorted(folder.glob("*.csv"))
+    rows = csv.DictReader(open([path for path in tables if "observ" not in path.name][-1]))
+    return deque((list(state) for _, state in itertools.groupby(rows, lambda row: row["time"])), maxlen=1).pop()
+
+
 class Bed:
     """Spheres at rest: their places, and the files from which programs start with them."""
 
@@ -64,10 +71,7 @@ class Bed:
         return text
 
     def last_spheres(self, folder):
-        tables = sorted(folder.glob("*.csv"))
-        rows = csv.DictReader(open([path for path in tables if "observ" not in path.name][-1]))
-        last = deque((list(state) for _, state in itertools.groupby(rows, lambda row: row["time"])), maxlen=1).pop()
-        return [tuple(float(row[column]) for column in self.columns) for row in last]
+        return [tuple(float(row[column]) for column in self.columns) for row in last_rows(folder)]
 
     def write_lammps(self, sides):
         (x, y), top = sides, max(sphere[2] for sphere in self.spheres) + 20 * self.radius
