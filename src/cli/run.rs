@@ -247,15 +247,14 @@ fn beside(record: &Path) -> PathBuf {
 fn ask_for_more(scene: &mut Scene, arguments: &Arguments) -> Result<(), Failure> {
     scene.output.trajectory |= arguments.trajectory;
     scene.output.ledger |= arguments.ledger;
-    let Some(interval) = arguments.snapshot_interval else {
-        return Ok(());
-    };
-    if !(interval.is_finite() && interval >= 0.0) {
-        return Err(Failure::refused(format_args!(
-            "--snapshot-interval {interval}: must be a time in seconds, 0 or more"
-        )));
+    if let Some(interval) = arguments.snapshot_interval {
+        if !(interval.is_finite() && interval >= 0.0) {
+            return Err(Failure::refused(format_args!(
+                "--snapshot-interval {interval}: must be a time in seconds, 0 or more"
+            )));
+        }
+        scene.output.snapshot_interval = interval;
     }
-    scene.output.snapshot_interval = interval;
     match scene.problems().as_slice() {
         [] => Ok(()),
         problems => {

@@ -75,6 +75,15 @@ fn a_run_replaces_its_own_table() {
         .phase(&["plot", "run.h5"])
         .code(0)
         .says("run-radial-distribution.png");
+    // Spots have no energies. Symptom: a figure of them without a line.
+    place
+        .phase(&["plot", "run.h5", "--figure", "energies"])
+        .code(2)
+        .complains("`energies` is not a figure of a record");
+    place
+        .phase(&["run", "scene.toml", "--ledger", "--out", "ledger.h5"])
+        .code(2)
+        .complains("`output.ledger` means nothing in a scene of spots");
     place.write("run-observations.csv", "time,place\n");
     place
         .phase(&["run", "scene.toml", "--out", "run.h5"])

@@ -39,14 +39,16 @@ pub(super) const OF_ONE: [RecordFigure; 2] = [
 /// Those that are drawn of a drainage if none is asked for; of other runs those of [`OF_ONE`].
 const DEFAULT_OF_DRAINAGE: [&str; 2] = ["surface-angle", "radial-distribution"];
 
-/// The figure that any record has, whatever its family.
-const OF_ANY: &str = "energies";
+/// The figure that any record of discrete elements has, whatever its family.
+const OF_ELEMENTS: &str = "energies";
 
-/// The figures of single runs that folders have too, of records of a family.
-fn of_runs(family: &'static Family) -> impl Iterator<Item = About> {
+/// The figures of single runs that folders have too, of such a record.
+fn of_runs(record: &RunRecord) -> impl Iterator<Item = About> {
+    let family = Family::of(&record.scene);
+    let has_energies = record.scene.spot.is_none();
     let figures = plot::figures().into_iter();
     figures.filter(move |figure| {
-        let applies = figure.applies_to(family) || figure.name == OF_ANY;
+        let applies = figure.applies_to(family) || (figure.name == OF_ELEMENTS && has_energies);
         figure.default_runs.is_some() && applies
     })
 }
@@ -54,7 +56,7 @@ fn of_runs(family: &'static Family) -> impl Iterator<Item = About> {
 /// What can be drawn of a record.
 pub(super) fn list(path: &Path) -> Result<Vec<Entry>, Failure> {
     let record = store::read_record(path).map_err(Failure::refused)?;
-    let of_runs = of_runs(Family::of(&record.scene)).map(|figure| Entry {
+    let of_runs = of_runs(&record).map(|figure| Entry {
         name: figure.name,
         description: figure.description,
         default_runs: None,
@@ -91,8 +93,7 @@ pub(super) fn draw(
     let (Some(first), Some(record)) = (paths.first(), records.first()) else {
         return Ok(());
     };
-    let family = Family::of(&record.scene);
-    let names = names(family, arguments)?;
+    let names = names(record, arguments)?;
     let beside = first.parent().unwrap_or(Path::new(""));
     let folder = arguments.out.as_deref().unwrap_or(beside);
     let prefix = match (&arguments.name, &paths) {
@@ -143,8 +144,9 @@ pub(super) fn draw(
 }
 
 /// The figures asked for, or the default ones.
-fn names(family: &'static Family, arguments: &Arguments) -> Result<Vec<String>, Failure> {
-    let of_runs: Vec<&str> = of_runs(family).map(|figure| figure.name).collect();
+fn names(record: &RunRecord, arguments: &Arguments) -> Result<Vec<String>, Failure> {
+    let family = Family::of(&record.scene);
+    let of_runs: Vec<&str> = of_runs(record).map(|figure| figure.name).collect();
     let known = OF_ONE.iter().map(|figure| figure.name).chain(of_runs);
     let known: Vec<&str> = known.collect();
     let names = &arguments.figure;

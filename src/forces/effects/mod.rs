@@ -216,6 +216,12 @@ impl Effects {
         all.filter_map(|(name, keys)| keys.is_some().then_some(name))
     }
 
+    /// Names of the tables that the scene has.
+    pub fn tables(&self) -> impl Iterator<Item = &'static str> {
+        let all = Self::TABLES.iter().zip(self.keys());
+        all.filter_map(|(&table, keys)| keys.is_some().then_some(table))
+    }
+
     /// Limits of the time step, of all effects that have one.
     pub(crate) fn limits(&self, regime: &Regime<'_>) -> impl Iterator<Item = Limit> {
         self.keys()

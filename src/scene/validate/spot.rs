@@ -2,7 +2,9 @@
 
 use super::rounded;
 use crate::document::{Problem, number};
-use crate::scene::{STICKING_OUT, Scene, Shape, Spot, Start, StartSphere};
+use crate::scene::{
+    Guards, Neighbours, Output, STICKING_OUT, Scene, Shape, Spot, Start, StartSphere,
+};
 
 /// Largest displacement of a sphere at once, in diameters: beyond it spheres pass one another.
 const LONGEST_DISPLACEMENT: f64 = 0.5;
@@ -119,15 +121,34 @@ impl Scene {
             ("rest", dem.rest.is_some()),
             ("outlet", dem.outlet.is_some()),
             ("driven", !dem.driven.is_empty()),
+            ("neighbours", dem.neighbours != Neighbours::default()),
+            ("guards", dem.guards != Guards::default()),
         ]
         .into_iter()
         .filter_map(|(table, is_there)| is_there.then_some(table))
         .collect();
-        there.extend(dem.effects.names());
+        there.extend(dem.effects.tables());
         for table in there {
             let message = format!("[{table}] belongs to the discrete element model");
             let help = format!("remove [{table}] or [spot]: spots alone move the spheres");
             problems.push(Problem::new(table, message).help(help));
+        }
+        self.check_output_of_spots(problems);
+    }
+
+    /// Refuses output that is taken from forces, or from a round tank.
+    fn check_output_of_spots(&self, problems: &mut Vec<Problem>) {
+        let (output, usual) = (&self.output, Output::default());
+        let differing = [
+            ("ledger", output.ledger),
+            ("profile_bins", output.profile_bins.is_some()),
+            ("rise_speeds", output.rise_speeds != usual.rise_speeds),
+            ("rise_radii", output.rise_radii != usual.rise_radii),
+        ];
+        for (key, _) in differing.iter().filter(|(_, differs)| *differs) {
+            let message = format!("`output.{key}` means nothing in a scene of spots");
+            let problem = Problem::new(format!("output.{key}"), message);
+            problems.push(problem.help("remove it").at_key());
         }
     }
 
@@ -333,6 +354,17 @@ mod tests {
             error.contains("[gravity] belongs to the discrete element model"),
             "{error}"
         );
+        for table in [
+            "added_mass = { density = 1.2, coefficient = 0.5 }",
+            "spin_damping = { coefficient = 1e-8 }",
+            "neighbours = { search = \"all-pairs\" }",
+            "guards = { overlap = 0.5 }",
+        ] {
+            let error = scene(table).unwrap_err();
+            let name = table.split(' ').next().unwrap();
+            let expected = format!("[{name}] belongs to the discrete element model");
+            assert!(error.contains(&expected), "{error}");
+        }
         let error = scene("accuracy = \"draft\"").unwrap_err();
         assert!(error.contains("which a scene of spots has not"), "{error}");
     }
