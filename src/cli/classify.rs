@@ -168,6 +168,8 @@ pub(super) struct Summary {
     changes: Option<Vec<Change>>,
     /// Runs that had no label before; none if there were no labels before.
     new: Option<usize>,
+    /// Runs that had a label before and have none now; none if there were no labels before.
+    lost: Option<usize>,
 }
 
 /// Labels that changed.
@@ -181,9 +183,9 @@ struct Change {
 impl Summary {
     pub(super) fn new(folder: &Folder, labelled: &Labelled) -> Self {
         let labels = counts(&labelled.table).into_iter();
-        let (changes, new) = match &labelled.since {
-            Since::Labels { changes, new } => (Some(list(changes)), Some(*new)),
-            Since::Nothing | Since::Unreadable(_) => (None, None),
+        let (changes, new, lost) = match &labelled.since {
+            Since::Labels { changes, new, lost } => (Some(list(changes)), Some(*new), Some(*lost)),
+            Since::Nothing | Since::Unreadable(_) => (None, None, None),
         };
         Self {
             folder: folder.root().to_owned(),
@@ -193,6 +195,7 @@ impl Summary {
             problems: labelled.problems.clone(),
             changes,
             new,
+            lost,
         }
     }
 }
@@ -261,8 +264,8 @@ fn tell_of_labels(labelled: &Labelled, folder: &Folder, console: &Console) {
         Since::Unreadable(error) => console.note(format_args!(
             "cannot compare with the labels before: {error}"
         )),
-        Since::Labels { changes, new } => {
-            console.result(describe_changes(&list(changes), runs - new, *new));
+        Since::Labels { changes, new, lost } => {
+            console.result(describe_changes(&list(changes), runs - new, *new, *lost));
         }
     }
     console.file(&folder.labels());
@@ -305,11 +308,14 @@ fn list(changes: &BTreeMap<(Label, Label), usize>) -> Vec<Change> {
 
 /// How many labels of the runs that had one changed, and from what to what; and how many runs had
 /// none.
-fn describe_changes(changes: &[Change], runs: usize, new: usize) -> String {
+fn describe_changes(changes: &[Change], runs: usize, new: usize, lost: usize) -> String {
     let changed: usize = changes.iter().map(|change| change.runs).sum();
     let mut text = format!("{changed} of {} changed", format::count(runs, "label"));
     if new > 0 {
         text += &format!(", {new} new");
+    }
+    if lost > 0 {
+        text += &format!(", {lost} lost, as their records cannot be labelled");
     }
     for Change { from, to, runs } in changes {
         let arrow = format!("{from} -> {to}");

@@ -99,6 +99,8 @@ pub enum Since {
         changes: BTreeMap<(Label, Label), usize>,
         /// Runs that only the new table has.
         new: usize,
+        /// Runs that only the table of before has: their records cannot be labelled any more.
+        lost: usize,
     },
 }
 
@@ -150,7 +152,8 @@ impl Labelling {
             path => match store::read_labels(&path) {
                 Ok(before) => Since::Labels {
                     changes: changes(&before, &self.table),
-                    new: new_rows(&before, &self.table),
+                    new: rows_only_in(&self.table, &before),
+                    lost: rows_only_in(&before, &self.table),
                 },
                 Err(error) => Since::Unreadable(error.to_string()),
             },
@@ -192,11 +195,11 @@ pub fn refuse_to_lose_labels<'a>(
     }
 }
 
-/// Number of rows of runs that had no row before.
-fn new_rows(before: &LabelTable, after: &LabelTable) -> usize {
-    let known: HashSet<&str> = before.rows.iter().map(|row| row.id.as_str()).collect();
-    let is_new = |row: &&LabelRow| !known.contains(row.id.as_str());
-    after.rows.iter().filter(is_new).count()
+/// Number of rows of runs that another table has not.
+fn rows_only_in(table: &LabelTable, other: &LabelTable) -> usize {
+    let known: HashSet<&str> = other.rows.iter().map(|row| row.id.as_str()).collect();
+    let is_alone = |row: &&LabelRow| !known.contains(row.id.as_str());
+    table.rows.iter().filter(is_alone).count()
 }
 
 impl Sweep {

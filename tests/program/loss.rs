@@ -54,6 +54,23 @@ fn a_sweep_does_not_replace_labels_that_cannot_be_made_again() {
     assert_eq!(place.read("results/tiny/labels.csv"), labels);
 }
 
+/// Symptom: the label of a damaged record was gone, and "0 labels changed". Cause: only rows that
+/// both tables have were compared.
+#[test]
+fn a_label_that_is_lost_is_counted() {
+    let place = swept();
+    let record = place.records("results/tiny")[0].clone();
+    std::fs::write(
+        place.path(&format!("results/tiny/records/{record}")),
+        "broken",
+    )
+    .unwrap();
+    place
+        .phase(&["classify", "results/tiny"])
+        .code(1)
+        .says("0 of 5 labels changed, 1 lost, as their records cannot be labelled");
+}
+
 /// Symptom: `phase run scene.toml --out scene.toml` replaced the scene with its record.
 #[test]
 fn outputs_do_not_replace_other_kinds_of_files() {
