@@ -129,6 +129,20 @@ fn new_files_pass_the_check() {
     }
 }
 
+/// Symptom: a sweep over a scene that has none of its axes, or is not there, without a word.
+#[test]
+fn a_new_sweep_says_what_its_scene_lacks() {
+    let place = Workplace::new();
+    place.phase(&["new", "spot", "box"]).code(0);
+    for (scene, lack) in [("box.toml", "no [swirl]"), ("none.toml", "cannot read")] {
+        place
+            .phase(&["new", "sweep", "mine", "--force", "--scene", scene])
+            .code(0)
+            .complains("does not go with its scene yet")
+            .complains(lack);
+    }
+}
+
 #[test]
 fn new_files_comment_every_table() {
     let place = Workplace::new();

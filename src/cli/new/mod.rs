@@ -76,6 +76,13 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     folders::make_for(&path)?;
     store::write_atomic(&path, text.as_bytes()).map_err(Failure::failed)?;
     console.file(&path);
+    if arguments.scene.is_some()
+        && let Err(error) = phase::sweep::load(&path)
+    {
+        console.warning(format_args!(
+            "the sweep does not go with its scene yet; edit it first: {error}"
+        ));
+    }
     let kind = match arguments.kind {
         Kind::Scene | Kind::Silo | Kind::Spot => "scene",
         Kind::Sweep => "sweep",
