@@ -182,6 +182,42 @@ mod tests {
         }
     }
 
+    /// The pressure of the fluid that turns takes the load off the wall: all of it in fast fluid,
+    /// and a part of it in slow, where the balance is a quadratic equation.
+    #[test]
+    fn in_a_fluid_that_turns_the_wall_bears_less() {
+        let radius = 0.004;
+        let mass = 7850.0 * 4.0 / 3.0 * PI * radius * radius * radius;
+        let (displaced, own) = (998.0 / 7850.0, without(radius));
+        for (friction, wall_bears) in [(0.1, false), (1e-4, true)] {
+            let mut scene = steel(radius);
+            scene = scene
+                .with_values([("friction.coefficient", friction)])
+                .unwrap();
+            scene.dem.effects.updraught = None;
+            scene.dem.effects.buoyancy = Some(Buoyancy { density: 998.0 });
+            let drag = scene.dem.effects.drag.as_mut().unwrap();
+            drag.linear = 0.0;
+            let c2 = drag.quadratic * 4.0 * radius * radius;
+            // a (Omega - Omega_c)^2 = b + c (Omega_c^2 - d Omega^2)
+            let a = 0.6 * c2 * 0.06 * 0.06;
+            let b = friction * mass * 9.8 * (1.0 - displaced);
+            let c = if wall_bears {
+                friction * mass * 0.06
+            } else {
+                0.0
+            };
+            let (square, linear) = (a + c * displaced, a * own);
+            let constant = a * own * own - b - c * own * own;
+            let root = (linear * linear - square * constant).sqrt();
+            let expected = (linear + root) / square;
+            let bears = own * own > displaced * expected * expected;
+            assert_eq!(bears, wall_bears, "{expected}");
+            let omega = critical_rotation_with_friction(&scene).unwrap();
+            assert!((omega / expected - 1.0).abs() < 1e-6, "{omega} {expected}");
+        }
+    }
+
     #[test]
     fn the_updraught_takes_the_weight_of_small_steel_off_the_floor() {
         // L = 5.2, 1.016 and .31 of the weight at 2, 4 and 6 mm.
