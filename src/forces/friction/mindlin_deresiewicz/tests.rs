@@ -148,7 +148,13 @@ type Case<'a> = (&'a str, f64, &'a [(f64, f64)]);
 fn it_follows_independent_springs_where_the_normal_force_changes_too() {
     let depth = overlap(1.0);
     let full = 1.5 * COEFFICIENT * normal_force(depth) / law().stiffness(depth, RADIUS);
-    let cases: [Case<'_>; 10] = [
+    // Unloaded in small steps to and fro.
+    let teeth = (0..60).flat_map(|tooth| {
+        let forth = 0.9 - 0.04 * f64::from(tooth);
+        [(forth, 1.0), (forth - 0.05, 1.0)]
+    });
+    let teeth: Vec<_> = [(0.0, 1.0)].into_iter().chain(teeth).collect();
+    let cases: [Case<'_>; 11] = [
         ("pressed, then loaded", 1e-6, &[(0.0, 1.0), (0.7, 1.0)]),
         (
             "loaded obliquely, sticking",
@@ -193,6 +199,7 @@ fn it_follows_independent_springs_where_the_normal_force_changes_too() {
             0.2,
             &[(0.0, 1.0), (0.8, 1.0), (0.0, 1.0), (0.3, 1.0), (-1.0, 1.0)],
         ),
+        ("unloaded to and fro", 0.4, &teeth),
     ];
     for (name, most, corners) in cases {
         let start = [(0.0, 0.0)];
