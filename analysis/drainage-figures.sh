@@ -66,6 +66,7 @@ folder=$fidelity figures fidelity cost-error 5,30 fidelity-0="discrete elements,
     fidelity-5="1 in 100" fidelity-6="all, k = 1" fidelity-7="all, k = 10" fidelity-8="never"
 
 table pair 40,120 "${pair[@]}"
+table relaxation 40,160 "${relaxation[@]}" "${others[@]}" "${never[@]}"
 table steps 5,30 dt1="step 1e-4" dt2="step 2e-4" dt4="step 4e-4" dt8="step 8e-4" seed2="step 4e-4, seed 2"
 table walls 5,30 wall0.1="wall friction 0.1" wall0.3="wall friction 0.3" dt4="wall friction 0.5" \
     wall0.7="wall friction 0.7" wall0.9="wall friction 0.9"
