@@ -282,6 +282,7 @@ impl Drainage {
             inside.min_by(|(_, one), (_, other)| one.total_cmp(other))
         };
         let sphere = failure.sphere.map(|it| it as usize);
+        let Vector { x, y, z, .. } = failure.place;
         Instability {
             guard: match failure.guard {
                 SpotGuard::NotANumber => Guard::NotANumber,
@@ -292,7 +293,7 @@ impl Drainage {
             step: failure.moves,
             time: failure.time,
             sphere: sphere.or_else(|| nearest().map(|(it, _)| it)).unwrap_or(0),
-            detail: failure.detail,
+            detail: format!("{}; at ({x:.4}, {y:.4}, {z:.4}) m", failure.detail),
         }
     }
 }

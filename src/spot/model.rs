@@ -246,7 +246,7 @@ impl Model {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spot::samples;
+    use crate::spot::{Simulation, samples};
 
     /// Displacement of each sphere by a spot, and how many are moved.
     fn displaced(
@@ -312,6 +312,64 @@ mod tests {
         let below = displaced(weighted, Vector::new(0.0, 0.0, 4.0), step).0;
         let least = below.iter().fold(0.0, |least: f64, it| least.min(it.z));
         assert!((least + 0.1 / 399.0).abs() < 1e-12);
+    }
+
+    /// Displacement of spheres at these places by one relaxation about a centre.
+    fn relaxed(places: &[Vector], centre: Vector) -> Vec<Vector> {
+        let simulation = Simulation::new(samples::parameters(), places, 1).expect("a start");
+        let arrangement = &simulation.arrangement;
+        let mut position = simulation.position.clone();
+        let mut scratch = Scratch::default();
+        let relaxed = simulation
+            .model
+            .relax(arrangement, &mut position, &mut scratch, centre);
+        relaxed.expect("no guard breaks");
+        let mut by = vec![Vector::ZERO; places.len()];
+        for (&id, &place) in arrangement.id.iter().zip(&position) {
+            by[id as usize] = place - places[id as usize];
+        }
+        by
+    }
+
+    /// Overlaps of .04 d, in rows along x; r_e = 3.6 d and alpha = .8.
+    #[test]
+    fn free_spheres_share_an_overlap_and_held_ones_stay() {
+        let (both, one) = (0.8 * 0.04 / 2.0, 0.8 * 0.04);
+        let cases: [(&[f64], &[f64]); 5] = [
+            (&[-0.48, 0.48], &[-both, both]),
+            // Both neighbours at once: the one in the middle stays.
+            (&[-0.96, 0.0, 0.96], &[-both, 0.0, both]),
+            (&[2.7, 3.66], &[-one, 0.0]),
+            (&[3.7, 4.66], &[0.0, 0.0]),
+            (&[-0.5, 0.5], &[0.0, 0.0]),
+        ];
+        for (places, expected) in cases {
+            let places: Vec<_> = places.iter().map(|x| Vector::new(*x, 0.2, 7.0)).collect();
+            let by = relaxed(&places, Vector::new(0.0, 0.2, 7.0));
+            for (by, expected) in by.iter().zip(expected) {
+                let error = (by.x - expected).abs();
+                assert!(
+                    error < 1e-12 && by.y == 0.0 && by.z == 0.0,
+                    "{by:?} {expected}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_spot_without_spheres_in_the_bed_is_an_error_with_its_place() {
+        let simulation = samples::simulation(|_| {});
+        let check = |x: f64, z: f64| {
+            let centre = Vector::new(x, 0.0, z);
+            simulation
+                .model
+                .check_empty(&simulation.arrangement, centre)
+        };
+        let fault = check(1.0, 5.0).expect_err("spheres lie above it");
+        assert_eq!(fault.guard, Guard::EmptySpot);
+        assert_eq!(fault.place, Vector::new(1.0, 0.0, 5.0));
+        assert!(check(1.0, 20.0).is_ok(), "above the bed");
+        assert!(check(8.0, 5.0).is_ok(), "behind a wall");
     }
 
     #[test]
