@@ -143,7 +143,19 @@ pub(crate) fn base_of_tree(
     reading: Reading,
 ) -> Result<Scene, Vec<Problem>> {
     let mut tree = tree.clone();
-    let mut problems = settings::complete(&mut tree);
+    match settings::complete(&mut tree) {
+        problems if problems.is_empty() => base_of_completed(tree, folder, reading),
+        problems => Err(problems),
+    }
+}
+
+/// The same of a tree in which no key that follows from others is left open.
+pub(crate) fn base_of_completed(
+    mut tree: Value,
+    folder: &Path,
+    reading: Reading,
+) -> Result<Scene, Vec<Problem>> {
+    let mut problems = Vec::new();
     SCENE.kind.check(&tree, "", &mut problems);
     if !problems.is_empty() {
         return Err(problems);

@@ -6,7 +6,7 @@ mod packed;
 mod state;
 mod steady;
 
-pub(crate) use load::{Reading, base_of_document, base_of_tree, load_base_with};
+pub(crate) use load::{Reading, base_of_completed, base_of_document, base_of_tree, load_base_with};
 pub use models::model_of;
 pub use state::frame_of_state;
 

@@ -126,14 +126,16 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     Ok(sweep)
 }
 
-/// The scene that the sweep starts from: in a file of its own, or in the table `scene`.
+/// The scene that the sweep starts from: in a file of its own, or in the table `scene`, in which no
+/// key that follows from others is left open.
 pub(crate) fn base_scene(
     scene: &Value,
     document: &Document,
     reading: Reading,
 ) -> Result<Scene, LoadError> {
     let Some(path) = scene.as_str() else {
-        return run::base_of_tree(scene, document.folder(), reading).map_err(|problems| {
+        let scene = run::base_of_completed(scene.clone(), document.folder(), reading);
+        return scene.map_err(|problems| {
             let within = |problem: Problem| problem.within("scene");
             document.refuse(&problems.into_iter().map(within).collect::<Vec<_>>())
         });
