@@ -111,6 +111,7 @@ fn shipped_sweeps_have_the_grids_they_promise() {
         ("realistic-steady", 9 * 9),
         ("theoretical-until-steady", 9 * 9),
         ("steel-softened", 9 * 9 * 3),
+        ("steel-refined", 9 * 9),
         ("silo", 10 * 6 * 3),
         ("silo-quick", 3 * 2),
         ("beverloo", 8 * 2 * 4),
@@ -132,6 +133,7 @@ fn shipped_sweeps_have_the_grids_they_promise() {
         ("theoretical-refined", 41 * 41, 116),
         ("theoretical-density", 41 * 41 * 9, 400),
         ("realistic-refined", 41 * 41, 116),
+        ("steel-refined", 9 * 9, 187),
         ("spot-refined", 21 * 37, 72),
     ] {
         let sweep = load_sweep(format!("sweeps/{name}.toml"));
