@@ -53,8 +53,8 @@ figures "" mixing,diffusion,retention 40,120 "${relaxation[@]}"
 # shellcheck disable=SC2016
 figures "" cross-profile 40,120 coarse='$d_w$ = $d$' dw0.5='$d_w$ = $d$/2' dw0='$d_w$ = 0' \
     reflection='$d_w$ = 0, reflection' dw-1.5='$d_w$ = −3$d$/2'
-figures "" surface-angle 20,300 coarse="no bias" bias1="bias 1" walk="bias 3" weighting="weighted" \
-    bias1w="bias 1, weighted" bias3="bias 3, weighted" bias10="bias 10, weighted"
+figures "" surface-angle 20,300 coarse="no bias" walk1="bias 1" walk="bias 3" weighting="weighted" \
+    bias1="bias 1, weighted" bias3="bias 3, weighted" bias10="bias 10, weighted"
 
 pair=(dem="discrete elements" base="spots")
 figures pair outflow,velocity-profile,cross-profile,surface-angle,radial-distribution,bond-angles 40,120 "${pair[@]}"
@@ -74,7 +74,7 @@ table walls 5,30 wall0.1="wall friction 0.1" wall0.3="wall friction 0.3" dt4="wa
 table walls-full 40,120 dem="wall friction 0.5" dem-wall0.3="wall friction 0.3" dem-wall0.1="wall friction 0.1"
 "$phase" fit "$folder/dem.h5" --times 40,120
 picture pair-layers "--color layer --time 0,60,120 --since-opening --width 170" "${pair[@]}"
-surfaces=(bias1="bias 1" walk="bias 3" bias1w="bias 1, weighted" bias3="bias 3, weighted")
+surfaces=(walk1="bias 1" walk="bias 3" bias1="bias 1, weighted" bias3="bias 3, weighted")
 picture surface-layers "--color layer --time 300 --width 150" "${surfaces[@]}"
 picture surface-packing "--color packing-fraction --time 300 --window=-25,25,50,90 --width 220" "${surfaces[@]}"
 picture relaxation-layers "--color layer --time 120 --window=-15,15,0,40 --width 170" base="every move" \

@@ -36,8 +36,8 @@ global1 spot-drainage time.duration=200 $global
 global10 spot-drainage time.duration=200 spot.relaxation.method=global spot.relaxation.ratio=10
 base spot-drainage time.duration=300
 coarse spot-drainage time.duration=300 $global
-bias1 spot-drainage time.duration=300 $global spot.walk.bias=1
-bias1w spot-drainage time.duration=300 $global spot.walk.bias=1 spot.weighting.above=30
+walk1 spot-drainage time.duration=300 $global spot.walk.bias=1
+bias1 spot-drainage time.duration=300 $global spot.walk.bias=1 spot.weighting.above=30
 bias3 spot-drainage time.duration=300 $global spot.walk.bias=3 spot.weighting.above=30
 bias10 spot-drainage time.duration=300 $global spot.walk.bias=10 spot.weighting.above=30
 walk spot-drainage time.duration=300 $global spot.walk.bias=3
