@@ -13,6 +13,7 @@ mod ledger;
 mod motion;
 mod openings;
 mod order;
+mod packing;
 mod plane_sides;
 mod reproduction;
 mod rolling;
