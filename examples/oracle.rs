@@ -6,9 +6,11 @@
 //!
 //! For each map, each model chooses by margin, and the default model by each way of choosing. Maps
 //! of one seed are replayed as they are, and with noise that makes seeds agree as often as those of
-//! the small map beside them; the default is then replayed with up to three seeds a place too. One
+//! the small map beside them; the default is then replayed with up to three seeds a place too.
+//! Large maps are replayed with other shares of exploring runs as well (`margin/10`: 10 %). One
 //! line each 1 % of the runs of a large map, in the columns
 //!
+//! - model and way of choosing;
 //! - most seeds of one place; share of the map's runs (per cent), runs, and places among them;
 //! - labels right (per cent), with `settled` and `fluid` apart and merged;
 //! - borders of merged labels in the bands of 68 and 95 % (per cent), and the area of the bands;
@@ -76,6 +78,9 @@ const CASES: [Case; 6] = [
 const HEADER: &str = "model        choice       seeds runs%  runs places | right merged \
                       | in 68 in 95  area 68 95 | in 68 in 95 width | ms";
 
+/// Shares of exploring runs beside the default of 12.5 (per cent).
+const EXPLORING: [f64; 3] = [10.0, 15.0, 100.0 / 6.0];
+
 /// Seeds that the majority labels of a noisy map come from.
 const SEEDS: u64 = 25;
 
@@ -130,16 +135,42 @@ fn agreements(map: &PublishedMap) {
 
 fn compare(oracle: &dyn Oracle, truth: &PublishedMap, case: Case) -> Result<(), RefineError> {
     println!("{HEADER}");
+    let places = truth.lattice().places();
+    let budget = libm::round(case.most / 100.0 * places as f64) as usize;
+    let defaults = Settings {
+        start: case.start.to_vec(),
+        replicates: 1,
+        ..Settings::with_budget(budget)
+    };
+    let print = |settings: &Settings, choice: &str| table(oracle, truth, case, settings, choice);
     for model in ModelKind::ALL {
         for choice in Choice::ALL {
             if model == ModelKind::default() || choice == Choice::default() {
-                table(oracle, truth, case, (model, choice, 1))?;
+                let settings = Settings {
+                    model,
+                    choice,
+                    ..defaults.clone()
+                };
+                print(&settings, choice.name())?;
             }
         }
     }
+    let name = defaults.choice.name();
+    if case.sample.is_some() && truth.at(0).len() == 1 {
+        for percent in EXPLORING {
+            let settings = Settings {
+                exploring: percent / 100.0,
+                ..defaults.clone()
+            };
+            print(&settings, &format!("{name}/{percent:.0}"))?;
+        }
+    }
     if truth.at(0).len() > 1 {
-        let default = (ModelKind::default(), Choice::default(), 3);
-        table(oracle, truth, case, default)?;
+        let settings = Settings {
+            replicates: 3,
+            ..defaults.clone()
+        };
+        print(&settings, name)?;
     }
     Ok(())
 }
@@ -148,20 +179,16 @@ fn table(
     oracle: &dyn Oracle,
     truth: &PublishedMap,
     case: Case,
-    (model, choice, replicates): (ModelKind, Choice, u64),
+    settings: &Settings,
+    choice: &str,
 ) -> Result<(), RefineError> {
     let places = truth.lattice().places();
-    let budget = libm::round(case.most / 100.0 * places as f64) as usize;
-    let mut settings = Settings::with_budget(budget);
-    settings.model = model;
-    settings.choice = choice;
-    settings.start = case.start.to_vec();
-    settings.replicates = replicates;
+    let (model, replicates, budget) = (settings.model, settings.replicates, settings.budget);
     let mut next = 0.0;
     let mut rounds = 0;
     let mut clock = Instant::now();
     let mut lines = Ok(());
-    replay(oracle, &settings, |runs, map| {
+    replay(oracle, settings, |runs, map| {
         rounds += 1;
         let share = 100.0 * runs.len() as f64 / places as f64;
         if share < next && runs.len() < budget {
@@ -174,10 +201,9 @@ fn table(
         at.dedup();
         match score(truth, runs, map, case.axis) {
             Ok(score) => println!(
-                "{:12} {:12} {replicates:5} {share:5.1} {:5} {:6} | {:5.1} {:6.1} | {:5.1} {:5.1} \
-                 {:5.1} {:5.1} | {:5.1} {:5.1} {:5.1} | {:.0}",
+                "{:12} {choice:12} {replicates:5} {share:5.1} {:5} {:6} | {:5.1} {:6.1} | {:5.1} \
+                 {:5.1} {:5.1} {:5.1} | {:5.1} {:5.1} {:5.1} | {:.0}",
                 model.name(),
-                choice.name(),
                 runs.len(),
                 at.len(),
                 100.0 * score.right,
