@@ -3,7 +3,8 @@
 use super::rounded;
 use crate::document::{Problem, number};
 use crate::scene::{
-    Guards, Neighbours, Output, STICKING_OUT, Scene, Shape, Spot, Start, StartSphere,
+    Guards, Neighbours, Output, RelaxationMethod, STICKING_OUT, Scene, Shape, Spot, SpotRelaxation,
+    Start, StartSphere,
 };
 
 /// Largest displacement of a sphere at once, in diameters: beyond it spheres pass one another.
@@ -43,11 +44,32 @@ fn overlap(spheres: &[StartSphere], share: f64, diameter: f64) -> Option<(usize,
     found
 }
 
+/// Refuses a ratio beside methods that have none.
+fn check_relaxation_of_spots(relaxation: &SpotRelaxation, problems: &mut Vec<Problem>) {
+    let method = relaxation.method;
+    let has_none = matches!(method, RelaxationMethod::EveryMove | RelaxationMethod::Off);
+    if has_none && relaxation.ratio != SpotRelaxation::default().ratio {
+        let name = if method == RelaxationMethod::Off {
+            "off"
+        } else {
+            "every-move"
+        };
+        let message = format!("relaxation with `method = \"{name}\"` has no ratio");
+        let help = "remove `ratio`, or use the method `at-random`, `counted` or `global`";
+        problems.push(
+            Problem::new("spot.relaxation.ratio", message)
+                .help(help)
+                .at_key(),
+        );
+    }
+}
+
 impl Scene {
     pub(super) fn check_spot(&self, problems: &mut Vec<Problem>) {
         let Some(spot) = &self.spot else { return };
         self.check_tables_beside_spots(problems);
         self.check_spheres_of_spots(problems);
+        check_relaxation_of_spots(&spot.relaxation, problems);
         let before = problems.len();
         self.check_box_of_spots(spot, problems);
         if problems.len() == before {
