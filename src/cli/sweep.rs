@@ -194,15 +194,17 @@ fn refuse_other_thresholds(folder: &Folder, sweep: &Sweep) -> Result<(), Failure
     }
 }
 
-/// The jobs of the sweep that the folder keeps, if this one makes the same. Those at borders and
-/// those of rounds follow from the labels, so that the thresholds count too.
+/// The jobs of the sweep that the folder keeps, if this one makes the same, and those that a
+/// refined sweep takes as given. Those at borders and those of rounds follow from the labels, so
+/// that the thresholds count too.
 fn jobs_made_again(folder: &Folder, sweep: &Sweep) -> Vec<Job> {
+    let given = sweep.jobs_given_by(folder).unwrap_or_default();
     let stored = folder.read_sweep().ok();
     let stored = stored.filter(|stored| {
         stored.sieves == sweep.sieves && stored.keys_of_other_runs(sweep).is_empty()
     });
     let jobs = stored.and_then(|stored| stored.jobs().ok());
-    jobs.unwrap_or_default()
+    given.into_iter().chain(jobs.unwrap_or_default()).collect()
 }
 
 /// Takes the seeds of the command line, and refines the sweep if that is asked for.

@@ -58,8 +58,8 @@ impl Refinement {
     /// The rounds of a sweep with what is in its folder: nothing counts if it is run `afresh`.
     ///
     /// Runs that the folder held before the sweep was refined are given, and part of the budget. If
-    /// they are the whole grid, refining chooses among them instead, which teaches nearly as much
-    /// and takes far less time than to learn from all.
+    /// they are the whole grid, and more than the budget, refining chooses among them instead,
+    /// which teaches nearly as much and takes far less time than to learn from all.
     ///
     /// # Errors
     /// Why the sweep cannot be refined.
@@ -138,7 +138,7 @@ impl Refinement {
         };
         let seeds = settings.first_seed..settings.first_seed + settings.replicates;
         let count = seeds.take_while(|seed| is_whole(*seed)).count() as u64;
-        (count > 0 && self.known.len() >= settings.budget).then_some(count)
+        (count > 0 && self.known.len() > settings.budget).then_some(count)
     }
 
     /// The settings by which runs are chosen.
@@ -310,6 +310,24 @@ impl Refinement {
 }
 
 impl Sweep {
+    /// The jobs of a refined sweep that its folder has a record or a kept label of, if all of them
+    /// are given: none if refining chooses among those of a whole grid. None of another sweep.
+    ///
+    /// # Errors
+    /// If a point cannot be run.
+    pub fn jobs_given_by(&self, folder: &Folder) -> Result<Vec<Job>, PointError> {
+        let Some(refining) = &self.refine else {
+            return Ok(Vec::new());
+        };
+        let settings = &refining.settings;
+        let mut jobs = jobs_with_records(folder, self)?;
+        let of_first_seed = jobs.iter().filter(|job| job.seed == settings.first_seed);
+        if of_first_seed.count() == self.points() && jobs.len() > settings.budget {
+            jobs.clear();
+        }
+        Ok(jobs)
+    }
+
     /// Whether another sweep chooses the same runs, but for more or fewer rounds.
     fn is_refined_like(&self, other: &Self) -> bool {
         let without_end = |sweep: &Self| {

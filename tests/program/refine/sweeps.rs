@@ -280,6 +280,38 @@ fn nothing_is_run_of_a_full_grid_of_one_seed() {
     }
 }
 
+/// Symptom: a refined sweep refused published labels with more seeds at borders. Cause: only the jobs
+/// of the same sweep were thought to stay. As many runs as the budget all count, and no others.
+#[test]
+fn published_labels_with_more_seeds_at_borders_count_without_records() {
+    let place = Workplace::new();
+    let borders = "[seeds]\ncount = 1\nat_borders = 2";
+    bare(&place, &tiny(2.0, borders), "results", &[]);
+    std::fs::remove_dir_all(place.path("results/records")).unwrap();
+    let labels = rows(&place, "results/labels.csv");
+    assert!((28..54).contains(&labels.len()), "{}", labels.len());
+    let budget = |runs: usize| REFINE.replace("budget = 14", &format!("budget = {runs}"));
+    let keep = [
+        "sweep",
+        "tiny.toml",
+        "--out",
+        "results",
+        "--keep-labels",
+        "--no-plot",
+    ];
+    place.write("tiny.toml", &tiny(2.0, &budget(labels.len() - 1)));
+    place.phase(&keep).code(2).complains("would be lost");
+    let text = tiny(2.0, &budget(labels.len()));
+    let said = bare(&place, &text, "results", &["--keep-labels"]);
+    let count = labels.len();
+    assert!(said.contains(&format!("{count} jobs: 0 run now")), "{said}");
+    let sorted = |mut rows: Vec<Vec<String>>| {
+        rows.sort();
+        rows
+    };
+    assert_eq!(sorted(rows(&place, "results/labels.csv")), sorted(labels));
+}
+
 #[test]
 fn runs_that_are_there_count_as_data() {
     let place = Workplace::new();
