@@ -20,6 +20,7 @@ mod rolling;
 #[path = "../scenes/mod.rs"]
 mod scenes;
 mod silo;
+mod spins;
 mod stability;
 mod steel;
 #[path = "../support/mod.rs"]

@@ -9,7 +9,7 @@ use crate::forces::effects::PlacedEffect;
 use crate::particles::block::BLOCK;
 use crate::particles::bodies::{Asked, Bodies};
 use crate::particles::vector::Vector;
-use fearless_simd::{Level, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
+use fearless_simd::{Level, Select, Simd, SimdBase, SimdFrom, SimdMask, f64x4, mask64x4};
 
 /// Spheres that are moved before the next ones: few enough to stay in the nearest cache.
 const SPHERES_AT_ONCE: usize = 4 * BLOCK;
@@ -197,12 +197,24 @@ fn accelerate<S: Simd>(simd: S, spheres: &mut Spheres<'_>, acceleration: Vector)
     }
 }
 
+/// Smaller spins (rad/s) are zero. Friction and damping that act on spins alone let them fall
+/// without end, to numbers that processors multiply many times slower. What they do to a velocity
+/// is far below its last digit.
+const LEAST_SPIN: f64 = 1e-280;
+
+/// A spin (rad/s) with components below [`LEAST_SPIN`] as zero.
+pub(super) fn without_least(spin: Vector) -> Vector {
+    let component = |it: f64| if it.abs() < LEAST_SPIN { 0.0 } else { it };
+    Vector::new(component(spin.x), component(spin.y), component(spin.z))
+}
+
 /// v += a dt, and the same for spins. Returns whether no component of a velocity is beyond `slow`.
 #[inline(always)]
 fn kick_all<S: Simd>(simd: S, spheres: &mut Spheres<'_>, dt: f64, slow: f64) -> bool {
     // The fourth number of a row is padding.
     let most = f64x4::simd_from(simd, [slow, slow, slow, f64::INFINITY]);
     let mut all_slow = mask64x4::splat(simd, true);
+    let (least_spin, zero) = (f64x4::splat(simd, LEAST_SPIN), f64x4::splat(simd, 0.0));
     for ((velocity, force), inverse) in (spheres.velocity.iter_mut())
         .zip(&*spheres.force)
         .zip(spheres.inverse_mass)
@@ -217,7 +229,8 @@ fn kick_all<S: Simd>(simd: S, spheres: &mut Spheres<'_>, dt: f64, slow: f64) -> 
         .zip(spheres.inverse_inertia)
     {
         let row = spin.simd(simd) + torque.simd(simd) * (inverse * dt);
-        *spin = Vector::of_row(row.into());
+        let vanishes = row.abs().simd_lt(least_spin);
+        *spin = Vector::of_row(vanishes.select(zero, row).into());
     }
     all_slow.all_true()
 }

@@ -9,6 +9,7 @@ pub(super) use self::islands::IslandContacts;
 pub(super) use self::workspace::Workspace;
 
 use self::workspace::Start;
+use super::moves::without_least;
 use super::{Engine, Setup, System};
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
@@ -186,6 +187,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 fn kick(particles: &mut Particles, i: usize, dt: f64) {
     particles.velocity[i] += particles.force[i] * (particles.inverse_mass[i] * dt);
     if particles.rotate() {
-        particles.spin[i] += particles.torque[i] * (particles.inverse_inertia[i] * dt);
+        let change = particles.torque[i] * (particles.inverse_inertia[i] * dt);
+        particles.spin[i] = without_least(particles.spin[i] + change);
     }
 }
