@@ -19,7 +19,7 @@ fn overlaps(centres: &[Vector]) -> usize {
 /// Rycroft, Wong and Bazant (2010) start from a packing fraction of 0.64 in the bulk. The lid stops
 /// at 0.64, or where spheres jam.
 #[test]
-#[ignore = "takes two minutes"]
+#[ignore = "takes two to five minutes"]
 fn the_full_box_is_as_dense_as_the_papers_and_without_overlap() {
     let parameters = Parameters::figure_2(1.0);
     let centres = random_packing(&parameters, 55_000, 1, 2).unwrap();

@@ -46,21 +46,16 @@ fn overlap(spheres: &[StartSphere], share: f64, diameter: f64) -> Option<(usize,
 
 /// Refuses a ratio beside methods that have none.
 fn check_relaxation_of_spots(relaxation: &SpotRelaxation, problems: &mut Vec<Problem>) {
-    let method = relaxation.method;
-    let has_none = matches!(method, RelaxationMethod::EveryMove | RelaxationMethod::Off);
-    if has_none && relaxation.ratio != SpotRelaxation::default().ratio {
-        let name = if method == RelaxationMethod::Off {
-            "off"
-        } else {
-            "every-move"
-        };
+    let name = match relaxation.method {
+        RelaxationMethod::EveryMove => "every-move",
+        RelaxationMethod::Off => "off",
+        RelaxationMethod::AtRandom | RelaxationMethod::Counted | RelaxationMethod::Global => return,
+    };
+    if relaxation.ratio != SpotRelaxation::default().ratio {
         let message = format!("relaxation with `method = \"{name}\"` has no ratio");
         let help = "remove `ratio`, or use the method `at-random`, `counted` or `global`";
-        problems.push(
-            Problem::new("spot.relaxation.ratio", message)
-                .help(help)
-                .at_key(),
-        );
+        let problem = Problem::new("spot.relaxation.ratio", message).help(help);
+        problems.push(problem.at_key());
     }
 }
 

@@ -280,8 +280,8 @@ fn nothing_is_run_of_a_full_grid_of_one_seed() {
     }
 }
 
-/// Symptom: a refined sweep refused published labels with more seeds at borders. Cause: only the jobs
-/// of the same sweep were thought to stay. As many runs as the budget all count, and no others.
+/// Symptom: a refined sweep refused published labels with more seeds at borders. Cause: only the
+/// jobs of the same sweep were thought to stay. They all count if they are no more than the budget.
 #[test]
 fn published_labels_with_more_seeds_at_borders_count_without_records() {
     let place = Workplace::new();
