@@ -10,6 +10,7 @@ use super::folders;
 use super::runs::check_labels;
 use inputs::Column;
 use phase::compare::Row;
+use phase::scene::Units;
 use phase::statistics::Estimate;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -82,7 +83,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     for (index, name) in names.iter().enumerate() {
         console.result(format_args!("{}  {name}", letter(index)));
     }
-    for line in lines(&rows, names.len()) {
+    for line in lines(&rows, names.len(), inputs::units(&inputs)) {
         console.result(line);
     }
     if let Some(path) = &arguments.out {
@@ -114,14 +115,14 @@ fn letter(index: usize) -> String {
     }
 }
 
-/// The rows as lines of text, in columns.
-fn lines(rows: &[Row], records: usize) -> Vec<String> {
+/// The rows as lines of text, in columns; their scenes are in these units.
+fn lines(rows: &[Row], records: usize, units: Units) -> Vec<String> {
     let mut head = vec![String::new()];
     head.extend((0..records).map(letter));
     head.extend((records == 2).then(|| "B - A".to_owned()));
     let cell = |value: Option<Estimate>| value.map_or_else(|| "-".to_owned(), written);
     let cells = rows.iter().map(|row| {
-        let unit = match &row.unit[..] {
+        let unit = match row.shown_unit(units) {
             "" => String::new(),
             unit => format!(" ({unit})"),
         };

@@ -23,6 +23,9 @@ pub struct Quantity {
     pub measure: fn(&Drainage<'_>) -> Option<Estimate>,
 }
 
+/// Name of the time that a run took, whose seconds are not those of its scene.
+pub(super) const PROCESSOR_TIME: &str = "processor time";
+
 /// All of them.
 pub static QUANTITIES: [Quantity; 16] = [
     Quantity {
@@ -123,7 +126,7 @@ pub static QUANTITIES: [Quantity; 16] = [
         measure: stagnant,
     },
     Quantity {
-        name: "processor time",
+        name: PROCESSOR_TIME,
         unit: "s",
         is_of_flow: false,
         measure: |drainage| exact(Some(drainage.record.cpu_seconds)),

@@ -1,7 +1,9 @@
 //! The numbers of several drainages, one row per number.
 
+use super::quantities::PROCESSOR_TIME;
 use super::{Drainage, QUANTITIES};
 use crate::record::RunRecord;
+use crate::scene::Units;
 use crate::statistics::Estimate;
 
 /// A number of several drainages.
@@ -16,6 +18,14 @@ pub struct Row {
 }
 
 impl Row {
+    /// Its unit as a reader of scenes in these units sees it.
+    pub fn shown_unit(&self, units: Units) -> &str {
+        match &self.name[..] {
+            PROCESSOR_TIME => &self.unit,
+            _ => units.shown(&self.unit),
+        }
+    }
+
     /// The second value less the first, of two; the interval is infinite if that of one is.
     pub fn difference(&self) -> Option<Estimate> {
         let [Some(first), Some(second)] = self.values[..] else {

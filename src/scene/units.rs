@@ -39,7 +39,7 @@ impl Units {
     }
 
     /// An SI unit as figures show it: the same number of d and τ. Others stay as they are.
-    pub fn shown(self, unit: &'static str) -> &'static str {
+    pub fn shown(self, unit: &str) -> &str {
         match (self, unit) {
             (Self::OfSpheres, "m") => "d",
             (Self::OfSpheres, "s") => "τ",

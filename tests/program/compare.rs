@@ -160,6 +160,24 @@ fn runs_of_a_tank_are_compared_by_their_measures() {
         .complains("compare runs of one kind");
 }
 
+/// Symptom: of a scene in units of its spheres the text said 1/s, and figures beside it 1/τ. What
+/// programs read stays in SI units, and so does the time that the run took.
+#[test]
+fn a_scene_in_units_of_its_spheres_is_told_in_those() {
+    let (place, _) = drained();
+    let compare = ["compare", "run.h5", "--times", "1,4"];
+    place
+        .phase(&compare)
+        .code(0)
+        .says("outflow (1/τ)")
+        .says("processor time (s)");
+    let answer = place.phase(&[&compare[..], &["--json"]].concat()).code(0);
+    let answer: Value = serde_json::from_str(&answer.stdout).unwrap();
+    let rows = answer["rows"].as_array().unwrap();
+    let outflow = rows.iter().find(|row| row["quantity"] == "outflow");
+    assert_eq!(outflow.unwrap()["unit"], "1/s");
+}
+
 #[test]
 fn a_table_takes_the_place_of_its_records() {
     let (place, _) = drained();

@@ -7,6 +7,7 @@ use phase::classify::{DRAINAGE, Family, Measure, Sieves, classify};
 use phase::compare::{Comparison, Row};
 use phase::plot;
 use phase::record::RunRecord;
+use phase::scene::{Scene, Units};
 use phase::statistics::Estimate;
 use std::path::{Path, PathBuf};
 
@@ -70,6 +71,19 @@ pub(super) fn columns(inputs: &[Input], times: Option<[f64; 2]>) -> Result<Vec<C
         }
     }
     Ok(columns)
+}
+
+/// The units of the scenes: of their spheres if all are in those.
+pub(super) fn units(inputs: &[Input]) -> Units {
+    let scenes = inputs.iter().filter_map(|input| match input {
+        Input::Run(_, record) => Some(&record.scene),
+        Input::Table(_) => None,
+    });
+    let mut units = scenes.map(Scene::units);
+    match units.next() {
+        Some(Units::OfSpheres) if units.all(|it| it == Units::OfSpheres) => Units::OfSpheres,
+        _ => Units::Si,
+    }
 }
 
 /// The columns of drainages.

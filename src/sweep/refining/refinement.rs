@@ -110,7 +110,8 @@ impl Refinement {
                 stored.given
             }
             None => {
-                self.refining.seeds_there = self.seeds_of_whole_grid();
+                let seeds: Vec<u64> = self.known.iter().map(|(run, _)| run.seed).collect();
+                self.refining.seeds_there = sweep.seeds_of_whole_grid(&seeds);
                 match self.refining.seeds_there {
                     Some(_) => Vec::new(),
                     None => self.known.iter().map(|(run, _)| run.clone()).collect(),
@@ -124,21 +125,6 @@ impl Refinement {
             }
         }
         Ok(())
-    }
-
-    /// Number of seeds, from the first on, that every point of the grid has been run with, if the
-    /// folder holds at least one of each and more than the budget.
-    fn seeds_of_whole_grid(&self) -> Option<u64> {
-        let settings = &self.refining.settings;
-        let is_whole = |seed: u64| {
-            (0..self.lattice.places()).all(|place| {
-                let values = self.lattice.values(place);
-                self.known.label(&Run { values, seed }).is_some()
-            })
-        };
-        let seeds = settings.first_seed..settings.first_seed + settings.replicates;
-        let count = seeds.take_while(|seed| is_whole(*seed)).count() as u64;
-        (count > 0 && self.known.len() > settings.budget).then_some(count)
     }
 
     /// The settings by which runs are chosen.
@@ -316,16 +302,25 @@ impl Sweep {
     /// # Errors
     /// If a point cannot be run.
     pub fn jobs_given_by(&self, folder: &Folder) -> Result<Vec<Job>, PointError> {
-        let Some(refining) = &self.refine else {
+        if self.refine.is_none() {
             return Ok(Vec::new());
-        };
-        let settings = &refining.settings;
+        }
         let mut jobs = jobs_with_records(folder, self)?;
-        let of_first_seed = jobs.iter().filter(|job| job.seed == settings.first_seed);
-        if of_first_seed.count() == self.points() && jobs.len() > settings.budget {
+        let seeds: Vec<u64> = jobs.iter().map(|job| job.seed).collect();
+        if self.seeds_of_whole_grid(&seeds).is_some() {
             jobs.clear();
         }
         Ok(jobs)
+    }
+
+    /// Number of seeds, from the first on, that every point of the grid has a run of, if there is
+    /// one and the runs are more than the budget. `seeds` holds the seed of each run that is there.
+    fn seeds_of_whole_grid(&self, seeds: &[u64]) -> Option<u64> {
+        let settings = &self.refine.as_ref()?.settings;
+        let is_whole = |seed: &u64| seeds.iter().filter(|it| *it == seed).count() == self.points();
+        let candidates = settings.first_seed..settings.first_seed + settings.replicates;
+        let count = candidates.take_while(is_whole).count() as u64;
+        (count > 0 && seeds.len() > settings.budget).then_some(count)
     }
 
     /// Whether another sweep chooses the same runs, but for more or fewer rounds.
