@@ -117,6 +117,16 @@ impl Arguments {
                 "--name is for figures of records: those of a folder have their own names",
             ));
         }
+        if self.scene.is_some() && is_one_folder {
+            return Err(Failure::refused(
+                "--scene is for files of other programs: a folder has that of its sweep",
+            ));
+        }
+        if self.times.is_some() && is_one_folder && self.figure.is_empty() {
+            return Err(Failure::refused(
+                "--times is for figures of drainages: name one of them with --figure",
+            ));
+        }
         check_labels(&self.labels, self.paths.len(), is_one_folder)
     }
 }

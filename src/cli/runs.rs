@@ -17,6 +17,15 @@ fn is_of_another_program(path: &Path) -> bool {
 /// Reads records and files of other programs. The latter take the scene that is given, or that of
 /// the first record.
 pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<RunRecord>, Failure> {
+    if let Some(unused) = scene
+        && !paths.iter().any(|path| is_of_another_program(path))
+    {
+        return Err(Failure::refused(format_args!(
+            "--scene {}: it is for files of other programs, and there is none; records of phase \
+             have their own scene",
+            unused.display()
+        )));
+    }
     let mut scene = match scene {
         Some(path) => Some(Scene::load(path).map_err(Failure::refused)?),
         None => None,

@@ -189,6 +189,15 @@ pub fn draw(name: &str, source: &Source<'_>) -> Result<Svg, PlotError> {
     if figure.default_runs().is_none() && !source.points.is_empty() {
         return Err(PlotError::NoPoints(figure.name().to_owned()));
     }
+    draw_at_times(*figure, source)
+}
+
+/// Draws a figure, unless times are asked for that it does not look at.
+fn draw_at_times(figure: &dyn Figure, source: &Source<'_>) -> Result<Svg, PlotError> {
+    let mut of_drainages = drainage::FIGURES.iter();
+    if source.times.is_some() && !of_drainages.any(|it| it.name() == figure.name()) {
+        return Err(PlotError::NoTimes(figure.name()));
+    }
     figure.draw(source)
 }
 
@@ -261,6 +270,9 @@ pub enum PlotError {
     /// Points are asked for in a figure of all of them.
     #[error("the figure `{0}` shows no single runs, so it takes no points")]
     NoPoints(String),
+    /// Times are asked for in a figure that has none to choose.
+    #[error("the figure `{0}` looks at whole runs, so it takes no times; those of drainages do")]
+    NoTimes(&'static str),
     /// The sweep has no such point.
     #[error(transparent)]
     Select(#[from] SelectError),
@@ -362,6 +374,7 @@ impl PlotError {
                 | Self::OtherFamily { .. }
                 | Self::NeedsAxis { .. }
                 | Self::NoPoints(_)
+                | Self::NoTimes(_)
                 | Self::NotRefined
                 | Self::Select(_)
                 | Self::OpenAxis { .. }

@@ -1,6 +1,6 @@
 //! Figures of single runs, drawn of records without a sweep.
 
-use super::{PlotError, Source, Svg, all, captions as names, text};
+use super::{PlotError, Source, Svg, all, captions as names, draw_at_times, text};
 use crate::classify::{Family, Label, Sieves, Verdict, classify};
 use crate::classify::{LabelRow, LabelTable};
 use crate::record::RunRecord;
@@ -85,7 +85,7 @@ pub fn draw_records(
     let figures = all().into_iter();
     let mut figures = figures.filter(|figure| figure.default_runs().is_some());
     match figures.find(|figure| figure.name() == name) {
-        Some(figure) => figure.draw(&source),
+        Some(figure) => draw_at_times(figure, &source),
         None => Err(PlotError::NoPoints(name.to_owned())),
     }
 }

@@ -104,3 +104,65 @@ fn what_is_no_drainage_within_the_times_is_refused() {
     let answer = place.phase(&["fit", "tank.h5"]).code(2);
     answer.complains("a box with an opening");
 }
+
+/// Symptom: figures that look at no states took `--times`, and records `--point` or `--scene`, and
+/// drew what they would have drawn without.
+#[test]
+fn options_that_nothing_reads_are_refused() {
+    let place = Workplace::new();
+    place.write("scene.toml", &drainage_file());
+    let run = ["run", "scene.toml", "--trajectory", "--out", "run.h5"];
+    place.phase(&run).code(0);
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/results/theoretical-9x9");
+    let times = ["--times", "1,4"];
+    let (of_point, of_scene) = (["--point", "radius=0.5"], ["--scene", "scene.toml"]);
+    for (command, options, complaint) in [
+        (
+            &["plot", "run.h5", "--figure", "tracks"][..],
+            times,
+            "takes no times",
+        ),
+        (
+            &["plot", folder, "--figure", "phase", "--out", "."],
+            times,
+            "takes no times",
+        ),
+        (
+            &["plot", folder, "--out", "."],
+            times,
+            "name one of them with --figure",
+        ),
+        (
+            &["plot", "run.h5", "--figure", "outflow"],
+            of_point,
+            "is for a results folder",
+        ),
+        (
+            &["plot", "run.h5", "--figure", "outflow"],
+            of_scene,
+            "there is none",
+        ),
+        (
+            &["plot", folder, "--out", "."],
+            of_scene,
+            "a folder has that of its sweep",
+        ),
+        (&["compare", "run.h5"], of_scene, "there is none"),
+        (
+            &["compare", folder, folder],
+            of_scene,
+            "of folders the labels are compared",
+        ),
+        (
+            &["compare", folder, folder],
+            times,
+            "of folders the labels are compared",
+        ),
+    ] {
+        place.phase(command).code(0);
+        place
+            .phase(&[command, &options[..]].concat())
+            .code(2)
+            .complains(complaint);
+    }
+}

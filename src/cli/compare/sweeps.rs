@@ -15,6 +15,15 @@ pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             "folders of sweeps are compared two by two: give two of them, and nothing else",
         ));
     };
+    let unused = [
+        (arguments.times.is_some(), "--times"),
+        (arguments.scene.is_some(), "--scene"),
+    ];
+    if let Some((_, option)) = unused.iter().find(|(given, _)| *given) {
+        return Err(Failure::refused(format_args!(
+            "{option} is for records: of folders the labels are compared"
+        )));
+    }
     let read = |path: &std::path::PathBuf| {
         let labels = Folder::new(path).labels();
         store::read_labels(&labels).map_err(Failure::refused)

@@ -89,6 +89,11 @@ pub(super) fn draw(
     arguments: &Arguments,
     console: &Console,
 ) -> Result<(), Failure> {
+    if let Some(point) = arguments.points.first() {
+        return Err(Failure::refused(format_args!(
+            "--point {point} is for a results folder: a record is of one run"
+        )));
+    }
     let records: Vec<RunRecord> = runs::read(paths, arguments.scene.as_deref())?;
     let (Some(first), Some(record)) = (paths.first(), records.first()) else {
         return Ok(());
@@ -113,6 +118,9 @@ pub(super) fn draw(
     for name in &names {
         let of_one = OF_ONE.iter().find(|figure| figure.name == *name);
         let image = match (of_one, &records[..]) {
+            (Some(figure), [_]) if arguments.times.is_some() => {
+                Err(PlotError::NoTimes(figure.name))
+            }
             (Some(figure), [record]) => (figure.draw)(record),
             (Some(figure), _) => return Err(takes_one(figure.name)),
             (None, _) => plot::draw_records(name, &records, arguments.times, &arguments.labels),
