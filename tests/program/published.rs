@@ -1,5 +1,6 @@
-//! Published tables: every one is read, and written again has the same bytes.
+//! Published tables: every one is read, and written again has the same bytes; borders too.
 
+use crate::support::Workplace;
 use phase::classify::{DRAINAGE, Family, SILO, TANK};
 use phase::store::{read_labels, write_labels, write_points};
 use phase::sweep::Folder;
@@ -29,4 +30,22 @@ fn published_tables_keep_their_bytes() {
     for family in [&TANK, &SILO, &DRAINAGE] {
         assert!(families.contains(&family), "no table of a {}", family.name);
     }
+}
+
+/// The borders of steel are learnt from its labels, without any run.
+#[test]
+fn borders_of_steel_are_those_of_its_labels() {
+    let place = Workplace::new();
+    fs::create_dir(place.path("steel")).unwrap();
+    for file in ["labels.csv", "sweep.json"] {
+        let published = Path::new("results/steel").join(file);
+        fs::copy(published, place.path("steel").join(file)).unwrap();
+    }
+    let sweep = concat!(env!("CARGO_MANIFEST_DIR"), "/sweeps/steel-refined.toml");
+    let options = ["--out", "steel", "--keep-labels", "--no-plot"];
+    place
+        .phase(&[&["sweep", sweep], &options[..]].concat())
+        .code(0);
+    let published = fs::read_to_string("results/steel-refined/borders.csv").unwrap();
+    assert_eq!(place.read("steel/borders.csv"), published);
 }
