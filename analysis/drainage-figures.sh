@@ -51,7 +51,7 @@ figures "" badness 40,160 "${relaxation[@]}" "${others[@]}" "${never[@]}"
 figures "" mixing,diffusion,retention 40,120 "${relaxation[@]}"
 # Markup of figures, not variables.
 # shellcheck disable=SC2016
-figures "" cross-profile 40,120 coarse='$d_w$ = $d$' dw0.5='$d_w$ = $d$/2' dw0='$d_w$ = 0' \
+figures "" cross-profile 80,180 coarse='$d_w$ = $d$' dw0.5='$d_w$ = $d$/2' dw0='$d_w$ = 0' \
     reflection='$d_w$ = 0, reflection' dw-1.5='$d_w$ = −3$d$/2'
 figures "" surface-angle 20,300 coarse="no bias" walk1="bias 1" walk="bias 3" weighting="weighted" \
     bias1="bias 1, weighted" bias3="bias 3, weighted" bias10="bias 10, weighted"

@@ -43,10 +43,10 @@ bias10 spot-drainage time.duration=300 $global spot.walk.bias=10 spot.weighting.
 walk spot-drainage time.duration=300 $global spot.walk.bias=3
 weighting spot-drainage time.duration=300 $global spot.weighting.above=30
 newest spot-drainage time.duration=120 spot.schedule=steps-newest-first
-dw0.5 spot-drainage time.duration=120 $global spot.wall_distance=0.5
-dw0 spot-drainage time.duration=120 $global spot.wall_distance=0
-dw-1.5 spot-drainage time.duration=120 $global spot.wall_distance=-1.5
-reflection spot-drainage time.duration=120 $global spot.wall_distance=0 spot.reflection=true
+dw0.5 spot-drainage time.duration=180 $global spot.wall_distance=0.5
+dw0 spot-drainage time.duration=180 $global spot.wall_distance=0
+dw-1.5 spot-drainage time.duration=180 $global spot.wall_distance=-1.5
+reflection spot-drainage time.duration=180 $global spot.wall_distance=0 spot.reflection=true
 RUNS
 )
 
