@@ -38,7 +38,7 @@ impl Units {
         }
     }
 
-    /// An SI unit as figures and tables of text show it: the same number of d and τ. Others stay as they are.
+    /// An SI unit as figures and text show it: the same number of d and τ. Others stay as they are.
     pub fn shown(self, unit: &str) -> &str {
         match (self, unit) {
             (Self::OfSpheres, "m") => "d",
