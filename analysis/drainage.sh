@@ -18,6 +18,7 @@ global="spot.relaxation.method=global spot.relaxation.ratio=1"
 runs=$(cat <<RUNS
 dem dem-drainage time.dt=4e-4
 dem-wall0.1 dem-drainage time.dt=4e-4 time.duration=140 tank.friction_coefficient=0.1
+dem-wall0.2 dem-drainage time.dt=4e-4 time.duration=140 tank.friction_coefficient=0.2
 dem-wall0.3 dem-drainage time.dt=4e-4 time.duration=140 tank.friction_coefficient=0.3
 dt1 dem-small time.dt=1e-4
 dt2 dem-small time.dt=2e-4

@@ -170,6 +170,11 @@ pub(super) struct Summary {
     new: Option<usize>,
     /// Runs that had a label before and have none now; none if there were no labels before.
     lost: Option<usize>,
+    /// Runs that had a label before and are not of the sweep now; none if there were no labels
+    /// before.
+    unused: Option<usize>,
+    /// Runs that were not steady when their time was up.
+    not_steady: usize,
 }
 
 /// Labels that changed.
@@ -183,20 +188,31 @@ struct Change {
 impl Summary {
     pub(super) fn new(folder: &Folder, labelled: &Labelled) -> Self {
         let labels = counts(&labelled.table).into_iter();
-        let (changes, new, lost) = match &labelled.since {
-            Since::Labels { changes, new, lost } => (Some(list(changes)), Some(*new), Some(*lost)),
-            Since::Nothing | Since::Unreadable(_) => (None, None, None),
-        };
-        Self {
+        let mut summary = Self {
             folder: folder.root().to_owned(),
             labelled: labelled.table.rows.len(),
             labels: labels.map(|(label, runs)| (label.name, runs)).collect(),
             not_run: labelled.missing,
             problems: labelled.problems.clone(),
+            changes: None,
+            new: None,
+            lost: None,
+            unused: None,
+            not_steady: labelled.table.unsteady(),
+        };
+        if let Since::Labels {
             changes,
             new,
             lost,
+            unused,
+        } = &labelled.since
+        {
+            summary.changes = Some(list(changes));
+            summary.new = Some(*new);
+            summary.lost = Some(*lost);
+            summary.unused = Some(*unused);
         }
+        summary
     }
 }
 
@@ -264,8 +280,14 @@ fn tell_of_labels(labelled: &Labelled, folder: &Folder, console: &Console) {
         Since::Unreadable(error) => console.note(format_args!(
             "cannot compare with the labels before: {error}"
         )),
-        Since::Labels { changes, new, lost } => {
-            console.result(describe_changes(&list(changes), runs - new, *new, *lost));
+        Since::Labels {
+            changes,
+            new,
+            lost,
+            unused,
+        } => {
+            let others = [*new, *lost, *unused];
+            console.result(describe_changes(&list(changes), runs - new, others));
         }
     }
     console.file(&folder.labels());
@@ -307,8 +329,8 @@ fn list(changes: &BTreeMap<(Label, Label), usize>) -> Vec<Change> {
 }
 
 /// How many labels of the runs that had one changed, and from what to what; and how many runs had
-/// none.
-fn describe_changes(changes: &[Change], runs: usize, new: usize, lost: usize) -> String {
+/// none, have none, and are not of the sweep any more.
+fn describe_changes(changes: &[Change], runs: usize, [new, lost, unused]: [usize; 3]) -> String {
     let changed: usize = changes.iter().map(|change| change.runs).sum();
     let mut text = format!("{changed} of {} changed", format::count(runs, "label"));
     if new > 0 {
@@ -316,6 +338,9 @@ fn describe_changes(changes: &[Change], runs: usize, new: usize, lost: usize) ->
     }
     if lost > 0 {
         text += &format!(", {lost} lost, as their records cannot be labelled");
+    }
+    if unused > 0 {
+        text += &format!(", {unused} left out, as they are not among these runs");
     }
     for Change { from, to, runs } in changes {
         let arrow = format!("{from} -> {to}");

@@ -9,7 +9,7 @@ use super::exit::{Exit, Failure};
 use super::folders;
 use super::runs::check_labels;
 use inputs::Column;
-use phase::compare::Row;
+use phase::compare::{Row, are_of_one_run};
 use phase::scene::Units;
 use phase::statistics::Estimate;
 use serde::Serialize;
@@ -77,13 +77,19 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         return sweeps::main(arguments, console);
     }
     let inputs = inputs::read(&arguments.paths, arguments.scene.as_deref())?;
+    let units = inputs::units(&inputs)?;
     let columns = inputs::columns(&inputs, arguments.times)?;
     let names = names(&columns, &arguments.labels)?;
+    if arguments.out.is_some() {
+        table::check(&names)?;
+    }
+    warn_of_windows(&columns, arguments.times, units, console);
     let rows = inputs::rows(&columns);
+    let is_of_one_run = are_of_one_run(&rows);
     for (index, name) in names.iter().enumerate() {
         console.result(format_args!("{}  {name}", letter(index)));
     }
-    for line in lines(&rows, names.len(), inputs::units(&inputs)) {
+    for line in lines(&rows, names.len(), units, is_of_one_run) {
         console.result(line);
     }
     if let Some(path) = &arguments.out {
@@ -92,10 +98,37 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     console.answer(&Answer {
         records: names,
-        rows: rows.iter().map(Entry::new).collect(),
+        rows: rows
+            .iter()
+            .map(|row| Entry::new(row, is_of_one_run))
+            .collect(),
         files: console.files(),
     });
     Ok(Exit::Done)
+}
+
+/// Says of which times each record is measured, if they differ or are fewer than asked for.
+fn warn_of_windows(columns: &[Column], times: Option<[f64; 2]>, units: Units, console: &Console) {
+    let windows = columns.iter().enumerate();
+    let windows: Vec<(usize, [f64; 2])> = windows
+        .filter_map(|(place, column)| Some((place, column.window?)))
+        .collect();
+    let differs = |it: [f64; 2], other: [f64; 2]| {
+        let off = 1e-9 * other[1];
+        (it[0] - other[0]).abs() > off || (it[1] - other[1]).abs() > off
+    };
+    let wanted = times.or(windows.first().map(|(_, window)| *window));
+    for (place, window) in windows {
+        if wanted.is_some_and(|wanted| differs(window, wanted)) {
+            let [from, to] = window;
+            console.warning(format_args!(
+                "{} is measured from {from} to {to} {} since the opening, not as the others or as \
+                 asked for; give --times that all records have",
+                letter(place),
+                units.of_time()
+            ));
+        }
+    }
 }
 
 /// The labels of all columns, or else their own names.
@@ -116,7 +149,7 @@ fn letter(index: usize) -> String {
 }
 
 /// The rows as lines of text, in columns; their scenes are in these units.
-fn lines(rows: &[Row], records: usize, units: Units) -> Vec<String> {
+fn lines(rows: &[Row], records: usize, units: Units, is_of_one_run: bool) -> Vec<String> {
     let mut head = vec![String::new()];
     head.extend((0..records).map(letter));
     head.extend((records == 2).then(|| "B - A".to_owned()));
@@ -128,7 +161,7 @@ fn lines(rows: &[Row], records: usize, units: Units) -> Vec<String> {
         };
         let mut cells = vec![format!("{}{unit}", row.name)];
         cells.extend(row.values.iter().map(|value| cell(*value)));
-        cells.extend((records == 2).then(|| cell(row.difference())));
+        cells.extend((records == 2).then(|| cell(row.difference(is_of_one_run))));
         cells
     });
     let cells: Vec<Vec<String>> = std::iter::once(head).chain(cells).collect();
@@ -201,10 +234,10 @@ struct Entry {
 }
 
 impl Entry {
-    fn new(row: &Row) -> Self {
+    fn new(row: &Row, is_of_one_run: bool) -> Self {
         let finite = |value: f64| Some(value).filter(|it| it.is_finite());
         let values = row.values.iter();
-        let difference = row.difference();
+        let difference = row.difference(is_of_one_run);
         Self {
             quantity: row.name.clone(),
             unit: row.unit.clone(),

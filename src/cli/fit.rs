@@ -128,6 +128,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     for line in super::compare::in_columns(&rows) {
         console.result(line);
     }
+    console.note(
+        "intervals tell the scatter within this run, not what the procedure is off by: see the fits \
+         of spots whose parameters are known in analysis/spot.md of the project",
+    );
     if let Some(path) = &arguments.out {
         let text = scene(&drainage, &fit);
         store::write_atomic(path, text.as_bytes()).map_err(Failure::failed)?;

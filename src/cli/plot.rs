@@ -107,8 +107,12 @@ impl Arguments {
             .iter()
             .find(|path| self.paths.len() > 1 && !path.is_file())
         {
+            let reason = match folder.exists() {
+                true => "several are drawn beside each other only if all are records (.h5)",
+                false => "there is no such file; check the path",
+            };
             return Err(Failure::refused(format_args!(
-                "{}: several are drawn beside each other only if all are records (.h5)",
+                "{}: {reason}",
                 folder.display()
             )));
         }

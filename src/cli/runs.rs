@@ -7,11 +7,23 @@ use phase::scene::Scene;
 use phase::store;
 use std::path::{Path, PathBuf};
 
+/// What the names of files of other programs end with.
+const ENDS: [&str; 9] = [
+    "dump",
+    "lammpstrj",
+    "xyz",
+    "extxyz",
+    "pvd",
+    "series",
+    "vtk",
+    "vtp",
+    "vtu",
+];
+
 /// Whether a file is of another program: a dump of LAMMPS, an extended XYZ file, files of VTK.
 fn is_of_another_program(path: &Path) -> bool {
-    let end = path.extension().and_then(|it| it.to_str());
-    let is_of_vtk = matches!(end, Some("pvd" | "series" | "vtk" | "vtp" | "vtu"));
-    is_of_vtk || matches!(end, Some("xyz" | "extxyz" | "dump" | "lammpstrj"))
+    let end = path.extension().unwrap_or_default().to_string_lossy();
+    ENDS.contains(&end.to_ascii_lowercase().as_str())
 }
 
 /// Reads records and files of other programs. The latter take the scene that is given, or that of
@@ -21,9 +33,10 @@ pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<RunRec
         && !paths.iter().any(|path| is_of_another_program(path))
     {
         return Err(Failure::refused(format_args!(
-            "--scene {}: it is for files of other programs, and there is none; records of phase \
-             have their own scene",
-            unused.display()
+            "--scene {}: it is for files of other programs, whose names end with {}, and there is \
+             none; records of phase have their own scene",
+            unused.display(),
+            ENDS.map(|end| format!(".{end}")).join(", ")
         )));
     }
     let mut scene = match scene {

@@ -106,7 +106,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             .unwrap_or_else(|| default_folder(&arguments.file)),
     );
     if arguments.keep_labels {
-        refuse_other_thresholds(&folder, &sweep)?;
+        check_kept_labels(&folder, &sweep)?;
         folder = folder.keeping_labels();
     }
     let stop = interrupt::stop_on_signal(console)?;
@@ -116,7 +116,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         FolderError::Locked(_) => Failure::refused(error),
         _ => Failure::failed(error),
     })?;
-    if !arguments.force && !arguments.no_classify {
+    if !arguments.no_classify {
         let again = jobs_made_again(&folder, &sweep);
         let kept = jobs.iter().chain(&again).map(|job| job.id.as_str());
         refuse_to_lose_labels(&folder, kept).map_err(classify::cannot_write)?;
@@ -170,6 +170,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             let place = folder.root();
             plot::draw_default_figures(&folder, place, &sweep, &labelled.table, console)?;
         }
+        if sweep.refine.is_none() && folder.borders().exists() {
+            console.note(format_args!(
+                "{} and `refined` are of an earlier, refined sweep in this folder",
+                folder.borders().display()
+            ));
+        }
         answer.labels = Some(classify::Summary::new(&folder, &labelled));
     }
     answer.files = console.files();
@@ -177,11 +183,17 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     Ok(if failed { Exit::Failed } else { Exit::Done })
 }
 
-/// Refuses to keep labels that other thresholds gave.
-fn refuse_other_thresholds(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
+/// Refuses to keep labels that cannot be read, or that other thresholds gave.
+fn check_kept_labels(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
     if !folder.labels().exists() {
         return Ok(());
     }
+    store::read_labels(&folder.labels()).map_err(|error| {
+        Failure::refused(format_args!(
+            "{error}\nlabels are to be kept, and this table of them cannot be read: mend it, or \
+             leave out --keep-labels"
+        ))
+    })?;
     let stored = folder.read_sweep().map_err(Failure::refused)?;
     match stored.sieves == sweep.sieves {
         true => Ok(()),

@@ -6,6 +6,8 @@ use crate::record::RunRecord;
 use crate::scene::Units;
 use crate::simulation::MilestoneKind;
 
+/// Share of the drainage by which a time may be off: rounding.
+const ROUNDING: f64 = 1e-9;
 /// Share of the run at its start that is left out, where nothing else is asked for: the flow has to
 /// develop.
 const BEGINNING: f64 = 0.2;
@@ -60,7 +62,10 @@ impl<'a> Drainage<'a> {
             states,
         };
         match drainage.flow().is_empty() {
-            true => Err("a state within the times that are asked for, since the opening"),
+            true => Err(
+                "a state within the times that are asked for, since the opening; give \
+                         `--times` within those that `output.snapshot_interval` has kept",
+            ),
             false => Ok(drainage),
         }
     }
@@ -100,13 +105,25 @@ impl<'a> Drainage<'a> {
         &self.states()[0]
     }
 
+    /// The times that count (s), wider by rounding.
+    pub fn window(&self) -> [f64; 2] {
+        let margin = ROUNDING * self.duration();
+        [self.times[0] - margin, self.times[1] + margin]
+    }
+
+    /// The times that count (s), as far as the record has them.
+    pub fn held(&self) -> [f64; 2] {
+        let [from, to] = self.times;
+        [from.max(0.0), to.min(self.duration())]
+    }
+
     /// The states within the times that count.
     pub fn flow(&self) -> &'a [Snapshot] {
         let states = self.states();
-        let half_step = 0.5 * self.record.scene.time.dt;
+        let [from, to] = self.window();
         let time = |state: &Snapshot| self.since_opening(state.time);
-        let first = states.partition_point(|it| time(it) < self.times[0] - half_step);
-        let end = states.partition_point(|it| time(it) <= self.times[1] + half_step);
+        let first = states.partition_point(|it| time(it) < from);
+        let end = states.partition_point(|it| time(it) <= to);
         &states[first..end.max(first)]
     }
 }

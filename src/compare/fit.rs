@@ -12,6 +12,9 @@ const STEP: f64 = 0.1;
 /// Heights between which the drop of the density is measured, as shares of that to which the box
 /// is filled.
 const HEIGHTS: [f64; 2] = [0.14, 0.54];
+/// The layer above them by which it is seen that the surface is higher, and the share of its
+/// spheres that have to be there.
+const ABOVE: ([f64; 2], f64) = ([0.54, 0.58], 0.5);
 /// Parts of the depth over which the volume of spots within the walls is summed.
 const PARTS: u32 = 200;
 
@@ -62,6 +65,9 @@ impl SpotFit {
         let rate = outflow(drainage).ok_or("spheres that leave")?;
         let fraction = over_states(drainage, |state| packing_fraction(drainage, state))
             .ok_or("spheres in the middle of the flow")?;
+        if has_sunk(drainage) {
+            return Err("a surface above half of its first height; give earlier `--times`");
+        }
         let deficit = density_deficit(drainage).ok_or("a flow that is less dense")?;
         let vertical_step = STEP * diameter;
         let sphere = PI / 6.0 * diameter * diameter * diameter;
@@ -84,6 +90,16 @@ impl SpotFit {
             vertical_step,
         })
     }
+}
+
+/// Whether the surface has come down to the heights at which the drop of the density is measured:
+/// the room that is left above it would count as one.
+fn has_sunk(drainage: &Drainage<'_>) -> bool {
+    let (heights, share) = ABOVE;
+    let region = drainage.filled_box.part(1.0, heights);
+    let start = count_within(&Centres::of(drainage.start()), &region);
+    let last = drainage.flow().last().unwrap_or(drainage.start());
+    count_within(&Centres::of(last), &region) < share * start
 }
 
 /// How much less packing fraction there is in the flow than at the start, integrated over the area

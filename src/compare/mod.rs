@@ -16,4 +16,4 @@ pub use profiles::{DRAWN_HEIGHTS, cross_profile, flow_spread_of, profile_at};
 pub use quantities::{QUANTITIES, Quantity, badness_of, mixing, outflow, packing_fraction};
 pub use simpler::{MixingOverTime, mixing_of_kinematic_flow, mixing_of_voids};
 pub use spreading::{Spreading, correlation_radius, spreading, velocity_correlation};
-pub use table::{Comparison, Row};
+pub use table::{Comparison, Row, are_of_one_run};

@@ -74,11 +74,7 @@ pub static QUANTITIES: [Quantity; 16] = [
         name: "packing badness, as printed",
         unit: "",
         is_of_flow: false,
-        measure: |drainage| {
-            over_states(drainage, |state| {
-                Some(badness(drainage, state).as_printed())
-            })
-        },
+        measure: |drainage| over_states(drainage, |state| badness(drainage, state).as_printed()),
     },
     Quantity {
         name: "least distance / d",
@@ -129,7 +125,10 @@ pub static QUANTITIES: [Quantity; 16] = [
         name: PROCESSOR_TIME,
         unit: "s",
         is_of_flow: false,
-        measure: |drainage| exact(Some(drainage.record.cpu_seconds)),
+        measure: |drainage| {
+            let seconds = Some(drainage.record.cpu_seconds);
+            exact(seconds.filter(|it| it.is_finite()))
+        },
     },
 ];
 
@@ -168,7 +167,7 @@ fn last<'a>(drainage: &Drainage<'a>) -> &'a Snapshot {
 /// Spheres that leave per second.
 pub fn outflow(drainage: &Drainage<'_>) -> Option<Estimate> {
     let [time, left] = drainage.left();
-    outflow_rate(&time, &left, drainage.times)
+    outflow_rate(&time, &left, drainage.window())
 }
 
 fn diffusion_length(drainage: &Drainage<'_>) -> Option<Estimate> {
@@ -230,7 +229,7 @@ fn solid_share(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
 
 /// Overlaps over diameters of the pairs in the middle, per sphere.
 pub fn badness_of(drainage: &Drainage<'_>) -> Option<Estimate> {
-    over_states(drainage, |state| Some(badness(drainage, state).of_pairs()))
+    over_states(drainage, |state| badness(drainage, state).of_pairs())
 }
 
 fn badness(drainage: &Drainage<'_>, state: &Snapshot) -> Badness {

@@ -26,14 +26,19 @@ impl Row {
         }
     }
 
-    /// The second value less the first, of two; the interval is infinite if that of one is.
-    pub fn difference(&self) -> Option<Estimate> {
+    /// The second value less the first, of two; the interval is infinite if that of one is. Of one
+    /// run that is compared with itself there is none: nothing scatters.
+    pub fn difference(&self, is_of_one_run: bool) -> Option<Estimate> {
         let [Some(first), Some(second)] = self.values[..] else {
             return None;
         };
+        let value = second.value - first.value;
         Some(Estimate {
-            value: second.value - first.value,
-            half_width: libm::hypot(first.half_width, second.half_width),
+            value,
+            half_width: match is_of_one_run && value == 0.0 {
+                true => 0.0,
+                false => libm::hypot(first.half_width, second.half_width),
+            },
         })
     }
 }
@@ -43,6 +48,15 @@ impl Row {
 pub struct Comparison {
     /// One row per quantity.
     pub rows: Vec<Row>,
+    /// First and last time (s) since the opening of what was measured, of each record.
+    pub windows: Vec<[f64; 2]>,
+}
+
+/// Whether the second of two columns is that of the same run: all numbers but the processor time
+/// are the same.
+pub fn are_of_one_run(rows: &[Row]) -> bool {
+    let mut measured = rows.iter().filter(|row| row.name != PROCESSOR_TIME);
+    measured.all(|row| matches!(row.values[..], [one, other] if one == other))
 }
 
 impl Comparison {
@@ -65,6 +79,7 @@ impl Comparison {
         };
         Ok(Self {
             rows: QUANTITIES.iter().map(row).collect(),
+            windows: drainages.iter().map(Drainage::held).collect(),
         })
     }
 }

@@ -29,14 +29,20 @@ impl Badness {
     }
 
     /// As printed: sum over the overlapping partners of a sphere of (delta/d)^2, mean over spheres.
-    pub fn as_printed(&self) -> f64 {
-        self.squares / self.spheres.max(1) as f64
+    /// None if no sphere was in the region.
+    pub fn as_printed(&self) -> Option<f64> {
+        self.of_each(self.squares)
     }
 
     /// Sum of delta/d over overlapping pairs, each counted once, per sphere: the numbers that the
-    /// paper gives cannot be those of its formula, and come near to these.
-    pub fn of_pairs(&self) -> f64 {
-        self.overlaps / self.spheres.max(1) as f64
+    /// paper gives cannot be those of its formula, and come near to these. None if no sphere was in
+    /// the region.
+    pub fn of_pairs(&self) -> Option<f64> {
+        self.of_each(self.overlaps)
+    }
+
+    fn of_each(&self, sum: f64) -> Option<f64> {
+        (self.spheres > 0).then(|| sum / self.spheres as f64)
     }
 }
 
@@ -53,12 +59,14 @@ mod tests {
             high: [4.5; 3],
         };
         let mut badness = Badness::default();
+        assert_eq!((badness.as_printed(), badness.of_pairs()), (None, None));
         badness.add(&lattice, 1.0, &region);
-        assert_eq!((badness.as_printed(), badness.of_pairs()), (0.0, 0.0));
+        let none = Some(0.0);
+        assert_eq!((badness.as_printed(), badness.of_pairs()), (none, none));
         // Six partners at a distance of 1 = .9 of the diameter.
         let mut badness = Badness::default();
         badness.add(&lattice, 1.0 / 0.9, &region);
-        assert!((badness.as_printed() - 6.0 * 0.01).abs() < 1e-12);
-        assert!((badness.of_pairs() - 3.0 * 0.1).abs() < 1e-12);
+        assert!((badness.as_printed().unwrap() - 6.0 * 0.01).abs() < 1e-12);
+        assert!((badness.of_pairs().unwrap() - 3.0 * 0.1).abs() < 1e-12);
     }
 }

@@ -14,7 +14,7 @@ use super::svg::Svg;
 use super::{PlotError, Source};
 use crate::classify::Point;
 use plotters::element::PathElement;
-use plotters::style::{BLACK, Color};
+use plotters::style::{BLACK, Color, RGBColor};
 
 /// Height of a panel without a vertical axis, and beside a colour bar.
 const STRIP: [i32; 2] = [px(56), px(120)];
@@ -33,8 +33,8 @@ pub(super) struct Look {
     pub(super) agreement: f64,
     /// A line is drawn between neighbours of different groups, such as codes of labels.
     pub(super) group: Option<i8>,
-    /// Whether a dot shows that something is there, such as a run.
-    pub(super) is_marked: bool,
+    /// The colour of a dot that shows that something is there, such as a run.
+    pub(super) mark: Option<RGBColor>,
 }
 
 impl Look {
@@ -44,7 +44,7 @@ impl Look {
             fill,
             agreement: 1.0,
             group,
-            is_marked: false,
+            mark: None,
         }
     }
 }
@@ -224,8 +224,8 @@ impl<P> Diagram<'_, P> {
             {
                 style::disagreement(sheet, corners, look.agreement, page.legend.0.cell)?;
             }
-            if look.is_some_and(|look| look.is_marked) {
-                style::mark(sheet, corners)?;
+            if let Some(color) = look.and_then(|look| look.mark) {
+                style::mark(sheet, corners, color)?;
             }
         }
         axes.draw()

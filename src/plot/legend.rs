@@ -26,8 +26,8 @@ pub(super) enum Key {
     Dashes,
     /// A border between labels.
     Border,
-    /// The dot of a run.
-    Mark,
+    /// The dot of a run, of a colour.
+    Mark(RGBColor),
     /// A line of a chart.
     Line(RGBColor),
     /// A dot.
@@ -112,7 +112,7 @@ fn draw_key(sheet: &Sheet<'_>, key: Key, (left, middle): (i32, i32), cell: i32) 
         }
         Key::Curve => return style::curve(sheet, &[(left, middle), (right, middle)]),
         Key::Border => return style::border(sheet, &[(left, middle), (right, middle)]),
-        Key::Mark => return style::mark(sheet, corners),
+        Key::Mark(color) => return style::mark(sheet, corners, color),
         Key::Dashes => return style::dashes(sheet, &[(left, middle), (right, middle)]),
         Key::Dot(color) => {
             let middle = (left.midpoint(right), middle);

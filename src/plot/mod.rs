@@ -326,7 +326,10 @@ pub enum PlotError {
     )]
     EmptyTable,
     /// No run has what the figure shows.
-    #[error("no run has a measure that the figure `{figure}` shows")]
+    #[error(
+        "no run has a measure that the figure `{figure}` shows; give runs that differ, or times in \
+         which they have states"
+    )]
     NoMeasures {
         /// The figure.
         figure: &'static str,

@@ -87,7 +87,7 @@ fn look(point: &Point, is_unsteady: bool) -> Look {
             },
             agreement: point.agreement,
             group: Some(point.label.code),
-            is_marked: false,
+            mark: None,
         }
     } else {
         Look::new(Fill::Stipple, None)

@@ -11,8 +11,8 @@ use super::svg::Svg;
 use super::{Figure, PlotError, Source, palette};
 use crate::refine::{self, Code};
 use crate::sweep::{FAILED, Learnt};
-use plotters::style::WHITE;
-use std::collections::BTreeSet;
+use plotters::style::{BLACK, RGBColor, WHITE};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Most panels along one axis.
 const MOST_PANELS: usize = 4;
@@ -31,8 +31,8 @@ pub(super) struct RefinedDiagram;
 struct Cell {
     code: Code,
     certainty: f64,
-    /// Whether a run was made there.
-    is_run: bool,
+    /// The label of most runs that were made there.
+    of_runs: Option<Code>,
     /// Whether one was still not steady when its time was up.
     is_unsteady: bool,
 }
@@ -104,11 +104,12 @@ fn grid_of(source: &Source<'_>, learnt: &Learnt) -> Result<(Grid<Cell>, Vec<usiz
         let mut known = lattice.axes()[axis.index].values().iter();
         known.position(|other| *other == value).unwrap_or(0)
     };
-    let run: BTreeSet<usize> = learnt
-        .runs
-        .iter()
-        .filter_map(|(run, _)| lattice.place_of(&run.values))
-        .collect();
+    let mut runs: BTreeMap<usize, Vec<Code>> = BTreeMap::new();
+    for (run, code) in learnt.runs.iter() {
+        if let Some(place) = lattice.place_of(&run.values) {
+            runs.entry(place).or_default().push(code);
+        }
+    }
     let table = source.table;
     let points = table.points().into_iter();
     let unsteady: BTreeSet<usize> = points
@@ -138,7 +139,9 @@ fn grid_of(source: &Source<'_>, learnt: &Learnt) -> Result<(Grid<Cell>, Vec<usiz
                     cells.push(Some(Cell {
                         code: learnt.map.label(place),
                         certainty: learnt.map.certainty(place),
-                        is_run: run.contains(&place),
+                        of_runs: runs
+                            .get(&place)
+                            .map(|codes| most(codes, learnt.map.label(place))),
                         is_unsteady: unsteady.contains(&place),
                     }));
                 }
@@ -153,6 +156,17 @@ fn grid_of(source: &Source<'_>, learnt: &Learnt) -> Result<(Grid<Cell>, Vec<usiz
         }
     }
     Ok((grid, of_panels))
+}
+
+/// The label that most of some runs have: of several that one, or else the least.
+fn most(codes: &[Code], preferred: Code) -> Code {
+    let count = |code: Code| codes.iter().filter(|it| **it == code).count();
+    let best = codes.iter().map(|it| count(*it)).max().unwrap_or(0);
+    let first = codes.iter().copied().filter(|it| count(*it) == best).min();
+    match count(preferred) == best {
+        true => preferred,
+        false => first.unwrap_or(preferred),
+    }
 }
 
 /// The values of an axis that have panels: all, or some at equal steps of the list with both ends.
@@ -230,8 +244,17 @@ fn look(source: &Source<'_>, cell: Cell, is_plane: bool) -> Look {
     Look {
         // Of a plane, borders are curves.
         group: (!is_plane).then_some(cell.code),
-        is_marked: cell.is_run,
+        mark: cell.of_runs.map(|code| mark(source, cell, code)),
         ..Look::new(fill, None)
+    }
+}
+
+/// The colour of the dot of a run: its own where another label is more probable.
+fn mark(source: &Source<'_>, cell: Cell, code: Code) -> RGBColor {
+    match fill(source, code, 1.0) {
+        _ if code == cell.code => BLACK,
+        Fill::Color(color) => color,
+        _ => WHITE,
     }
 }
 
@@ -265,7 +288,13 @@ fn legend(source: &Source<'_>, cells: &[Cell]) -> Vec<Entry> {
         let key = Key::Fill(Fill::Falling(WHITE));
         entries.push(Entry::new(key, "run that was not steady"));
     }
-    entries.push(Entry::new(Key::Mark, "run"));
+    entries.push(Entry::new(Key::Mark(BLACK), "run"));
+    let marks = cells
+        .iter()
+        .filter_map(|cell| Some(mark(source, *cell, cell.of_runs?)));
+    if let Some(color) = marks.into_iter().find(|it| *it != BLACK) {
+        entries.push(Entry::new(Key::Mark(color), "run of another label"));
+    }
     entries
 }
 

@@ -166,12 +166,18 @@ pub(super) fn disagreement(
 /// Radius of the dot of a run.
 const MARK: i32 = px(2);
 
-/// Marks a cell in which a run was made: a black dot with a white rim.
-pub(super) fn mark(sheet: &Sheet<'_>, corners: Corners) -> Drawn {
+/// Marks a cell in which a run was made: a dot with a white rim. One of a colour has a black ring
+/// and is larger.
+pub(super) fn mark(sheet: &Sheet<'_>, corners: Corners, color: RGBColor) -> Drawn {
     let [(left, top), (right, bottom)] = corners;
     let centre = (left.midpoint(right), top.midpoint(bottom));
-    sheet.draw(&Circle::new(centre, MARK + 8, WHITE.filled()))?;
-    sheet.draw(&Circle::new(centre, MARK, BLACK.filled()))
+    let ring = if color == BLACK { MARK } else { MARK + px(2) };
+    sheet.draw(&Circle::new(centre, ring + 8, WHITE.filled()))?;
+    sheet.draw(&Circle::new(centre, ring, BLACK.filled()))?;
+    if color == BLACK {
+        return Ok(());
+    }
+    sheet.draw(&Circle::new(centre, ring - px(1), color.filled()))
 }
 
 /// Draws a border between labels: a thin black line.

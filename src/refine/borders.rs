@@ -53,6 +53,8 @@ impl Borders {
     /// label of the upper side is probable (2.5 % for the band of 95 %), and as far up as that of
     /// the lower side is: for a single border these are the quantiles of the place where the label
     /// of one seed changes. So it holds both what the model does not know and what seeds change.
+    /// Nothing is known between the two places: if both are sure of their labels, the border is
+    /// anywhere between them, and the band of 95 % takes 95 % of the way.
     ///
     /// # Errors
     /// If the lattice has no such axis.
@@ -183,7 +185,13 @@ impl Column<'_> {
     /// The border of two labels between places `step - 1` and `step`, and its bands.
     fn cross(&self, step: usize, [low, high]: [usize; 2]) -> (f64, [[f64; 2]; 2]) {
         let at = self.equal(step, low, high);
-        let band = |end| [self.down(step, at, high, end), self.up(step, at, low, end)];
+        let band = |end| {
+            let within = [end, 1.0 - end].map(|share| self.between(step, share));
+            [
+                self.down(step, at, high, end).min(within[0]),
+                self.up(step, at, low, end).max(within[1]),
+            ]
+        };
         (at, ENDS.map(band))
     }
 

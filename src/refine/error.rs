@@ -43,7 +43,10 @@ pub enum RefineError {
         second: i8,
     },
     /// There are no runs, so nothing can be fitted.
-    #[error("there are no runs to learn from")]
+    #[error(
+        "there are no runs to learn from: no run of this sweep has a label; `phase sweep` makes \
+         them"
+    )]
     NoRuns,
     /// A map has no column of this name.
     #[error("{}: no column `{column}`", path.display())]

@@ -3,9 +3,10 @@
 use crate::observe::{FrameView, Observer};
 use crate::record::{Outcome, Program, RunRecord};
 use crate::scene::Scene;
-use crate::simulation::{Flow, Snapshot};
+use crate::simulation::{Flow, Milestone, MilestoneKind, Snapshot};
 use ndarray::Array2;
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::PI;
 
 /// Farthest that a sphere may be from the origin along an axis, in diameters: what is measured of
 /// states divides the room that they take.
@@ -16,7 +17,9 @@ const FARTHEST: f64 = 1e4;
 pub struct WrittenState {
     /// When it is.
     pub moment: Moment,
-    /// Number of each sphere, as the file has it, and its centre.
+    /// Whether the file has numbers of the spheres; else they count from 0 in their order.
+    pub are_numbered: bool,
+    /// Number of each sphere, and its centre.
     pub spheres: Vec<(u64, [f64; 3])>,
 }
 
@@ -36,7 +39,7 @@ pub enum StatesError {
     #[error("it has one state; a run needs two or more")]
     Few,
     /// Times do not grow.
-    #[error("state {0} is not later than the one before")]
+    #[error("state {0} is not later than the one before; put the states in order of time")]
     Order(usize),
     /// No state has a sphere.
     #[error("no state has a sphere")]
@@ -52,6 +55,35 @@ pub enum StatesError {
         /// The number of the sphere.
         number: u64,
     },
+    /// A sphere is outside the walls of the scene.
+    #[error(
+        "state {state}: sphere {number} is beside the walls of the scene; give the scene of the \
+         file, in its units"
+    )]
+    Outside {
+        /// The state, from 1.
+        state: usize,
+        /// The number of the sphere.
+        number: u64,
+    },
+    /// The spheres have no room where they are.
+    #[error(
+        "state {0}: its spheres are larger, by the radius of the scene, than the room that they \
+         take; give a scene of the units of the file"
+    )]
+    Crowded(usize),
+    /// Nothing says which sphere of a state is which of the one before.
+    #[error(
+        "state {0} has another number of spheres than the one before, or only one of them has \
+         numbers of spheres, so that nothing says which are the same; write an `id` of each sphere"
+    )]
+    Unnumbered(usize),
+    /// Moments are counted in steps of which nothing tells the length.
+    #[error(
+        "it counts steps, and the scene is of spots, which has none of that length; write times \
+         (`dump_modify ID time yes` in LAMMPS), or give the scene of the file with `--scene`"
+    )]
+    Steps,
     /// Two spheres of a state have one number.
     #[error("state {state} has two spheres of the number {number}")]
     Twice {
@@ -64,23 +96,26 @@ pub enum StatesError {
 
 /// The record of a run of which another program wrote these states. The scene says what the file
 /// does not: the tank, the radius of the spheres, and the time step, where moments are counted in
-/// steps; time then begins at the first state. Spheres that are not in a state have left, or come
-/// in later. Observables are those of positions; velocities are displacements since the state
-/// before. A door of the scene has opened before the first state.
+/// steps. A door of the scene opens at the time that the scene says; where it says none, or the
+/// first of the counted steps is not 0, it is open, and steps are counted from that one. Spheres
+/// that are not in a state have left, or come in later. Observables are those of positions;
+/// velocities are displacements since the state before.
 ///
 /// # Errors
 /// If the states are no run.
 pub fn replay_states(states: &[WrittenState], scene: &Scene) -> Result<RunRecord, StatesError> {
-    let times = times(states, scene.time.dt)?;
+    let times = times(states, scene)?;
+    check_numbers(states)?;
     let numbers = numbers(states)?;
     let count = numbers.len();
     if count == 0 {
         return Err(StatesError::Empty);
     }
-    check_places(states, FARTHEST * 2.0 * scene.mean_radius())?;
+    check_places(states, scene)?;
     let mut scene = scene.clone();
     scene.spheres.count = count;
-    scene.dem.door = None;
+    let has_clock = matches!(states[0].moment, Moment::Time(_) | Moment::Step(0));
+    scene.dem.door = (scene.dem.door).filter(|door| has_clock && door.opens.is_some());
     scene.time.duration = times.last().copied().unwrap_or_default();
     let radius = vec![scene.spheres.radius.mean(); count];
     let mass = vec![scene.spheres.shape.mass(scene.spheres.density, radius[0]); count];
@@ -112,7 +147,7 @@ pub fn replay_states(states: &[WrittenState], scene: &Scene) -> Result<RunRecord
     Ok(RunRecord {
         program: Program::current(),
         outcome: Outcome::Completed,
-        milestones: Vec::new(),
+        milestones: opening(&scene, &times),
         observations: observer.finish(),
         snapshots,
         trajectory: Vec::new(),
@@ -124,16 +159,80 @@ pub fn replay_states(states: &[WrittenState], scene: &Scene) -> Result<RunRecord
     })
 }
 
-/// Refuses spheres that are that far (m) or farther from the origin along an axis.
-fn check_places(states: &[WrittenState], farthest: f64) -> Result<(), StatesError> {
+/// When the door of a scene opens, if that is within these times (s).
+fn opening(scene: &Scene, times: &[f64]) -> Vec<Milestone> {
+    let opens = scene.dem.door.as_ref().and_then(|door| door.opens);
+    let within = opens.filter(|opens| times.last().is_some_and(|last| opens <= last));
+    let milestone = within.map(|time| Milestone {
+        kind: MilestoneKind::DoorOpened,
+        time,
+    });
+    milestone.into_iter().collect()
+}
+
+/// Refuses states whose spheres cannot be told from those of the state before. An empty one is
+/// behind all that have left.
+fn check_numbers(states: &[WrittenState]) -> Result<(), StatesError> {
+    let filled = (1..).zip(states).filter(|(_, it)| !it.spheres.is_empty());
+    let filled: Vec<(usize, &WrittenState)> = filled.collect();
+    let bad = filled.windows(2).find(|two| {
+        let [(_, before), (_, after)] = [two[0], two[1]];
+        let is_same = before.spheres.len() == after.spheres.len();
+        before.are_numbered != after.are_numbered || !(after.are_numbered || is_same)
+    });
+    match bad {
+        Some(two) => Err(StatesError::Unnumbered(two[1].0)),
+        None => Ok(()),
+    }
+}
+
+/// Refuses spheres far from the origin, beside the walls of the scene, or too many for their room.
+fn check_places(states: &[WrittenState], scene: &Scene) -> Result<(), StatesError> {
+    let diameter = 2.0 * scene.mean_radius();
+    let far = |place: &[f64; 3]| !place.iter().all(|it| it.abs() < FARTHEST * diameter);
     for (state, written) in (1..).zip(states) {
-        let far = |place: &[f64; 3]| !place.iter().all(|value| value.abs() < farthest);
-        let found = written.spheres.iter().find(|(_, place)| far(place));
-        if let Some(&(number, _)) = found {
+        let find = |bad: &dyn Fn(&[f64; 3]) -> bool| {
+            let found = written.spheres.iter().find(|(_, place)| bad(place));
+            found.map(|&(number, _)| number)
+        };
+        if let Some(number) = find(&far) {
             return Err(StatesError::Far { state, number });
+        }
+        if let Some(number) = find(&|place| is_beside(scene, place, diameter)) {
+            return Err(StatesError::Outside { state, number });
+        }
+        if is_crowded(written, diameter) {
+            return Err(StatesError::Crowded(state));
         }
     }
     Ok(())
+}
+
+/// Whether a place is a diameter (m) or more outside the side walls of a scene, above its floor.
+fn is_beside(scene: &Scene, [x, y, z]: &[f64; 3], diameter: f64) -> bool {
+    let Some(tank) = &scene.tank else {
+        return false;
+    };
+    let out = |wall: Option<f64>, place: f64| wall.is_some_and(|wall| place > wall + diameter);
+    let [half_width, half_depth] = tank.reach();
+    let beside = out(half_width, x.abs()) || out(half_depth, y.abs());
+    beside && tank.floor.is_none_or(|floor| *z > floor)
+}
+
+/// Whether the spheres of a state are together larger than the box about them.
+fn is_crowded(state: &WrittenState, diameter: f64) -> bool {
+    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for (_, place) in &state.spheres {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(place[axis]);
+            high[axis] = high[axis].max(place[axis]);
+        }
+    }
+    let room: f64 = (0..3)
+        .map(|axis| high[axis] - low[axis] + diameter)
+        .product();
+    let sphere = PI / 6.0 * diameter * diameter * diameter;
+    !state.spheres.is_empty() && state.spheres.len() as f64 * sphere > room
 }
 
 /// Shows the spheres of a state to an observer.
@@ -178,7 +277,12 @@ fn observe(
     );
 }
 
-fn times(states: &[WrittenState], dt: f64) -> Result<Vec<f64>, StatesError> {
+fn times(states: &[WrittenState], scene: &Scene) -> Result<Vec<f64>, StatesError> {
+    let dt = scene.time.dt;
+    let counts = |it: &WrittenState| matches!(it.moment, Moment::Step(_));
+    if scene.spot.is_some() && states.iter().any(counts) {
+        return Err(StatesError::Steps);
+    }
     let first = match states {
         [first, _, ..] => first.moment,
         _ => return Err(StatesError::Few),

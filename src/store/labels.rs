@@ -9,6 +9,7 @@ use super::{StoreError, write_atomic};
 use crate::classify::{FAMILIES, Family, LabelRow, LabelTable, Verdict};
 use crate::document::text;
 use csv::StringRecord;
+use std::collections::HashMap;
 use std::path::Path;
 
 /// The columns between the axes and the measures.
@@ -95,7 +96,18 @@ pub fn read_labels(path: &Path) -> Result<LabelTable, StoreError> {
                 StoreError::text(path, line, reason)
             })
         })
-        .collect::<Result<_, _>>()?;
+        .collect::<Result<Vec<LabelRow>, _>>()?;
+    let mut lines: HashMap<&str, usize> = HashMap::new();
+    for (row, line) in rows.iter().zip(2..) {
+        if let Some(first) = lines.insert(&row.id, line) {
+            let reason = format!(
+                "a second row of run {}, beside line {first}; remove one",
+                row.id
+            );
+            return Err(StoreError::text(path, line as u64, reason));
+        }
+    }
+    drop(lines);
     let Header { family, axes, .. } = header;
     Ok(LabelTable { family, axes, rows })
 }

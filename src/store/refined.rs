@@ -4,7 +4,7 @@
 //! `p_LABEL` for each label, its probability. Columns of `borders.csv`: the axes by their names (on
 //! the axis that is crossed, the place of the border), `along` (the axis that is crossed), the
 //! labels `below` and `above`, the ends of the intervals of 68 and 95 % (`low_68`, `high_68`,
-//! `low_95`, `high_95`), `width` (length of the latter, as a share of the axis in its scale) and
+//! `low_95`, `high_95`), `width_95` (length of the latter, as a share of the axis in its scale) and
 //! `critical_rotation` (rad/s; empty without one).
 
 use super::{StoreError, write_atomic};
@@ -74,7 +74,7 @@ pub fn write_borders(axes: &[&str], rows: &[BorderRow], path: &Path) -> Result<(
         "high_68",
         "low_95",
         "high_95",
-        "width",
+        "width_95",
         "critical_rotation",
     ]);
     let rows = rows.iter().map(|row| {

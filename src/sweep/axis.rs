@@ -56,7 +56,7 @@ enum Spacing {
 }
 
 /// Other columns in the tables of results; no axis may have such a name.
-const RESERVED: [&str; 8] = [
+const RESERVED: [&str; 18] = [
     "id",
     "setting",
     "seed",
@@ -65,6 +65,16 @@ const RESERVED: [&str; 8] = [
     "code",
     "settle_time",
     "agreement",
+    "steady",
+    "along",
+    "below",
+    "above",
+    "low_68",
+    "high_68",
+    "low_95",
+    "high_95",
+    "width_95",
+    "critical_rotation",
 ];
 
 impl AxisEntry {

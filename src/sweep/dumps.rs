@@ -48,6 +48,7 @@ impl Labelling {
             },
             missing: 0,
             problems: Vec::new(),
+            jobs: dumps.iter().map(|path| name_of(path)).collect(),
         };
         for row in work::map(workers, dumps, |path| label(path, scene, sieves))? {
             match row {
@@ -84,6 +85,14 @@ fn refuse_repeated(labelling: &mut Labelling) {
     });
 }
 
+/// What a dump is called in tables.
+fn name_of(path: &Path) -> String {
+    path.file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into()
+}
+
 fn label(path: &Path, scene: &Scene, sieves: &Sieves) -> Result<LabelRow, String> {
     let fail = |reason: String| format!("{}: {reason}", path.display());
     let (scene, name) = scene_of(path, scene).map_err(fail)?;
@@ -91,11 +100,7 @@ fn label(path: &Path, scene: &Scene, sieves: &Sieves) -> Result<LabelRow, String
     let record = replay::replay(&values, &scene).map_err(|error| fail(error.to_string()))?;
     let verdict = classify::classify(&record, sieves).map_err(|error| fail(error.to_string()))?;
     Ok(LabelRow {
-        id: path
-            .file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into(),
+        id: name_of(path),
         values: vec![name.radius, name.density, name.omega],
         seed: name.seed,
         verdict,

@@ -254,10 +254,11 @@ impl Folder {
     pub fn read_sweep(&self) -> Result<Sweep, FolderError> {
         let path = self.sweep();
         match fs::read(&path) {
-            Ok(text) => serde_json::from_slice(&text).map_err(|error| FolderError::BadSweep {
-                path,
-                reason: error.to_string(),
-            }),
+            Ok(text) => {
+                let sweep = serde_json::from_slice(&text).map_err(|error| error.to_string());
+                let sweep = sweep.and_then(|sweep: Sweep| sweep.check_refining().map(|()| sweep));
+                sweep.map_err(|reason| FolderError::BadSweep { path, reason })
+            }
             Err(source) => Err(FolderError::Io { path, source }),
         }
     }

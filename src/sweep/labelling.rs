@@ -17,6 +17,8 @@ pub struct Labelling {
     pub missing: usize,
     /// What is wrong with records that cannot be labelled.
     pub problems: Vec<String>,
+    /// Identities of all jobs.
+    pub(super) jobs: HashSet<String>,
 }
 
 impl Labelling {
@@ -43,6 +45,7 @@ impl Labelling {
             },
             missing: 0,
             problems: Vec::new(),
+            jobs: jobs.iter().map(|job| job.id.clone()).collect(),
         };
         for row in found {
             match row {
@@ -99,8 +102,10 @@ pub enum Since {
         changes: BTreeMap<(Label, Label), usize>,
         /// Runs that only the new table has.
         new: usize,
-        /// Runs that only the table of before has: their records cannot be labelled any more.
+        /// Runs that only the table of before has, as their records cannot be labelled any more.
         lost: usize,
+        /// Runs that only the table of before has, as they are not of the sweep any more.
+        unused: usize,
     },
 }
 
@@ -150,11 +155,17 @@ impl Labelling {
         let since = match folder.labels() {
             path if !path.exists() => Since::Nothing,
             path => match store::read_labels(&path) {
-                Ok(before) => Since::Labels {
-                    changes: changes(&before, &self.table),
-                    new: rows_only_in(&self.table, &before),
-                    lost: rows_only_in(&before, &self.table),
-                },
+                Ok(before) => {
+                    let gone = rows_only_in(&before, &self.table);
+                    let is_lost = |row: &&&LabelRow| self.jobs.contains(&row.id);
+                    let lost = gone.iter().filter(is_lost).count();
+                    Since::Labels {
+                        changes: changes(&before, &self.table),
+                        new: rows_only_in(&self.table, &before).len(),
+                        lost,
+                        unused: gone.len() - lost,
+                    }
+                }
                 Err(error) => Since::Unreadable(error.to_string()),
             },
         };
@@ -195,11 +206,11 @@ pub fn refuse_to_lose_labels<'a>(
     }
 }
 
-/// Number of rows of runs that another table has not.
-fn rows_only_in(table: &LabelTable, other: &LabelTable) -> usize {
+/// Rows of runs that another table has not.
+fn rows_only_in<'a>(table: &'a LabelTable, other: &LabelTable) -> Vec<&'a LabelRow> {
     let known: HashSet<&str> = other.rows.iter().map(|row| row.id.as_str()).collect();
     let is_alone = |row: &&LabelRow| !known.contains(row.id.as_str());
-    table.rows.iter().filter(is_alone).count()
+    table.rows.iter().filter(is_alone).collect()
 }
 
 impl Sweep {

@@ -16,17 +16,18 @@ fn drained() -> (Workplace, RunRecord) {
     (place, record)
 }
 
-/// The states of a record as LAMMPS writes them, a step each `dt` (s), with numbers from 1.
-fn lammps_dump(record: &RunRecord, dt: f64) -> String {
+/// The states of a record as LAMMPS writes them, with numbers from 1; `time`: what stands for the
+/// time (s) of a state.
+fn lammps_dump(record: &RunRecord, time: impl Fn(f64) -> String) -> String {
     let mut text = String::new();
     for state in &record.snapshots {
         let rows = state.position.rows().into_iter().zip(1..);
         let rows: Vec<_> = rows.filter(|(row, _)| row[0].is_finite()).collect();
-        let step = (state.time / dt).round() + 5000.0;
         write!(
             text,
-            "ITEM: TIMESTEP\n{step}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n\
+            "{}ITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS ff ff ff\n\
              -9 9\n-9 9\n-9 99\nITEM: ATOMS id type x y z\n",
+            time(state.time),
             rows.len()
         )
         .unwrap();
@@ -35,6 +36,10 @@ fn lammps_dump(record: &RunRecord, dt: f64) -> String {
         }
     }
     text
+}
+
+fn with_time(time: f64) -> String {
+    format!("ITEM: TIMESTEP\n{}\nITEM: TIME\n{time}\n", 5000.0 + time)
 }
 
 fn assert_equal(place: &Workplace, one: &str, other: &str) {
@@ -75,7 +80,7 @@ fn what_other_programs_write_is_measured_alike() {
         "{}",
         missing.stderr
     );
-    place.write("run.dump", &lammps_dump(&record, record.scene.time.dt));
+    place.write("run.dump", &lammps_dump(&record, with_time));
     assert_equal(&place, "run.dump", "run.h5");
     // Alone it needs a scene.
     let alone = place.phase(&["compare", "run.dump"]).code(2);
@@ -107,7 +112,7 @@ fn what_other_programs_write_is_measured_alike() {
     ];
     place.phase(&plot).code(0).says("run-outflow.png");
     // Times that do not grow.
-    let twice = lammps_dump(&record, f64::INFINITY);
+    let twice = lammps_dump(&record, |_| with_time(1.0));
     place.write("still.dump", &twice);
     let refused = place.phase(&["compare", "run.h5", "still.dump"]).code(2);
     assert!(
@@ -115,6 +120,151 @@ fn what_other_programs_write_is_measured_alike() {
         "{}",
         refused.stderr
     );
+}
+
+/// Symptom: steps of a dump beside a record of spots were taken as frames of that, and the outflow
+/// was 0.03 in place of 67.
+#[test]
+fn steps_are_no_times_of_spots() {
+    let (place, record) = drained();
+    let steps = |time: f64| format!("ITEM: TIMESTEP\n{}\n", 1e4 * time);
+    place.write("run.dump", &lammps_dump(&record, steps));
+    place
+        .phase(&["compare", "run.h5", "run.dump"])
+        .code(2)
+        .complains("run.dump: it counts steps, and the scene is of spots");
+}
+
+/// Symptom: what a run with a door had been exported to gave another outflow than its record, as
+/// the time before the opening counted. In steps from 0 it did so too.
+#[test]
+fn a_door_opens_in_files_of_other_programs_too() {
+    let place = Workplace::new();
+    place.write("silo.toml", crate::fit::ELEMENTS);
+    let faster = ["--set", "time.dt=4e-4", "--set", "time.duration=3"];
+    let run = ["run", "silo.toml", "--out", "run.h5"];
+    place.phase(&[&run[..], &faster].concat()).code(0);
+    let record = read_record(place.path("run.h5").as_ref()).unwrap();
+    let dt = record.scene.time.dt;
+    let steps = |time: f64| format!("ITEM: TIMESTEP\n{}\n", (time / dt).round());
+    place.write("steps.dump", &lammps_dump(&record, steps));
+    place.write("times.dump", &lammps_dump(&record, with_time));
+    // As of a program that begins with the opening: states since then, in steps of its own.
+    let mut opened = record.clone();
+    opened.snapshots.retain(|it| it.time >= 1.0 - 1e-9);
+    let later = |time: f64| steps(time + 30.0);
+    place.write("opened.dump", &lammps_dump(&opened, later));
+    for file in ["steps.dump", "times.dump", "opened.dump"] {
+        let compare = ["compare", "run.h5", file, "--times", "0,2", "--json"];
+        let answer: Value = serde_json::from_str(&place.phase(&compare).code(0).stdout).unwrap();
+        let rows = answer["rows"].as_array().unwrap();
+        let row = |name: &str| rows.iter().find(|it| it["quantity"] == name).unwrap();
+        let of = |name: &str| row(name)["values"].as_array().unwrap().clone();
+        let start = of("packing fraction at the start");
+        assert_eq!(start[0], start[1], "{file}");
+        let [own, other] = [0, 1].map(|place| of("outflow")[place].as_f64().unwrap());
+        assert!((own / other - 1.0).abs() < 1e-6, "{file}: {own} {other}");
+    }
+}
+
+/// Symptom: spheres without numbers were taken for those of the same line before, though others had
+/// left, and the spreading was wrong by a factor of ten thousand.
+#[test]
+fn spheres_that_cannot_be_told_apart_are_refused() {
+    let place = Workplace::new();
+    place.write("scene.toml", &crate::support::drainage_file());
+    let compare = ["compare", "states.xyz", "--scene", "scene.toml"];
+    let one = "1\nTime=0\nA 0 0 1\n";
+    let numbered = "2\nProperties=species:S:1:pos:R:3:id:I:1 Time=1\nA 0 0 1 1\nA 0 0 3 2\n";
+    for (states, reason) in [
+        (
+            format!("{one}2\nTime=1\nA 0 0 1\nA 0 0 3\n"),
+            "state 2 has another number of spheres",
+        ),
+        (format!("{one}{numbered}"), "write an `id` of each sphere"),
+        (
+            one.to_owned() + "1\nTime=1\nA 50 0 1\n",
+            "state 2: sphere 0 is beside the walls of the scene",
+        ),
+        (
+            "2\nTime=0\nA 0 0 1e-3\nA 0 0 2e-3\n"
+                .repeat(2)
+                .replacen("=0", "=-1", 1),
+            "state 1: its spheres are larger",
+        ),
+    ] {
+        place.write("states.xyz", &states);
+        place.phase(&compare).code(2).complains(reason);
+    }
+}
+
+/// Symptom: the outflow of a record in units of its spheres was subtracted from one in SI units.
+#[test]
+fn numbers_in_two_units_are_not_compared() {
+    let (place, _) = drained();
+    let export = ["export", "run.h5", "--to", "xyz", "--out", "run.xyz"];
+    place.phase(&export).code(0);
+    place.write(
+        "si.toml",
+        &drainage_file().replace("radius = 0.5", "radius = 0.45"),
+    );
+    place
+        .phase(&["compare", "run.h5", "run.xyz", "--scene", "si.toml"])
+        .code(2)
+        .complains("run.xyz: its scene is in units SI");
+}
+
+/// Symptom: a record that ended before the times that were asked for was measured over less, and
+/// nothing said so.
+#[test]
+fn records_that_are_measured_over_other_times_are_named() {
+    let (place, _) = drained();
+    let shorter = [
+        "run",
+        "scene.toml",
+        "--set",
+        "time.duration=3",
+        "--out",
+        "short.h5",
+    ];
+    place.phase(&shorter).code(0);
+    let compare = ["compare", "run.h5", "short.h5"];
+    let asked = [&compare[..], &["--times", "1,4"]].concat();
+    place
+        .phase(&asked)
+        .code(0)
+        .complains("B is measured from 1 to 3 τ");
+    place
+        .phase(&compare)
+        .code(0)
+        .complains("B is measured from 0.6");
+    let both = [&compare[..], &["--times", "1,3"]].concat();
+    let answer = place.phase(&both).code(0);
+    assert!(!answer.stderr.contains("measured"), "{}", answer.stderr);
+    // A table holds what was measured.
+    let table = [&both[..], &["--out", "both.csv"]].concat();
+    place.phase(&table).code(0);
+    place
+        .phase(&["compare", "both.csv", "--times", "1,2"])
+        .code(2)
+        .complains("--times");
+}
+
+/// Symptom: the difference of a record to itself had an interval, as if its scatter were another's.
+#[test]
+fn a_record_differs_by_nothing_from_itself() {
+    let (place, _) = drained();
+    let compare = ["compare", "run.h5", "run.h5", "--times", "1,4", "--json"];
+    let answer: Value = serde_json::from_str(&place.phase(&compare).code(0).stdout).unwrap();
+    let mut compared = 0;
+    for row in answer["rows"].as_array().unwrap() {
+        if !row["difference"].is_null() {
+            assert_eq!(row["difference"], 0.0, "{row}");
+            assert_eq!(row["difference_half_width"], 0.0, "{row}");
+            compared += 1;
+        }
+    }
+    assert!(compared > 8, "{compared}");
 }
 
 /// Symptom: two seeds of a tank, or two softnesses, could not be compared: only drainages were.

@@ -8,7 +8,7 @@ use serde_json::Value;
 use std::ops::Range;
 
 /// A box of 400 spheres whose orifice opens after a second.
-const ELEMENTS: &str = r#"
+pub(crate) const ELEMENTS: &str = r#"
 spheres = { count = 400, radius = 0.5, density = 1.909859317102744 }
 start = { kind = "packing" }
 tank = { width = 9.0, depth = 6.0, floor = 0.0, orifice_radius = 2.0, friction_coefficient = 0.3 }

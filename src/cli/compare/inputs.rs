@@ -7,7 +7,7 @@ use phase::classify::{DRAINAGE, Family, Measure, Sieves, classify};
 use phase::compare::{Comparison, Row};
 use phase::plot;
 use phase::record::RunRecord;
-use phase::scene::{Scene, Units};
+use phase::scene::Units;
 use phase::statistics::Estimate;
 use std::path::{Path, PathBuf};
 
@@ -23,12 +23,17 @@ pub(super) enum Input {
 pub(super) struct Column {
     pub(super) name: String,
     pub(super) values: Vec<([String; 2], Option<Estimate>)>,
+    /// First and last time (s) since the opening of what was measured, of the record of a drainage.
+    pub(super) window: Option<[f64; 2]>,
 }
 
 /// Reads all files. Those of other programs take the scene that is given, or that of the first
 /// record.
 pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<Input>, Failure> {
-    let is_table = |path: &&PathBuf| path.extension().is_some_and(|end| end == "csv");
+    let is_table = |path: &&PathBuf| {
+        path.extension()
+            .is_some_and(|end| end.eq_ignore_ascii_case("csv"))
+    };
     let of_runs: Vec<PathBuf> = paths.iter().filter(|it| !is_table(it)).cloned().collect();
     let mut records = runs::read(&of_runs, scene)?.into_iter();
     let mut inputs = Vec::new();
@@ -52,6 +57,11 @@ pub(super) fn columns(inputs: &[Input], times: Option<[f64; 2]>) -> Result<Vec<C
         Input::Table(_) => None,
     });
     let (paths, records): (Vec<&PathBuf>, Vec<&RunRecord>) = of_runs.unzip();
+    if times.is_some() && records.is_empty() {
+        return Err(Failure::refused(
+            "--times is for records: a table holds what was measured; measure its records again",
+        ));
+    }
     let family = records.first().map(|record| Family::of(&record.scene));
     let mut of_runs = match family {
         Some(family) if family.measures().count() > 0 && family != &DRAINAGE => {
@@ -67,22 +77,34 @@ pub(super) fn columns(inputs: &[Input], times: Option<[f64; 2]>) -> Result<Vec<C
             Input::Table(table) => columns.extend(table.iter().map(|it| Column {
                 name: it.name.clone(),
                 values: it.values.clone(),
+                window: None,
             })),
         }
     }
     Ok(columns)
 }
 
-/// The units of the scenes: of their spheres if all are in those.
-pub(super) fn units(inputs: &[Input]) -> Units {
+/// The units of the drainages. Numbers of two units are not compared.
+pub(super) fn units(inputs: &[Input]) -> Result<Units, Failure> {
     let scenes = inputs.iter().filter_map(|input| match input {
-        Input::Run(_, record) => Some(&record.scene),
-        Input::Table(_) => None,
+        Input::Run(path, record) if Family::of(&record.scene) == &DRAINAGE => {
+            Some((path, record.scene.units()))
+        }
+        Input::Run(..) | Input::Table(_) => None,
     });
-    let mut units = scenes.map(Scene::units);
-    match units.next() {
-        Some(Units::OfSpheres) if units.all(|it| it == Units::OfSpheres) => Units::OfSpheres,
-        _ => Units::Si,
+    let scenes: Vec<(&PathBuf, Units)> = scenes.collect();
+    let Some((first, units)) = scenes.first() else {
+        return Ok(Units::Si);
+    };
+    match scenes.iter().find(|(_, other)| other != units) {
+        None => Ok(*units),
+        Some((path, other)) => Err(Failure::refused(format_args!(
+            "{}: its scene is in units {}, that of {} in units {}; compare runs in the same units",
+            path.display(),
+            other.description(),
+            first.display(),
+            units.description()
+        ))),
     }
 }
 
@@ -104,6 +126,7 @@ fn of_drainages(
         Column {
             name,
             values: comparison.rows.iter().map(value).collect(),
+            window: Some(comparison.windows[run]),
         }
     });
     Ok(columns.collect())
@@ -146,6 +169,7 @@ fn of_family(
         Ok(Column {
             name: format!("{name}: {}", verdict.label.name),
             values: measures.map(value).collect(),
+            window: None,
         })
     };
     named.zip(paths).map(column).collect()

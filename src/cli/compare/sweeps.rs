@@ -132,7 +132,7 @@ impl Entry {
         let half_width = own.map(|it| it.difference.half_width);
         Self {
             difference_half_width: half_width.filter(|it| it.is_finite()),
-            ..Self::new(row)
+            ..Self::new(row, false)
         }
     }
 }

@@ -12,14 +12,19 @@ pub(super) const QUANTITY: &str = "quantity";
 
 const COLUMNS: [&str; 5] = [QUANTITY, "unit", "record", "value", "half_width"];
 
-pub(super) fn write(path: &Path, rows: &[Row], names: &[String]) -> Result<(), Failure> {
+/// Refuses two records of one name, which a table could not tell apart.
+pub(super) fn check(names: &[String]) -> Result<(), Failure> {
     let mut again = names.iter().enumerate();
-    if let Some((_, name)) = again.find(|(place, name)| names[..*place].contains(name)) {
-        return Err(Failure::refused(format_args!(
+    match again.find(|(place, name)| names[..*place].contains(name)) {
+        None => Ok(()),
+        Some((_, name)) => Err(Failure::refused(format_args!(
             "two records are called `{name}`, and a table tells them apart by name; give each a \
              `--label` of its own"
-        )));
+        ))),
     }
+}
+
+pub(super) fn write(path: &Path, rows: &[Row], names: &[String]) -> Result<(), Failure> {
     let text = written(rows, names).map_err(Failure::failed)?;
     store::write_atomic(path, &text).map_err(Failure::failed)
 }
@@ -50,8 +55,17 @@ pub(super) fn read(path: &Path) -> Result<Vec<Column>, Failure> {
     let refuse = |line: u64, reason: &str| {
         Failure::refused(format_args!("{}:{line}: {reason}", path.display()))
     };
-    let failed = |error: csv::Error| Failure::refused(format_args!("{}: {error}", path.display()));
-    let mut reader = csv::Reader::from_path(path).map_err(failed)?;
+    let failed = |error: csv::Error| {
+        let line = error.position().map_or(1, csv::Position::line);
+        refuse(line, &error.to_string())
+    };
+    let content = std::fs::read(path).map_err(|error| {
+        Failure::refused(format_args!(
+            "cannot read {}: {error}; check the path",
+            path.display()
+        ))
+    })?;
+    let mut reader = csv::Reader::from_reader(&content[..]);
     if reader.headers().map_err(failed)? != COLUMNS[..] {
         let columns = COLUMNS.join(",");
         return Err(refuse(
@@ -80,6 +94,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<Column>, Failure> {
             columns.push(Column {
                 name: name.to_owned(),
                 values: Vec::new(),
+                window: None,
             });
             columns.len() - 1
         });

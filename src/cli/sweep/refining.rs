@@ -7,6 +7,11 @@ use phase::refine::Finish;
 use phase::sweep::{
     Folder, Job, Plan, Refinement, RefinementError, Refining, Standing, Step, Sweep, write_failures,
 };
+use std::sync::atomic::Ordering;
+use std::time::{Duration, Instant};
+
+/// Time between two notes while rounds are chosen.
+const BETWEEN_NOTES: Duration = Duration::from_secs(5);
 
 /// What became of a refined sweep.
 pub(super) struct Refined {
@@ -29,9 +34,15 @@ impl Rounds<'_> {
         let mut refinement =
             Refinement::new(folder, sweep, self.force, workers).map_err(refused_or_failed)?;
         let mut run: Option<Run> = None;
+        let mut told = Instant::now();
         let end = loop {
             let jobs = match refinement.next_step(sweep).map_err(refused_or_failed)? {
                 Step::Finished(end) => break Some(end),
+                Step::Known if self.stop.load(Ordering::Relaxed) => break None,
+                Step::Known => {
+                    self.tell_of_known(&refinement, &mut told);
+                    continue;
+                }
                 Step::Run(jobs) => jobs,
             };
             let plan = self.plan_of_round(sweep, &jobs)?;
@@ -59,6 +70,13 @@ impl Rounds<'_> {
                 .map_err(refused_or_failed)?;
             self.show(folder, sweep, &mut refinement)?;
         };
+        if end.is_none()
+            && run.is_none()
+            && let Some(stored) = folder.read_sweep().ok().and_then(|it| it.refine)
+        {
+            // Stopped before anything was run: the folder stays as it was.
+            sweep.refine = Some(stored);
+        }
         let plan = Plan::new(folder, all_jobs(sweep)?, workers).map_err(Failure::failed)?;
         let run = match run {
             Some(run) => run,
@@ -72,6 +90,18 @@ impl Rounds<'_> {
         let run = Run { done_before, ..run };
         let runs = refinement.runs();
         Ok((plan, run, Refined { runs, end }))
+    }
+
+    /// Says now and then how far the choosing of rounds is whose runs are there already.
+    fn tell_of_known(&self, refinement: &Refinement, told: &mut Instant) {
+        if told.elapsed() >= BETWEEN_NOTES {
+            *told = Instant::now();
+            self.console.note(format_args!(
+                "round {} chosen again: {}",
+                refinement.rounds(),
+                format::count(refinement.runs(), "run")
+            ));
+        }
     }
 
     /// The plan of all jobs that have not failed, of which only those of the round are to be run.

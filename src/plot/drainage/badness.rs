@@ -23,7 +23,9 @@ pub(super) static BADNESS: Overlay = Overlay {
 
 fn lines(drainage: &Drainage<'_>) -> Lines {
     let seconds = drainage.record.cpu_seconds;
-    let curve = badness_of(drainage).map(|badness| Curve {
+    // Files of other programs do not say what their runs took.
+    let badness = badness_of(drainage).filter(|_| seconds.is_finite());
+    let curve = badness.map(|badness| Curve {
         points: vec![(seconds, badness.value)],
         half_widths: vec![badness.half_width],
     });

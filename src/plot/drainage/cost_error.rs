@@ -111,8 +111,15 @@ fn legend(reference: &Measured, others: &[Measured]) -> Vec<(RGBColor, String)> 
     ];
     let named = others.iter().enumerate();
     let named = named.map(|(index, run)| {
-        let gain = scale::rounded(reference.cost / run.cost, 2);
-        let word = format!("{}, at 1 / {gain} of its cost", run.name);
+        let gain = reference.cost / run.cost;
+        let word = match gain.is_finite() {
+            true => format!(
+                "{}, at 1 / {} of its cost",
+                run.name,
+                scale::rounded(gain, 2)
+            ),
+            false => format!("{}, of unknown cost", run.name),
+        };
         (color(index, others.len()), word)
     });
     head.into_iter().chain(named).collect()

@@ -25,7 +25,8 @@ impl Scene {
             return;
         }
         let time = &self.time;
-        let frames = steady.frames_of_window(time.frame_interval) + 1;
+        let window = steady.frames_of_window(time.frame_interval);
+        let frames = window.saturating_add(1);
         if frames < LEAST_VALUES as u64 {
             let message = format!(
                 "`steady.window` = {} s has {frames} frames of `time.frame_interval` = {} s, too \
@@ -59,6 +60,19 @@ impl Scene {
                 message,
                 "use a shorter one".to_owned(),
             );
+            return;
+        }
+        let check = steady.frames_per_check(time.frame_interval);
+        let last = time.frames() / check * check;
+        if steady.window <= time.duration && last < window {
+            let message = format!(
+                "the last check, after {} s, comes before `steady.window` = {} s is over, so that \
+                 the run could never become steady",
+                number(last as f64 * time.frame_interval),
+                number(steady.window),
+            );
+            let help = "use a shorter `check_interval`, or a longer `time.duration`";
+            refuse("steady.check_interval", message, help.to_owned());
         }
     }
 }

@@ -10,6 +10,7 @@ pub(super) const ITEM: &str = "ITEM:";
 /// A state whose first line is given.
 pub(super) fn state<'a>(first: &'a str, lines: &mut Lines<'a>) -> Result<WrittenState, StoreError> {
     let (mut moment, mut count, mut bounds) = (None, None, Vec::new());
+    let mut is_oblique = false;
     let mut line = first;
     loop {
         let item = line.strip_prefix(ITEM).map(str::trim);
@@ -17,8 +18,12 @@ pub(super) fn state<'a>(first: &'a str, lines: &mut Lines<'a>) -> Result<Written
         if let Some(columns) = item.strip_prefix("ATOMS") {
             let count = count.ok_or_else(|| lines.refuse("the number of atoms is missing"))?;
             let moment = moment.ok_or_else(|| lines.refuse("the time step is missing"))?;
-            let spheres = spheres(columns, count, &bounds, lines)?;
-            return Ok(WrittenState { moment, spheres });
+            let bounds = (!is_oblique).then_some(&bounds[..]);
+            return Ok(WrittenState {
+                moment,
+                are_numbered: true,
+                spheres: spheres(columns, count, bounds, lines)?,
+            });
         }
         if item == "TIMESTEP" {
             let step = lines.next_number("a number of steps")?;
@@ -27,7 +32,8 @@ pub(super) fn state<'a>(first: &'a str, lines: &mut Lines<'a>) -> Result<Written
             moment = Some(Moment::Time(lines.next_number("a time")?));
         } else if item == "NUMBER OF ATOMS" {
             count = Some(lines.next_number("a number of spheres")?);
-        } else if item.starts_with("BOX BOUNDS") {
+        } else if let Some(kind) = item.strip_prefix("BOX BOUNDS") {
+            is_oblique = kind.contains("xy") || kind.contains("abc");
             for _ in 0..3 {
                 bounds.push(extent(lines)?);
             }
@@ -47,10 +53,11 @@ fn extent(lines: &mut Lines<'_>) -> Result<[f64; 2], StoreError> {
     Ok([end()?, end()?])
 }
 
+/// The spheres; `bounds`: of the box, unless it is oblique.
 fn spheres(
     columns: &str,
     count: usize,
-    bounds: &[[f64; 2]],
+    bounds: Option<&[[f64; 2]]>,
     lines: &mut Lines<'_>,
 ) -> Result<Vec<(u64, [f64; 3])>, StoreError> {
     let names: Vec<&str> = columns.split_whitespace().collect();
@@ -63,23 +70,29 @@ fn spheres(
             find(&format!("z{end}"))?,
         ])
     };
-    let (place, scaled) = match (place("").or_else(|| place("u")), place("s")) {
-        (Some(place), _) => (place, false),
-        (None, Some(place)) if bounds.len() == 3 => (place, true),
+    // Where both stand there, `xu` goes on behind a periodic side, and `x` jumps to the other.
+    let (place, scaled) = match (place("u").or_else(|| place("")), place("s"), bounds) {
+        (Some(place), ..) => (place, None),
+        (None, Some(_), None) => {
+            return Err(lines.refuse(
+                "the box is oblique, and `xs` are shares of its edges; dump `x y z` in their place",
+            ));
+        }
+        (None, Some(place), Some(bounds)) if bounds.len() == 3 => (place, Some(bounds)),
         _ => return Err(lines.refuse("the columns have no `x`, `xu` or `xs`, with y and z")),
     };
     let mut spheres = Vec::new();
     for _ in 0..count {
         let line = lines.next("a sphere")?;
         let words: Vec<&str> = line.split_whitespace().collect();
+        lines.check_columns(&words, names.len())?;
         let mut centre = lines.centre(&words, place)?;
-        if scaled {
+        if let Some(bounds) = scaled {
             for (value, [low, high]) in centre.iter_mut().zip(bounds) {
                 *value = low + *value * (high - low);
             }
         }
-        let word = words.get(number).copied().unwrap_or_default();
-        spheres.push((lines.number(word, "a number of a sphere")?, centre));
+        spheres.push((lines.number(words[number], "a number of a sphere")?, centre));
     }
     Ok(spheres)
 }

@@ -21,10 +21,11 @@ use std::path::Path;
 /// [`StoreError::Read`] or [`StoreError::ReadNamed`]; [`StoreError::Text`] with the line at fault,
 /// or [`StoreError::Array`]; [`StoreError::OneState`] for a file of VTK, which has no time.
 pub fn read_states(path: &Path) -> Result<Vec<WrittenState>, StoreError> {
-    match path.extension().and_then(|it| it.to_str()) {
-        Some("pvd") => series::collection(path),
-        Some("series") => series::series(path),
-        Some("vtk" | "vtp" | "vtu") => Err(StoreError::OneState {
+    let end = path.extension().unwrap_or_default().to_string_lossy();
+    match &end.to_ascii_lowercase()[..] {
+        "pvd" => series::collection(path),
+        "series" => series::series(path),
+        "vtk" | "vtp" | "vtu" => Err(StoreError::OneState {
             path: path.to_owned(),
         }),
         _ => text_states(path),
@@ -96,6 +97,16 @@ impl<'a> Lines<'a> {
         number.map_err(|_| self.refuse(&format!("`{}` is not {what}", word.trim())))
     }
 
+    /// Refuses a row that has not so many words.
+    fn check_columns(&self, words: &[&str], expected: usize) -> Result<(), StoreError> {
+        match words.len() {
+            found if found == expected => Ok(()),
+            found => Err(self.refuse(&format!(
+                "the row has {found} columns, but the head names {expected}"
+            ))),
+        }
+    }
+
     /// The centre in these columns of a line of words.
     fn centre(&self, words: &[&str], columns: [usize; 3]) -> Result<[f64; 3], StoreError> {
         let mut centre = [0.0_f64; 3];
@@ -151,9 +162,17 @@ mod tests {
         let xyz = read(xyz).unwrap();
         assert_eq!(xyz[0].moment, Moment::Time(0.25));
         assert_eq!(xyz[0].spheres, dump[0].spheres);
+        assert!(xyz[0].are_numbered && dump[0].are_numbered);
         // Without numbers the lines count.
         let plain = read("1\nTime=1e0 anything\nAr 1 2 3\n\n").unwrap();
         assert_eq!(plain[0].spheres, [(0, [1.0, 2.0, 3.0])]);
+        assert!(!plain[0].are_numbered);
+        // Where a sphere has left a periodic box, it goes on outside.
+        let unwrapped = DUMP
+            .replace("x y z vx", "x y z xu yu zu")
+            .replace("0.5 -1 2 0", "0.5 -1 2 2.5 -1 2")
+            .replace("-0.5 1 4 0", "-0.5 1 4 -0.5 1 4");
+        assert_eq!(read(&unwrapped).unwrap()[0].spheres[0].1, [2.5, -1.0, 2.0]);
     }
 
     #[test]
@@ -170,6 +189,32 @@ mod tests {
                 "states:2: the line does not say `Time=`",
             ),
             ("1\nTime=0\nX 1 2\n", "states:3: a coordinate is missing"),
+            (
+                "1\nProperties=species:S:1:pos:R:3:id:I:1 Time=0\nX 1 2 3\n",
+                "states:3: the row has 4 columns, but the head names 5",
+            ),
+            (
+                "1\nProperties=species:S:1:velo:R:3 Time=0\nX 1 2 3\n",
+                "states:2: `Properties` has no `pos:R:3`",
+            ),
+            (
+                "1\nProperties=species:S:1:pos:R:2:radius:R:1 Time=0\nX 1 2 3\n",
+                "states:2: `pos` has 2 columns, but must have 3",
+            ),
+            (
+                "1\nProperties=species:S:1:pos:R:x Time=0\nX 1 2 3\n",
+                "states:2: `pos:R:x` in `Properties` is no name",
+            ),
+            (
+                &DUMP.replace("3 1 -0.5 1 4 0", "3 1 -0.5 1 4"),
+                "states:11: the row has 5 columns, but the head names 6",
+            ),
+            (
+                &DUMP
+                    .replace("BOUNDS ff", "BOUNDS xy xz yz ff")
+                    .replace("x y z vx", "xs ys zs vx"),
+                "states:9: the box is oblique",
+            ),
             (
                 "1\nTime=0\nX 1 2 nan\n",
                 "states:3: a coordinate is not finite",

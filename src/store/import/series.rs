@@ -1,5 +1,6 @@
 //! Lists of VTK files and their times: collections (`.pvd`) and series of ParaView (`.series`).
 
+use super::vtk_numbers::Spheres;
 use super::{line_at, vtk_legacy, vtk_xml};
 use crate::document::text;
 use crate::replay::{Moment, WrittenState};
@@ -120,16 +121,18 @@ fn states(
     entries.dedup_by(|later, first| later.time == first.time);
     let folder = path.parent().unwrap_or(Path::new(""));
     let state = |entry: &Entry| {
+        let spheres = spheres(&folder.join(&entry.name), path)?;
         Ok(WrittenState {
             moment: Moment::Time(entry.time),
-            spheres: spheres(&folder.join(&entry.name), path)?,
+            are_numbered: spheres.are_numbered,
+            spheres: spheres.all,
         })
     };
     entries.iter().map(state).collect()
 }
 
 /// The spheres of a file that `list` names.
-fn spheres(path: &Path, list: &Path) -> Result<Vec<(u64, [f64; 3])>, StoreError> {
+fn spheres(path: &Path, list: &Path) -> Result<Spheres, StoreError> {
     let bytes = fs::read(path).map_err(|source| StoreError::ReadNamed {
         path: path.to_owned(),
         list: list.to_owned(),
@@ -189,6 +192,7 @@ mod tests {
         let states = pvd(THREE).unwrap();
         let state = |time: f64, x: &[f64]| WrittenState {
             moment: Moment::Time(time),
+            are_numbered: x.is_empty(),
             spheres: x.iter().map(|x| (0, [*x, 0.0, 0.0])).collect(),
         };
         let expected = [state(0.0, &[1.0]), state(0.5, &[2.0]), state(7.0, &[])];

@@ -3,7 +3,9 @@
 //! Sections follow each other, each behind a line with its keyword. Those that say nothing of
 //! spheres are passed over, which needs their sizes.
 
-use super::vtk_numbers::{ByteOrder, NumberType, Points, centres, is_number, numbers, spheres};
+use super::vtk_numbers::{
+    ByteOrder, NumberType, Points, Spheres, centres, is_number, numbers, spheres,
+};
 use super::vtk_reader::{Kind, Reader, short};
 use crate::store::StoreError;
 use std::path::Path;
@@ -15,7 +17,7 @@ pub(super) const SIGNATURE: &[u8] = b"# vtk DataFile Version";
 const OFFSETS_SINCE: f64 = 5.1;
 
 /// The spheres of a file that holds these bytes.
-pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Vec<(u64, [f64; 3])>, StoreError> {
+pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Spheres, StoreError> {
     let mut file = File::new(path, bytes)?;
     while let Some(words) = file.reader.words()? {
         file.section(&words)?;

@@ -112,6 +112,15 @@ pub(super) struct Points {
     pub(super) numbers: Option<Vec<u64>>,
 }
 
+/// The spheres of a file.
+#[derive(Debug, PartialEq)]
+pub(super) struct Spheres {
+    /// Whether the file has their numbers; else they count from 0 in their order.
+    pub(super) are_numbered: bool,
+    /// Number and centre of each.
+    pub(super) all: Vec<(u64, [f64; 3])>,
+}
+
 /// Is this the name of the array that numbers the spheres?
 pub(super) fn is_number(name: &str) -> bool {
     name.eq_ignore_ascii_case("id")
@@ -141,7 +150,7 @@ pub(super) fn numbers(values: &[f64]) -> Result<Vec<u64>, String> {
 }
 
 /// The spheres of all pieces. They are numbered in their order, unless every piece has numbers.
-pub(super) fn spheres(pieces: Vec<Points>) -> Vec<(u64, [f64; 3])> {
+pub(super) fn spheres(pieces: Vec<Points>) -> Spheres {
     let has_numbers = |piece: &Points| piece.numbers.is_some() || piece.centres.is_empty();
     let are_numbered = pieces.iter().all(has_numbers);
     let (mut centres, mut numbers) = (Vec::new(), Vec::new());
@@ -149,9 +158,12 @@ pub(super) fn spheres(pieces: Vec<Points>) -> Vec<(u64, [f64; 3])> {
         centres.extend(piece.centres);
         numbers.extend(piece.numbers.into_iter().flatten());
     }
-    match are_numbered {
-        true => numbers.into_iter().zip(centres).collect(),
-        false => (0..).zip(centres).collect(),
+    Spheres {
+        are_numbered,
+        all: match are_numbered {
+            true => numbers.into_iter().zip(centres).collect(),
+            false => (0..).zip(centres).collect(),
+        },
     }
 }
 
@@ -198,8 +210,10 @@ mod tests {
             numbers,
         };
         let numbered = spheres(vec![piece(Some(vec![8])), Points::default()]);
-        assert_eq!(numbered, [(8, [0.5; 3])]);
+        assert_eq!(numbered.all, [(8, [0.5; 3])]);
+        assert!(numbered.are_numbered);
         let mixed = spheres(vec![piece(Some(vec![8])), piece(None)]);
-        assert_eq!(mixed, [(0, [0.5; 3]), (1, [0.5; 3])]);
+        assert_eq!(mixed.all, [(0, [0.5; 3]), (1, [0.5; 3])]);
+        assert!(!mixed.are_numbered);
     }
 }

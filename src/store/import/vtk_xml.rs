@@ -6,14 +6,16 @@
 
 use super::line_at;
 use super::vtk_bytes::{Coding, Source};
-use super::vtk_numbers::{ByteOrder, NumberType, Points, centres, is_number, numbers, spheres};
+use super::vtk_numbers::{
+    ByteOrder, NumberType, Points, Spheres, centres, is_number, numbers, spheres,
+};
 use crate::store::StoreError;
 use roxmltree::{Document, Node};
 use std::borrow::Cow;
 use std::path::Path;
 
 /// The spheres of a file that holds these bytes.
-pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Vec<(u64, [f64; 3])>, StoreError> {
+pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<Spheres, StoreError> {
     let (xml, appended) = split(bytes);
     let text = str::from_utf8(&xml).map_err(|error| {
         let line = xml[..error.valid_up_to()].split(|it| *it == b'\n').count();

@@ -4,10 +4,12 @@ use super::Lines;
 use crate::replay::{Moment, WrittenState};
 use crate::store::StoreError;
 
-/// Columns of the places and of the numbers.
+/// Where a row has what is read of it.
 struct Columns {
     place: usize,
     number: Option<usize>,
+    /// How many words a row has, if the file says it.
+    all: Option<usize>,
 }
 
 /// A state whose first line is given.
@@ -17,19 +19,26 @@ pub(super) fn state(first: &str, lines: &mut Lines<'_>) -> Result<WrittenState, 
     let time = key(head, "Time").or_else(|| key(head, "time"));
     let time = time.ok_or_else(|| lines.refuse("the line does not say `Time=`"))?;
     let moment = Moment::Time(lines.number(time, "a time")?);
-    let columns = columns(head);
+    let columns = columns(head).map_err(|reason| lines.refuse(&reason))?;
     let mut spheres = Vec::new();
     for index in 0..count {
         let line = lines.next("a sphere")?;
         let words: Vec<&str> = line.split_whitespace().collect();
+        if let Some(all) = columns.all {
+            lines.check_columns(&words, all)?;
+        }
         let centre = lines.centre(&words, [0, 1, 2].map(|axis| columns.place + axis))?;
-        let number = match columns.number.and_then(|column| words.get(column)) {
-            Some(word) => lines.number(word, "a number of a sphere")?,
+        let number = match columns.number {
+            Some(column) => lines.number(words[column], "a number of a sphere")?,
             None => index as u64,
         };
         spheres.push((number, centre));
     }
-    Ok(WrittenState { moment, spheres })
+    Ok(WrittenState {
+        moment,
+        are_numbered: columns.number.is_some(),
+        spheres,
+    })
 }
 
 /// The value of a key, with or without quotation marks.
@@ -41,21 +50,36 @@ fn key<'a>(head: &'a str, name: &str) -> Option<&'a str> {
 
 /// By the list of properties: name, kind and number of columns of each. Without one, the places
 /// stand behind the species.
-fn columns(head: &str) -> Columns {
-    let mut columns = Columns {
-        place: 1,
-        number: None,
+fn columns(head: &str) -> Result<Columns, String> {
+    let Some(properties) = key(head, "Properties") else {
+        return Ok(Columns {
+            place: 1,
+            number: None,
+            all: None,
+        });
     };
-    let properties = key(head, "Properties").unwrap_or_default();
-    let mut words = properties.split(':');
-    let mut column = 0;
-    while let (Some(name), Some(_kind), Some(width)) = (words.next(), words.next(), words.next()) {
-        match name {
-            "pos" => columns.place = column,
-            "id" => columns.number = Some(column),
+    let words: Vec<&str> = properties.split(':').collect();
+    let (mut place, mut number, mut column) = (None, None, 0);
+    for property in words.chunks(3) {
+        let width = property.get(2).and_then(|it| it.parse::<usize>().ok());
+        let Some(width @ 1..) = width else {
+            let property = property.join(":");
+            return Err(format!(
+                "`{property}` in `Properties` is no name, kind and number of columns, such as \
+                 `pos:R:3`"
+            ));
+        };
+        match (property[0], width) {
+            ("pos", 3) => place = Some(column),
+            ("pos", _) => return Err(format!("`pos` has {width} columns, but must have 3")),
+            ("id", _) => number = Some(column),
             _ => {}
         }
-        column += width.parse().unwrap_or(1);
+        column += width;
     }
-    columns
+    Ok(Columns {
+        place: place.ok_or("`Properties` has no `pos:R:3`, the centres")?,
+        number,
+        all: Some(column),
+    })
 }

@@ -16,7 +16,7 @@ pub(super) const AT_BORDERS: &str = "refining gives the points at borders more s
                                      that `seeds.at_borders` has no effect; remove it";
 
 /// Why a sweep without axes is not refined.
-pub(super) const NO_AXES: &str = "a sweep without axes has no borders to refine";
+pub(super) const NO_AXES: &str = "a sweep without axes has no borders to refine: add `[[axis]]`";
 
 /// Most parts of a step.
 const MOST_PARTS: usize = 100;
@@ -27,7 +27,8 @@ const MOST_PARTS: usize = 100;
 #[serde(deny_unknown_fields, default)]
 pub(in crate::sweep) struct RefineEntry {
     /// Most runs in total, those that the results folder already holds among them. Refining ends
-    /// when they are made (default: a tenth of the points of the axes, at least the coarse grid).
+    /// when they are made (default: a tenth of the points of the axes, at least half as many again
+    /// as the coarse grid has).
     #[schemars(range(min = 1))]
     budget: Option<usize>,
     /// Into how many parts every step of each axis is cut: points between those of the axes, where
@@ -39,6 +40,7 @@ pub(in crate::sweep) struct RefineEntry {
     #[schemars(transform = unit("").above(0.0).at_most(1.0))]
     width: Option<f64>,
     /// Number of values of each axis in the coarse grid: one number for all axes, or one for each.
+    #[schemars(inner(range(min = 1)))]
     start: Vec<usize>,
     /// Runs in one round. Labels of a round do not change its other runs.
     #[schemars(range(min = 1))]
@@ -116,7 +118,7 @@ impl RefineEntry {
 
     fn try_refine(&self, sweep: &mut Sweep) -> Result<(), Problem> {
         if sweep.axes.is_empty() {
-            let help = "add [[axis]] with `key` and `values`, or remove the table";
+            let help = "give each axis `key` and `values`, or remove the table";
             return Err(Problem::new("refine", NO_AXES).help(help));
         }
         if let Some(bad) = self.start.iter().position(|count| *count == 0) {
@@ -153,7 +155,13 @@ impl RefineEntry {
                 let help = format!("{MOST_VALUES} are the most; cut its steps into fewer parts");
                 return Err(Problem::new("refine.finer", message).help(help));
             }
-            axis.values = scale::finer(&axis.values, self.finer).map_err(broken)?;
+            axis.values = scale::finer(&axis.values, self.finer).map_err(|_| {
+                let message = format!(
+                    "values of the axis `{}` are too close to be cut into {} parts",
+                    axis.name, self.finer
+                );
+                Problem::new("refine.finer", message).help("cut steps into fewer parts")
+            })?;
         }
         let jobs_of = |points: usize| points.saturating_mul(sweep.seeds.len());
         let jobs = jobs_of(sweep.points());
@@ -186,6 +194,8 @@ impl RefineEntry {
             let help = format!("use {coarse} or more, or a smaller `refine.start`");
             return Err(Problem::new("refine.budget", message).help(help));
         }
-        sweep.refine_with(settings, true).map_err(broken)
+        sweep
+            .refine_with(settings, self.budget.is_none())
+            .map_err(broken)
     }
 }

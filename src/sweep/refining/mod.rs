@@ -71,10 +71,31 @@ impl Refining {
         }
     }
 
+    /// Whether it may end with fewer rounds than another with the same other settings.
+    fn ends_before(&self, other: &Self) -> bool {
+        let [own, other] = [&self.settings, &other.settings];
+        let is_wider = match (own.width, other.width) {
+            (None, _) => false,
+            (Some(_), None) => true,
+            (Some(own), Some(other)) => own > other,
+        };
+        own.budget < other.budget || is_wider
+    }
+
     /// The border that is known worst: that with the largest mean width.
     pub fn widest(&self) -> Option<&Width> {
         let widths = self.widths.iter();
         widths.max_by(|one, other| one.mean.total_cmp(&other.mean))
+    }
+}
+
+/// Whether there are seeds enough.
+fn check_seeds(settings: &Settings) -> Result<(), String> {
+    match settings.first_seed.checked_add(settings.replicates) {
+        Some(end) if end <= LARGEST_SEED => Ok(()),
+        _ => Err(format!(
+            "the seeds would go beyond {LARGEST_SEED}, the largest one; begin with a lower one"
+        )),
     }
 }
 
@@ -104,7 +125,11 @@ impl Sweep {
         }
         let is_row = |pair: &[u64]| pair[0] + 1 == pair[1];
         let (Some(&first), true) = (self.seeds.first(), self.seeds.windows(2).all(is_row)) else {
-            return Err("refining needs seeds that follow each other".to_owned());
+            return Err(
+                "refining needs seeds that follow each other; give `seeds.first` and \
+                        `seeds.count`, or one --seed"
+                    .to_owned(),
+            );
         };
         if !self.border_seeds.is_empty() {
             return Err(entry::AT_BORDERS.to_owned());
@@ -115,6 +140,7 @@ impl Sweep {
             settings.replicates = self.seeds.len() as u64;
         }
         settings.first_seed = first;
+        check_seeds(&settings)?;
         self.refine_with(settings, true)
             .map_err(|error| error.to_string())
     }
@@ -131,34 +157,60 @@ impl Sweep {
             first_seed: first,
             ..refining.settings.clone()
         };
-        if first.saturating_add(settings.replicates) > LARGEST_SEED {
-            return Err(format!(
-                "the seeds would go beyond {LARGEST_SEED}, the largest one; begin with a lower one"
-            ));
-        }
+        check_seeds(&settings)?;
         self.refine_with(settings, false)
             .map_err(|error| error.to_string())
     }
 
-    /// Refines the sweep with these settings; `at_least_start` raises the budget to the number of
-    /// runs of the coarse grid.
-    fn refine_with(
-        &mut self,
-        mut settings: Settings,
-        at_least_start: bool,
-    ) -> Result<(), RefineError> {
+    /// Refines the sweep with these settings; `by_default` raises the budget to half as many runs
+    /// again as the coarse grid has, so that some are left for the borders.
+    fn refine_with(&mut self, mut settings: Settings, by_default: bool) -> Result<(), RefineError> {
         for axis in &mut self.axes {
             axis.values.sort_by(f64::total_cmp);
         }
         let lattice = self.lattice()?;
-        if at_least_start {
-            settings.budget = settings.budget.max(start(&lattice, &settings).len());
+        if by_default {
+            let coarse = start(&lattice, &settings).len();
+            settings.budget = settings.budget.max(coarse + coarse.div_ceil(2));
         }
         settings.check(self.axes.len())?;
         let first = settings.first_seed;
         self.seeds = (first..first.saturating_add(settings.replicates)).collect();
         self.refine = Some(Refining::new(settings, &lattice));
         Ok(())
+    }
+
+    /// Whether the runs and borders of a refined sweep that has been read lie on its axes.
+    ///
+    /// # Errors
+    /// Why they do not.
+    pub(in crate::sweep) fn check_refining(&self) -> Result<(), String> {
+        let Some(refining) = &self.refine else {
+            return Ok(());
+        };
+        self.lattice().map_err(|error| error.to_string())?;
+        let axes = self.axes.len();
+        let Refining {
+            given,
+            chosen,
+            failed,
+            widths,
+            ..
+        } = refining;
+        let mut runs = [given, chosen, failed].into_iter().flatten();
+        if let Some(run) = runs.find(|run| run.values.len() != axes) {
+            let values = run.values.len();
+            return Err(format!(
+                "a run of `refine` has {values} values, but there are {axes} axes"
+            ));
+        }
+        match widths.iter().find(|width| width.axis >= axes) {
+            Some(width) => Err(format!(
+                "a border of `refine` is along axis {} of {axes}, counted from 0",
+                width.axis
+            )),
+            None => Ok(()),
+        }
     }
 
     /// The axes along which borders are crossed: the vertical one of the diagram first.

@@ -33,6 +33,8 @@ pub struct Refinement {
 pub enum Step {
     /// These jobs of the round are run.
     Run(Vec<Job>),
+    /// All runs of the round are there already: the next one is chosen.
+    Known,
     /// Nothing.
     Finished(Finish),
 }
@@ -104,11 +106,10 @@ impl Refinement {
         self.label(folder, sweep, &done, workers)?;
         let stored = folder.read_sweep().ok();
         let goes_on = stored.filter(|stored| stored.is_refined_like(sweep));
-        let given = match goes_on.and_then(|stored| stored.refine) {
-            Some(stored) => {
-                self.refining.seeds_there = stored.seeds_there;
-                stored.given
-            }
+        let goes_on = goes_on.and_then(|stored| stored.refine);
+        let given = match goes_on.filter(|stored| stored.seeds_there.is_none()) {
+            Some(stored) => stored.given,
+            // With another budget the runs of a whole grid may be given after all.
             None => {
                 let seeds: Vec<u64> = self.known.iter().map(|(run, _)| run.seed).collect();
                 self.refining.seeds_there = sweep.seeds_of_whole_grid(&seeds);
@@ -166,32 +167,31 @@ impl Refinement {
     /// # Errors
     /// If a point cannot be run.
     pub fn next_step(&mut self, sweep: &mut Sweep) -> Result<Step, RefinementError> {
-        loop {
-            let round = match self.round()? {
-                Ok(round) => round,
-                Err(finish) => {
-                    self.map()?;
-                    sweep.refine = Some(self.refining.clone());
-                    return Ok(Step::Finished(finish));
-                }
-            };
-            self.rounds += 1;
-            let mut open = Vec::new();
-            for run in round {
-                match self.known.label(&run) {
-                    Some(label) => {
-                        self.runs.add(run.clone(), label)?;
-                        self.map = None;
-                    }
-                    None => open.push(run.clone()),
-                }
-                self.refining.chosen.push(run);
-            }
-            if !open.is_empty() {
+        let round = match self.round()? {
+            Ok(round) => round,
+            Err(finish) => {
+                self.map()?;
                 sweep.refine = Some(self.refining.clone());
-                return Ok(Step::Run(sweep.jobs_of_runs(&open)?));
+                return Ok(Step::Finished(finish));
             }
+        };
+        self.rounds += 1;
+        let mut open = Vec::new();
+        for run in round {
+            match self.known.label(&run) {
+                Some(label) => {
+                    self.runs.add(run.clone(), label)?;
+                    self.map = None;
+                }
+                None => open.push(run.clone()),
+            }
+            self.refining.chosen.push(run);
         }
+        if open.is_empty() {
+            return Ok(Step::Known);
+        }
+        sweep.refine = Some(self.refining.clone());
+        Ok(Step::Run(sweep.jobs_of_runs(&open)?))
     }
 
     /// The next round, or why there is none.
@@ -296,14 +296,25 @@ impl Refinement {
 }
 
 impl Sweep {
-    /// The jobs of a refined sweep that its folder has a record or a kept label of, if all of them
-    /// are given: none if refining chooses among those of a whole grid. None of another sweep.
+    /// The jobs that a refined sweep is sure to have, of those that its folder has a record or a
+    /// kept label of: all of them, as they are given; but none if refining chooses among those of
+    /// a whole grid. Where it goes on, those that it began with, and those that it chose if it does
+    /// not end earlier now. None of another sweep.
     ///
     /// # Errors
     /// If a point cannot be run.
     pub fn jobs_given_by(&self, folder: &Folder) -> Result<Vec<Job>, PointError> {
-        if self.refine.is_none() {
+        let Some(refining) = &self.refine else {
             return Ok(Vec::new());
+        };
+        let stored = folder.read_sweep().ok();
+        let goes_on = stored.filter(|stored| stored.is_refined_like(self));
+        let goes_on = goes_on.and_then(|stored| stored.refine);
+        if let Some(stored) = goes_on.filter(|stored| stored.seeds_there.is_none()) {
+            return self.jobs_of_runs(&match refining.ends_before(&stored) {
+                true => stored.given,
+                false => stored.runs(),
+            });
         }
         let mut jobs = jobs_with_records(folder, self)?;
         let seeds: Vec<u64> = jobs.iter().map(|job| job.seed).collect();

@@ -5,7 +5,9 @@ use std::path::Path;
 const SPHERES: [(u64, [f64; 3]); 2] = [(7, [0.5, -1.0, 2.0]), (3, [-0.5, 1.0, 4.0])];
 
 fn read_of(bytes: &[u8]) -> Result<Vec<(u64, [f64; 3])>, String> {
-    read(Path::new("a.vtk"), bytes).map_err(|error| error.to_string())
+    read(Path::new("a.vtk"), bytes)
+        .map(|spheres| spheres.all)
+        .map_err(|error| error.to_string())
 }
 
 /// As LIGGGHTS writes dumps.

@@ -161,7 +161,9 @@ impl Variant {
 }
 
 fn read_of(bytes: &[u8]) -> Result<Vec<(u64, [f64; 3])>, String> {
-    read(Path::new("a.vtp"), bytes).map_err(|error| error.to_string())
+    read(Path::new("a.vtp"), bytes)
+        .map(|spheres| spheres.all)
+        .map_err(|error| error.to_string())
 }
 
 #[test]
