@@ -8,6 +8,7 @@ use super::exit::{Exit, Failure};
 use super::job::NamedJob;
 use super::{classify, format, interrupt, plot, refined, time_step};
 use phase::resume::DEFAULT_INTERVAL;
+use phase::store;
 use phase::sweep::{
     Folder, FolderError, Job, Plan, Refining, Sweep, differing_keys, refuse_to_lose_labels, work,
 };

@@ -39,7 +39,10 @@ fn lammps_dump(record: &RunRecord, time: impl Fn(f64) -> String) -> String {
 }
 
 fn with_time(time: f64) -> String {
-    format!("ITEM: TIMESTEP\n{}\nITEM: TIME\n{time}\n", 5000.0 + time)
+    format!(
+        "ITEM: TIMESTEP\n{}\nITEM: TIME\n{time}\n",
+        5000.0 + 10.0 * time
+    )
 }
 
 fn assert_equal(place: &Workplace, one: &str, other: &str) {

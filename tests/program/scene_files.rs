@@ -266,10 +266,10 @@ fn a_table_of_refining_says_how() {
     assert_eq!(sweep.jobs().unwrap().len(), 12);
 }
 
-/// A tenth of the points, but no less than the coarse grid.
+/// A tenth of the points, but no less than half as many again as the coarse grid.
 #[test]
 fn a_budget_that_is_not_given_follows_the_grid() {
-    for (count, budget) in [(11, 36), (41, 169)] {
+    for (count, budget) in [(11, 54), (41, 169)] {
         let text = format!(
             "scene = 'tank.toml'
             [[axis]]\nkey = 'omega'\nfrom = 0.0\nto = 40.0\ncount = {count}

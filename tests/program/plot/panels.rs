@@ -216,9 +216,20 @@ fn a_refined_map_shows_borders_bands_runs_and_the_critical_rotation() {
             .iter()
             .any(|it| it.starts_with("critical rotation"))
     );
-    // A dot and its rim for each point with a run, and for the legend.
-    let dots = svg.lines().filter(|line| line.starts_with("<circle"));
-    assert_eq!(dots.count(), 2 * (table.points().len() + 1));
+    // A black dot with a white rim for each point with a run and for the legend; those whose label is
+    // not the most probable one there are a ring about their own colour.
+    assert!(has(&svg, "run of another label"), "{:?}", texts(&svg));
+    let dots = |color: &str| {
+        let fill = format!("fill=\"{color}\"");
+        let circles = svg.lines().filter(|line| line.starts_with("<circle"));
+        circles.filter(|line| line.contains(&fill)).count()
+    };
+    let (all, runs) = (
+        svg.lines().filter(|it| it.starts_with("<circle")),
+        table.points().len(),
+    );
+    assert_eq!([dots("#000000"), dots("#FFFFFF")], [runs + 2; 2]);
+    assert!((2..8).contains(&(all.count() - 2 * (runs + 2))));
 }
 
 /// Symptom: a refined map did not show which of its runs were not steady. Cause: only the phase

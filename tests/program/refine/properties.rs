@@ -207,8 +207,10 @@ fn more_runs_make_bands_narrower() {
         of_all / borders.crossings.len() as f64
     };
     let widths = [36, 80, 140].map(width);
+    // The narrowest take 95 % of a step of the grid.
+    let step = 1.0 / 23.0;
     assert!(
-        widths[0] > 1.2 * widths[1] && widths[1] > 1.2 * widths[2],
+        widths[0] > 1.2 * widths[1] && widths[1] > 1.1 * widths[2] && widths[2] < step,
         "{widths:?}"
     );
 }
