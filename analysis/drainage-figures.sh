@@ -67,7 +67,8 @@ full=(dem="wall friction 0.5" dem-wall0.3="wall friction 0.3" dem-wall0.2="wall 
 figures walls velocity-profile 40,120 "${full[@]}"
 folder=$fidelity figures fidelity cost-error 5,30 fidelity-0="discrete elements, Δt = 10⁻⁴ τ" \
     fidelity-1="4 times the step" fidelity-2="spots, every move" fidelity-3="1 in 10" fidelity-4="every 10th" \
-    fidelity-5="1 in 100" fidelity-6="all, k = 1" fidelity-7="all, k = 10" fidelity-8="never"
+    fidelity-5="1 in 100" fidelity-6="all, k = 1" fidelity-7="all, k = 10" fidelity-8="never" \
+    fidelity-9="fitted, every move" fidelity-10="fitted, k = 1"
 
 table pair 40,120 "${pair[@]}"
 table relaxation 40,160 "${relaxation[@]}" "${others[@]}" "${never[@]}"
