@@ -129,8 +129,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.result(line);
     }
     console.note(
-        "intervals tell the scatter within this run, not what the procedure is off by: see the fits \
-         of spots whose parameters are known in analysis/spot.md of the project",
+        "intervals tell the scatter within this run, not what the procedure is off by: \
+         analysis/spot.md of the project has fits of spots whose parameters are known",
     );
     if let Some(path) = &arguments.out {
         let text = scene(&drainage, &fit);
