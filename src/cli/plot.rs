@@ -28,7 +28,9 @@ Example: the paths of the spheres in one record, which needs `trajectory = true`
 Example: where the energy went, in a record of `phase run --ledger`; energies and speeds of any
   phase plot tank.h5 --figure ledger,energies,speeds --out figures
 Example: two drainages in one figure, from when the flow has developed
-  phase plot full.h5 coarse.h5 --figure radial-distribution --times 40,200 --out figures")]
+  phase plot full.h5 coarse.h5 --figure radial-distribution --times 40,200 --out figures
+Example: a drainage beside points of a paper
+  phase plot full.h5 --figure cross-profile --times 80,180 --data paper.csv")]
 pub(crate) struct Arguments {
     /// A results folder of `phase sweep`, a folder that holds several, or a record (.h5); or
     /// several records, for figures that show them beside each other. Beside records there may be
@@ -51,6 +53,11 @@ pub(crate) struct Arguments {
     /// The scene of files of other programs [default: that of the first record].
     #[arg(long, value_name = "TOML")]
     scene: Option<PathBuf>,
+    /// Points of another source to show beside records, such as a figure of a paper (CSV: place and
+    /// value in the units of the axes, and if you like the half width of an interval); may be given
+    /// several times. Its file names it.
+    #[arg(long, value_name = "CSV", requires = "figure")]
+    data: Vec<PathBuf>,
     /// Folder for the figures [default: the results folder, or that of the record].
     #[arg(short, long, value_name = "DIR", conflicts_with = "list")]
     out: Option<PathBuf>,
@@ -125,6 +132,12 @@ impl Arguments {
             return Err(Failure::refused(
                 "--scene is for files of other programs: a folder has that of its sweep",
             ));
+        }
+        if let Some(data) = self.data.first().filter(|_| is_one_folder) {
+            return Err(Failure::refused(format_args!(
+                "--data {}: it is shown beside records, not in figures of a folder",
+                data.display()
+            )));
         }
         if self.times.is_some() && is_one_folder && self.figure.is_empty() {
             return Err(Failure::refused(
@@ -307,6 +320,7 @@ fn print_fits(
         points: &[],
         times: None,
         captions: &[],
+        data: &[],
         program: &program,
     });
     let entries = lines
@@ -376,6 +390,7 @@ pub(super) fn draw_round(
             points: &[],
             times: None,
             captions: &[],
+            data: &[],
             program: &Program::current(),
         },
     );
@@ -407,6 +422,7 @@ fn draw(
             points,
             times,
             captions: &[],
+            data: &[],
             program: &program,
         },
     );

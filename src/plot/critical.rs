@@ -179,6 +179,7 @@ mod tests {
             points: &[],
             times: None,
             captions: &[],
+            data: &[],
             program: &Program::current(),
         })
         .unwrap();

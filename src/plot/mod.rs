@@ -57,7 +57,7 @@ use crate::classify::Family;
 use crate::classify::LabelTable;
 use crate::record::{Program, RunRecord};
 use crate::refine::RefineError;
-use crate::store::StoreError;
+use crate::store::{DataSet, StoreError};
 use crate::sweep::{SelectError, Sweep};
 
 /// What figures are drawn from: tables and records, never simulations.
@@ -77,6 +77,8 @@ pub struct Source<'a> {
     /// What names each run of the table in figures of single runs, all of which are shown then.
     /// Empty for runs that their places in the sweep name.
     pub captions: &'a [Vec<String>],
+    /// Curves of other sources beside those of the runs, in figures of lines.
+    pub data: &'a [DataSet],
     /// What goes into the file's metadata.
     pub program: &'a Program,
 }
@@ -98,6 +100,11 @@ trait Figure: Sync {
     /// The families of scenes that it is for; none for all.
     fn families(&self) -> Vec<&'static Family> {
         Vec::new()
+    }
+
+    /// Whether it shows curves of other sources beside those of the runs.
+    fn takes_data(&self) -> bool {
+        false
     }
 
     /// Draws it.
@@ -189,14 +196,17 @@ pub fn draw(name: &str, source: &Source<'_>) -> Result<Svg, PlotError> {
     if figure.default_runs().is_none() && !source.points.is_empty() {
         return Err(PlotError::NoPoints(figure.name().to_owned()));
     }
-    draw_at_times(*figure, source)
+    draw_with_options(*figure, source)
 }
 
-/// Draws a figure, unless times are asked for that it does not look at.
-fn draw_at_times(figure: &dyn Figure, source: &Source<'_>) -> Result<Svg, PlotError> {
+/// Draws a figure, unless times or data are given that it does not look at.
+fn draw_with_options(figure: &dyn Figure, source: &Source<'_>) -> Result<Svg, PlotError> {
     let mut of_drainages = drainage::FIGURES.iter();
     if source.times.is_some() && !of_drainages.any(|it| it.name() == figure.name()) {
         return Err(PlotError::NoTimes(figure.name()));
+    }
+    if !source.data.is_empty() && !figure.takes_data() {
+        return Err(PlotError::NoData(figure.name()));
     }
     figure.draw(source)
 }
@@ -273,6 +283,12 @@ pub enum PlotError {
     /// Times are asked for in a figure that has none to choose.
     #[error("the figure `{0}` looks at whole runs, so it takes no times; those of drainages do")]
     NoTimes(&'static str),
+    /// Data are given to a figure that shows none.
+    #[error(
+        "the figure `{0}` shows no data beside runs; figures of drainages do in which each run is a \
+         line, such as `outflow` and `cross-profile`"
+    )]
+    NoData(&'static str),
     /// The sweep has no such point.
     #[error(transparent)]
     Select(#[from] SelectError),
@@ -378,6 +394,7 @@ impl PlotError {
                 | Self::NeedsAxis { .. }
                 | Self::NoPoints(_)
                 | Self::NoTimes(_)
+                | Self::NoData(_)
                 | Self::NotRefined
                 | Self::Select(_)
                 | Self::OpenAxis { .. }

@@ -1,10 +1,11 @@
 //! Figures of single runs, drawn of records without a sweep.
 
-use super::{PlotError, Source, Svg, all, captions as names, draw_at_times, text};
+use super::{PlotError, Source, Svg, all, captions as names, draw_with_options, text};
 use crate::classify::{Family, Label, Sieves, Verdict, classify};
 use crate::classify::{LabelRow, LabelTable};
 use crate::record::RunRecord;
 use crate::scene::Scene;
+use crate::store::DataSet;
 use crate::sweep::{PlotSettings, Sweep};
 
 /// Draws the figure `name`, one of those that take points, of records of one family, one or more.
@@ -12,6 +13,7 @@ use crate::sweep::{PlotSettings, Sweep};
 ///
 /// * `labels`: what names them instead; none for the keys
 /// * `times`: first and last time (s) of the states that count, as of [`Source::times`]
+/// * `data`: curves of other sources beside them
 ///
 /// # Errors
 /// Those of [`draw`](super::draw); [`PlotError::Families`] for records of several families.
@@ -20,6 +22,7 @@ pub fn draw_records(
     records: &[RunRecord],
     times: Option<[f64; 2]>,
     labels: &[String],
+    data: &[DataSet],
 ) -> Result<Svg, PlotError> {
     let Some(first) = records.first() else {
         return Err(PlotError::EmptyTable);
@@ -80,12 +83,13 @@ pub fn draw_records(
         points: &[],
         times,
         captions: &captions,
+        data,
         program: &first.program,
     };
     let figures = all().into_iter();
     let mut figures = figures.filter(|figure| figure.default_runs().is_some());
     match figures.find(|figure| figure.name() == name) {
-        Some(figure) => draw_at_times(figure, &source),
+        Some(figure) => draw_with_options(figure, &source),
         None => Err(PlotError::NoPoints(name.to_owned())),
     }
 }

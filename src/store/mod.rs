@@ -5,6 +5,7 @@
 
 mod atomic;
 mod checkpoint;
+mod data_set;
 mod dump;
 mod export;
 mod hashed;
@@ -20,6 +21,7 @@ pub use atomic::{remove_leftovers, write_atomic};
 pub use checkpoint::{
     CHECKPOINT_SIGNATURE, Checkpoint, CheckpointError, read_checkpoint, write_checkpoint,
 };
+pub use data_set::{DataSet, read_data_set};
 pub use dump::{DumpName, read_dump, write_dump};
 pub use export::{
     PAGE_SIGNATURE, SPHERES_SIGNATURE, frame_name, write_arrays, write_fixed, write_fixed_xyz,

@@ -125,6 +125,34 @@ fn what_other_programs_write_is_measured_alike() {
     );
 }
 
+#[test]
+fn points_of_a_paper_are_shown_beside_a_record() {
+    let (place, _) = drained();
+    place.write("paper.csv", "time,left,half\n1,20,5\n2,70,8\n3.5,150,10\n");
+    let plot = |figure: &str, more: &[&str]| {
+        let arguments = ["plot", "run.h5", "--figure", figure, "--name", figure];
+        place.phase(&[&arguments[..], &["--data", "paper.csv"], more].concat())
+    };
+    plot("outflow", &[]).code(0);
+    let svg = place.read("outflow-outflow.svg");
+    assert!(svg.contains(">paper<"), "no entry in the legend");
+    let alone = ["plot", "run.h5", "--figure", "outflow", "--name", "alone"];
+    place.phase(&alone).code(0);
+    let marks = |name: &str| place.read(name).matches("<circle").count();
+    assert!(marks("outflow-outflow.svg") >= marks("alone-outflow.svg") + 3);
+    plot("packing-map", &[])
+        .code(2)
+        .complains("the figure `packing-map` shows no data beside runs");
+    place.write("paper.csv", "1,20\n2,many\n");
+    plot("outflow", &[])
+        .code(2)
+        .complains("paper.csv:2: `many` is not a finite number");
+    place
+        .phase(&["plot", ".", "--figure", "phase", "--data", "paper.csv"])
+        .code(2)
+        .complains("beside records");
+}
+
 /// Symptom: steps of a dump beside a record of spots were taken as frames of that, and the outflow
 /// was 0.03 in place of 67.
 #[test]

@@ -77,6 +77,7 @@ pub(crate) fn source<'a>(
         points: &[],
         times: None,
         captions: &[],
+        data: &[],
         program,
     }
 }

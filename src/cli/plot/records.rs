@@ -7,7 +7,7 @@ use crate::cli::{folders, runs};
 use phase::classify::{DRAINAGE, Family};
 use phase::plot::{self, About, PlotError, Svg};
 use phase::record::RunRecord;
-use phase::store;
+use phase::store::{self, DataSet};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -98,6 +98,8 @@ pub(super) fn draw(
     let (Some(first), Some(record)) = (paths.first(), records.first()) else {
         return Ok(());
     };
+    let data = arguments.data.iter().map(|path| store::read_data_set(path));
+    let data: Vec<DataSet> = data.collect::<Result<_, _>>().map_err(Failure::refused)?;
     let names = names(record, arguments)?;
     let beside = first.parent().unwrap_or(Path::new(""));
     let folder = arguments.out.as_deref().unwrap_or(beside);
@@ -121,9 +123,13 @@ pub(super) fn draw(
             (Some(figure), [_]) if arguments.times.is_some() => {
                 Err(PlotError::NoTimes(figure.name))
             }
+            (Some(figure), [_]) if !data.is_empty() => Err(PlotError::NoData(figure.name)),
             (Some(figure), [record]) => (figure.draw)(record),
             (Some(figure), _) => return Err(takes_one(figure.name)),
-            (None, _) => plot::draw_records(name, &records, arguments.times, &arguments.labels),
+            (None, _) => {
+                let Arguments { times, labels, .. } = arguments;
+                plot::draw_records(name, &records, *times, labels, &data)
+            }
         };
         match image {
             Err(

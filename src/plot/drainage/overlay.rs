@@ -9,6 +9,7 @@ use crate::plot::style::px;
 use crate::plot::svg::Svg;
 use crate::plot::{Figure, PlotError, Source, palette};
 use crate::scene::Units;
+use crate::store::DataSet;
 use plotters::style::RGBColor;
 
 /// A figure in which each run is a line in one panel or several.
@@ -102,12 +103,17 @@ impl Figure for Overlay {
         vec![&DRAINAGE]
     }
 
+    fn takes_data(&self) -> bool {
+        true
+    }
+
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
         let mut first = None;
-        let (common, shown) = each(source, self.name, |place, drainage| {
+        let (common, mut shown) = each(source, self.name, |place, drainage| {
             first.get_or_insert_with(|| ((self.guides)(drainage), drainage.units()));
             (place, (self.lines)(drainage))
         })?;
+        shown.extend(source.data.iter().map(|data| self.of_data(data)));
         let (guides, units) = first.unwrap_or((Vec::new(), Units::Si));
         let panels = self.panels.iter().enumerate();
         let mut panels: Vec<Panel> = panels
@@ -149,6 +155,16 @@ impl Figure for Overlay {
 }
 
 impl Overlay {
+    /// What data of another source show: a line in the first panel.
+    fn of_data(&self, data: &DataSet) -> (Vec<String>, Lines) {
+        let mut curves = vec![Curve::default(); self.panels.len()];
+        if let Some(curve) = curves.first_mut() {
+            curve.points.clone_from(&data.points);
+            curve.half_widths.clone_from(&data.half_widths);
+        }
+        (vec![data.name.clone()], Lines { curves, word: None })
+    }
+
     /// Gives panels of one kind the same axes, as far as the lines of all of them go.
     fn align(&self, panels: &mut [Panel]) {
         let frames = self.panels.iter().zip(panels.iter());

@@ -132,6 +132,7 @@ impl Tank {
             points: &points,
             times: None,
             captions: &[],
+            data: &[],
             program: &Program::current(),
         };
         plot::draw(name, &source)

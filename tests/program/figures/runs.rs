@@ -199,6 +199,7 @@ fn a_missing_record_is_named() {
         points: &[parse_point("radius=0.002,omega=2,seed=2").unwrap()],
         times: None,
         captions: &[],
+        data: &[],
         program: &Program::current(),
     };
     let error = plot::draw("energies", &source).unwrap_err();
