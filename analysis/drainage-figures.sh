@@ -62,9 +62,7 @@ figures pair velocity-profile,cross-profile 80,180 "${pair[@]}"
 figures pair mixing,diffusion,velocity-correlation,retention,residence 40,120 "${pair[@]}"
 figures pair packing-map 20,120 "${pair[@]}" newest="spots, newest first"
 figures walls cross-profile 5,30 wall0.1="wall friction 0.1" wall0.3="0.3" dt4="0.5" wall0.7="0.7" wall0.9="0.9"
-full=(dem="wall friction 0.5" dem-wall0.3="wall friction 0.3" dem-wall0.2="wall friction 0.2"
-    dem-wall0.1="wall friction 0.1")
-figures walls velocity-profile 40,120 "${full[@]}"
+figures walls velocity-profile 40,120 dem="wall friction 0.5" dem-wall0.3="wall friction 0.3" dem-wall0.1="wall friction 0.1"
 folder=$fidelity figures fidelity cost-error 5,30 fidelity-0="discrete elements, Δt = 10⁻⁴ τ" \
     fidelity-1="4 times the step" fidelity-2="spots, every move" fidelity-3="1 in 10" fidelity-4="every 10th" \
     fidelity-5="1 in 100" fidelity-6="all, k = 1" fidelity-7="all, k = 10" fidelity-8="never" \
@@ -75,7 +73,8 @@ table relaxation 40,160 "${relaxation[@]}" "${others[@]}" "${never[@]}"
 table steps 5,30 dt1="step 1e-4" dt2="step 2e-4" dt4="step 4e-4" dt8="step 8e-4" seed2="step 4e-4, seed 2"
 table walls 5,30 wall0.1="wall friction 0.1" wall0.3="wall friction 0.3" dt4="wall friction 0.5" \
     wall0.7="wall friction 0.7" wall0.9="wall friction 0.9"
-table walls-full 40,120 "${full[@]}"
+table walls-full 40,120 dem="wall friction 0.5" dem-wall0.3="wall friction 0.3" \
+    dem-wall0.2="wall friction 0.2" dem-wall0.1="wall friction 0.1"
 "$phase" fit "$folder/dem.h5" --times 40,120
 picture pair-layers "--color layer --time 0,60,120 --since-opening --width 170" "${pair[@]}"
 surfaces=(walk1="bias 1" walk="bias 3" bias1="bias 1, weighted" bias3="bias 3, weighted")
