@@ -13,7 +13,7 @@ pub(super) struct Answer {
     runs: usize,
     budget: usize,
     /// Why no more runs are made; none while more are.
-    end: Option<&'static str>,
+    end: Option<Finish>,
     borders: Vec<Border>,
 }
 
@@ -29,7 +29,7 @@ struct Border {
 
 impl Answer {
     /// That of a sweep, if it is refined, with this number of runs.
-    pub(super) fn new(sweep: &Sweep, runs: usize, end: Option<Finish>) -> Option<Self> {
+    pub(super) fn new(sweep: &Sweep, runs: usize) -> Option<Self> {
         let refining = sweep.refine.as_ref()?;
         let family = Family::of(&sweep.scene);
         let border = |width: &Width| Border {
@@ -42,11 +42,7 @@ impl Answer {
         Some(Self {
             runs,
             budget: refining.settings.budget,
-            end: end.map(|end| match end {
-                Finish::Budget => "budget",
-                Finish::Width => "width",
-                Finish::Complete => "complete",
-            }),
+            end: refining.end,
             borders: refining.widths.iter().map(border).collect(),
         })
     }

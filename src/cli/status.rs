@@ -4,6 +4,7 @@ use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::job::{self, NamedJob};
 use super::{format, refined};
+use phase::refine::Finish;
 use phase::sweep::{Axis, Folder, Plan, Status, Sweep, UnderWay, describe, work};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -54,7 +55,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             workers: workers.min(status.left.max(1)),
             seconds_left: seconds_left(&status, workers),
             running: status.running,
-            refined: refined::Answer::new(&sweep, status.done + status.failures.len(), None),
+            refined: refined::Answer::new(&sweep, status.done + status.failures.len()),
         });
     }
     console.answer(&Answer { folders });
@@ -73,7 +74,15 @@ fn describe_refined(sweep: &Sweep, status: &Status, workers: usize) -> Vec<Strin
         format::count(runs, "run"),
         format::count(refining.widths.len(), "border")
     )];
-    let more = budget.saturating_sub(runs);
+    // A larger budget may stand in the file by now, but has not been spent.
+    let end = refining
+        .end
+        .filter(|end| *end != Finish::Budget || runs >= budget);
+    lines.extend(end.map(|end| format!("  ended      {}", refined::describe_end(refining, end))));
+    let more = match end {
+        Some(_) => 0,
+        None => budget.saturating_sub(runs),
+    };
     if let Some(seconds) = status.cpu_seconds_per_job.filter(|_| more > 0) {
         let workers = workers.min(more);
         lines.push(format!(

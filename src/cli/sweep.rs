@@ -149,7 +149,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     run.print(&plan, &sweep, console)?;
     let jobs: Vec<Job> = plan.jobs.iter().map(|(job, _)| job.clone()).collect();
     let mut answer = Answer::new(&folder, &plan, &sweep, &run);
-    answer.refined = refined.and_then(|it| refined::Answer::new(&sweep, it.runs, it.end));
+    answer.refined = refined.and_then(|runs| refined::Answer::new(&sweep, runs));
 
     if stop.load(Ordering::Relaxed) {
         console.note(format_args!(

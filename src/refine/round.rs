@@ -3,9 +3,11 @@
 use super::choice::{Candidates, Choice};
 use super::observations::Training;
 use super::{Lattice, Observations, ProbabilityMap, RefineError, Run, Settings, widths};
+use serde::{Deserialize, Serialize};
 
 /// Why no more runs are made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Finish {
     /// The budget of runs is spent.
     Budget,

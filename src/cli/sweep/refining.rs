@@ -13,18 +13,10 @@ use std::time::{Duration, Instant};
 /// Time between two notes while rounds are chosen.
 const BETWEEN_NOTES: Duration = Duration::from_secs(5);
 
-/// What became of a refined sweep.
-pub(super) struct Refined {
-    /// Runs that have been learnt from.
-    pub(super) runs: usize,
-    /// Why no more runs are made; none if it was stopped.
-    pub(super) end: Option<Finish>,
-}
-
 impl Rounds<'_> {
-    /// Runs the rounds, and puts the runs into the sweep. Gives the plan of all its jobs, and what
-    /// was run.
-    pub(super) fn refine(&self, sweep: &mut Sweep) -> Result<(Plan, Run, Refined), Failure> {
+    /// Runs the rounds, and puts the runs into the sweep. Gives the plan of all its jobs, what was
+    /// run, and the number of runs that have been learnt from.
+    pub(super) fn refine(&self, sweep: &mut Sweep) -> Result<(Plan, Run, usize), Failure> {
         let Rounds {
             folder,
             workers,
@@ -88,8 +80,7 @@ impl Rounds<'_> {
         self.tell_of_end(sweep, &refinement, end);
         let done_before = plan.labelled().count().saturating_sub(run.report.finished);
         let run = Run { done_before, ..run };
-        let runs = refinement.runs();
-        Ok((plan, run, Refined { runs, end }))
+        Ok((plan, run, refinement.runs()))
     }
 
     /// Says now and then how far the choosing of rounds is whose runs are there already.

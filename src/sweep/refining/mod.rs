@@ -12,7 +12,7 @@ pub use refinement::{Refinement, RefinementError, Step};
 
 use super::Sweep;
 use super::job::{Job, PointError};
-use crate::refine::{Lattice, RefineError, Run, Settings, Width, start};
+use crate::refine::{Finish, Lattice, RefineError, Run, Settings, Width, start};
 use crate::scene::LARGEST_SEED;
 use serde::{Deserialize, Serialize};
 
@@ -36,6 +36,9 @@ pub struct Refining {
     /// How well each pair of neighbouring labels is told apart, after the last round that is done.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub widths: Vec<Width>,
+    /// Why no more runs are made; none while more are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub end: Option<Finish>,
 }
 
 impl Refining {
@@ -47,6 +50,7 @@ impl Refining {
             chosen: start(lattice, &settings),
             failed: Vec::new(),
             widths: Vec::new(),
+            end: None,
             settings,
         }
     }
@@ -68,6 +72,7 @@ impl Refining {
             chosen: Vec::new(),
             failed: Vec::new(),
             widths: Vec::new(),
+            end: None,
         }
     }
 

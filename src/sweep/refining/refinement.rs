@@ -171,6 +171,7 @@ impl Refinement {
             Ok(round) => round,
             Err(finish) => {
                 self.map()?;
+                self.refining.end = Some(finish);
                 sweep.refine = Some(self.refining.clone());
                 return Ok(Step::Finished(finish));
             }

@@ -159,6 +159,7 @@ fn the_status_says_how_wide_borders_are() {
     status
         .says("14 jobs, 14 done, 0 failed, 0 left")
         .says("refined    14 runs of at most 14, ")
+        .says("ended      the budget of 14 runs is spent")
         .says("to pinned: 95 % band over ");
     place
         .phase(&["check", "tiny.toml", "--no-trial"])
