@@ -412,7 +412,7 @@ fn a_refined_sweep_answers_in_json() {
     assert_eq!(border["labels"][1], "pinned", "{swept}");
     let status = answer(&place, &["status", "results/tiny"], 0);
     let folder = &status["folders"][0]["refined"];
-    assert_eq!(folder["end"], Value::Null);
+    assert_eq!(folder["end"], "budget");
     assert_eq!(folder["borders"], refined["borders"]);
 }
 
