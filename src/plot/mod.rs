@@ -285,8 +285,8 @@ pub enum PlotError {
     NoTimes(&'static str),
     /// Data are given to a figure that shows none.
     #[error(
-        "the figure `{0}` shows no data beside runs; figures of drainages do in which each run is a \
-         line, such as `outflow` and `cross-profile`"
+        "the figure `{0}` shows no data beside runs; figures of drainages do in which each run is \
+         a line, such as `outflow` and `cross-profile`"
     )]
     NoData(&'static str),
     /// The sweep has no such point.

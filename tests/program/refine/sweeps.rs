@@ -4,6 +4,7 @@ use crate::support::{TinySweep, Workplace, wait_until};
 use phase::classify::{LabelTable, TANK};
 use phase::refine::Finish;
 use phase::sweep::{FAILED, Folder, Learnt, Refinement, Step, Sweep};
+use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -331,14 +332,17 @@ fn a_budget_beyond_the_whole_grid_runs_more_seeds() {
     assert_eq!(content(&place, "results"), content(&place, "other"));
 }
 
+/// What is done to a document.
+type Edit = fn(&mut Value);
+
 /// Symptom: `phase status` panicked on a sweep.json of which an axis had been removed.
 #[test]
 fn a_sweep_whose_runs_do_not_lie_on_its_axes_is_refused() {
     let place = Workplace::new();
     bare(&place, &tiny(2.0, REFINE), "results", &[]);
     let text = place.read("results/sweep.json");
-    let sweep: serde_json::Value = serde_json::from_str(&text).unwrap();
-    let edits: [(&str, fn(&mut serde_json::Value)); 3] = [
+    let sweep: Value = serde_json::from_str(&text).unwrap();
+    let edits: [(&str, Edit); 3] = [
         ("along axis 7 of 2", |it| {
             it["refine"]["widths"][0]["axis"] = 7.into();
         }),
