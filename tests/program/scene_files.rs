@@ -132,7 +132,7 @@ fn shipped_sweeps_have_the_grids_they_promise() {
     for (name, points, budget) in [
         ("theoretical-refined", 41 * 41, 116),
         ("theoretical-density", 41 * 41 * 9, 400),
-        ("realistic-refined", 41 * 41, 116),
+        ("realistic-refined", 41 * 41, 84),
         ("steel-refined", 9 * 9, 187),
         ("spot-refined", 21 * 37, 72),
     ] {
