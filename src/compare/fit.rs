@@ -14,7 +14,7 @@ const STEP: f64 = 0.1;
 const HEIGHTS: [f64; 2] = [0.14, 0.54];
 /// The layer above them by which it is seen that the surface is higher, and the share of its
 /// spheres that have to be there.
-const ABOVE: ([f64; 2], f64) = ([0.54, 0.58], 0.5);
+const ABOVE: ([f64; 2], f64) = ([HEIGHTS[1], 0.58], 0.5);
 /// Parts of the depth over which the volume of spots within the walls is summed.
 const PARTS: u32 = 200;
 

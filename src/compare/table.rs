@@ -27,7 +27,7 @@ impl Row {
     }
 
     /// The second value less the first, of two; the interval is infinite if that of one is. Of one
-    /// run that is compared with itself there is none: nothing scatters.
+    /// run beside itself the interval is zero: nothing scatters.
     pub fn difference(&self, is_of_one_run: bool) -> Option<Estimate> {
         let [Some(first), Some(second)] = self.values[..] else {
             return None;

@@ -299,8 +299,8 @@ fn a_record_differs_by_nothing_from_itself() {
 }
 
 /// Two seeds differ by their spread. Of the 45 pairs of seeds 1 to 10 the intervals of differences
-/// held 0 in 446 of 450 numbers; of the 20 here more than 2 miss it in a thousandth of all choices of
-/// seeds, if numbers are independent.
+/// held 0 in 446 of 450 numbers; of the 20 here more than 2 miss it in a thousandth of all choices
+/// of seeds, if numbers are independent.
 #[test]
 fn two_seeds_of_a_drainage_differ_by_their_spread() {
     let place = Workplace::new();

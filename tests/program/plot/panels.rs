@@ -216,8 +216,8 @@ fn a_refined_map_shows_borders_bands_runs_and_the_critical_rotation() {
             .iter()
             .any(|it| it.starts_with("critical rotation"))
     );
-    // A black dot with a white rim for each point with a run and for the legend; those whose label is
-    // not the most probable one there are a ring about their own colour.
+    // A black dot with a white rim for each point with a run and for the legend; those whose label
+    // is not the most probable one there are a ring about their own colour.
     assert!(has(&svg, "run of another label"), "{:?}", texts(&svg));
     let circles = || svg.lines().filter(|line| line.starts_with("<circle"));
     let black = circles().filter(|line| line.contains("fill=\"#000000\""));
