@@ -12,7 +12,7 @@ use crate::cpu_time;
 use crate::forces::effects::Targets;
 use crate::particles::vector::Vector;
 use crate::particles::{Particles, Sphere};
-use crate::scene::{Driven, MOST_BESIDE_DRIVEN, Neighbours, Rolling, Scene, Start};
+use crate::scene::{Driven, Neighbours, Rolling, Scene, Start};
 use crate::simulation::{Counts, Instability, Milestone};
 use crate::start::{self, StartError};
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
@@ -94,13 +94,6 @@ impl Simulation {
                 feed = Some(Feed::new(waiting(&spheres, scene), interval));
             }
             _ => particles.append(spheres),
-        }
-        // Forces do not move what is driven.
-        for (sphere, _) in driven(scene, particles.fixed) {
-            particles.inverse_mass[sphere] = 0.0;
-            if particles.rotate() {
-                particles.inverse_inertia[sphere] = 0.0;
-            }
         }
         let present = particles.len() - particles.fixed;
         let process = Process::of_scene(scene, feed, present);
@@ -277,7 +270,7 @@ fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
             scene: scene.facts(),
         }),
         shielded: scene.dem.effects.updraught.is_some(),
-        driven: driven(scene, particles.fixed),
+        driven: driven(scene),
         rolling: scene.dem.rolling.as_ref().map(Rolling::law),
         limits: Limits::new(scene, particles),
         dt: scene.time.dt,
@@ -290,14 +283,11 @@ fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
     }
 }
 
-const _: () = assert!(MOST_BESIDE_DRIVEN < order::MANY);
-
-/// The driven spheres of a scene by their indices, after those that are fixed.
-fn driven(scene: &Scene, fixed: usize) -> Vec<(usize, Driven)> {
-    let paths = scene.dem.driven.iter();
+/// The paths of the driven spheres of a scene, in the order of the spheres.
+fn driven(scene: &Scene) -> Vec<Driven> {
+    let mut paths = scene.dem.driven.clone();
+    paths.sort_by_key(|path| path.sphere);
     paths
-        .map(|path| (fixed + path.sphere, path.clone()))
-        .collect()
 }
 
 /// Radii, masses and moments of inertia of the spheres that move.

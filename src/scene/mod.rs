@@ -36,7 +36,7 @@ pub use dem::{
     FixedSpheres, Friction, Geometry, Guards, Hertz, Hopper, LengthUnit, Linear, Mindlin,
     MindlinDeresiewicz, Neighbours, Outlet, Rest, Rolling, Silbert, SilbertFriction, Spin,
 };
-pub(crate) use dem::{MOST_BESIDE_DRIVEN, MOST_HOPPER_SPHERES};
+pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use file_kind::FileKind;
 pub use keys::Notation;
 pub(crate) use keys::leaf;

@@ -4,6 +4,7 @@
 //! under it. So a sphere that is pressed through it from above would go on below, and no overlap
 //! would tell.
 
+use super::Free;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 use crate::scene::{Scene, Tank};
@@ -35,11 +36,12 @@ impl FloorWatch {
     pub(super) fn check(
         &mut self,
         particles: &Particles,
+        free: &Free,
         step: u64,
         dt: f64,
     ) -> Result<(), Instability> {
         let mut below = BTreeSet::new();
-        for i in particles.fixed..particles.len() {
+        for i in free.indices(particles) {
             let centre = particles.position[i];
             if !(centre.z < self.height) {
                 continue;

@@ -4,6 +4,7 @@
 //! whose gap is too narrow even for the smallest grain are taken to form a wall, and no centre may
 //! cross the line between theirs.
 
+use super::Free;
 use crate::particles::Particles;
 use crate::scene::{FixedSphere, FixedSpheres, Scene, Shape};
 use crate::simulation::{Guard, Instability};
@@ -41,11 +42,13 @@ impl LeakWatch {
     pub(super) fn check(
         &mut self,
         particles: &Particles,
+        free: &Free,
         step: u64,
         dt: f64,
     ) -> Result<(), Instability> {
         let barrier = self.closed.as_ref().unwrap_or(&self.walls);
-        let mut discs: Vec<(u32, usize)> = (particles.fixed..particles.len())
+        let mut discs: Vec<(u32, usize)> = free
+            .indices(particles)
             .map(|i| (particles.number[i], i))
             .collect();
         discs.sort_unstable();

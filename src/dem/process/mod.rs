@@ -34,6 +34,7 @@ pub(super) struct Process {
     door: Option<Door>,
     rest: Option<RestWatch>,
     outlet: Option<f64>,
+    free: Free,
     leak: Option<LeakWatch>,
     floor: Option<FloorWatch>,
     milestones: Vec<Milestone>,
@@ -49,6 +50,37 @@ struct Door {
     spheres: std::ops::Range<usize>,
     /// Step at which it opens, if that does not depend on the spheres.
     step: Option<u64>,
+}
+
+/// Which spheres move freely. Driven ones keep to their paths: they leave no scene, pass walls as
+/// they are told, and are never at rest.
+pub(super) struct Free {
+    /// Numbers of the driven spheres, in order.
+    driven: Vec<u32>,
+    /// Number of free spheres of the scene.
+    count: usize,
+}
+
+impl Free {
+    fn of_scene(scene: &Scene) -> Self {
+        let driven = scene.dem.driven.iter().map(|path| path.sphere as u32);
+        let mut driven: Vec<u32> = driven.collect();
+        driven.sort_unstable();
+        Self {
+            count: scene.spheres.count - driven.len(),
+            driven,
+        }
+    }
+
+    fn is_free(&self, particles: &Particles, i: usize) -> bool {
+        let is_driven = self.driven.binary_search(&particles.number[i]).is_ok();
+        i >= particles.fixed && !is_driven
+    }
+
+    /// Indices of the free spheres that are in.
+    fn indices<'a>(&'a self, particles: &'a Particles) -> impl Iterator<Item = usize> + 'a {
+        (particles.fixed..particles.len()).filter(|&i| self.is_free(particles, i))
+    }
 }
 
 impl Process {
@@ -68,6 +100,7 @@ impl Process {
                 .map(|geometry| geometry.spheres());
             let fixed = fixed.unwrap_or_default();
             let walls = fixed.walls.len();
+            let free = Free::of_scene(scene);
             Self {
                 dt,
                 steps: ((INTERVAL / dt).round() as u64).max(1),
@@ -80,8 +113,9 @@ impl Process {
                     .dem
                     .rest
                     .as_ref()
-                    .map(|rest| RestWatch::new(rest, scene.spheres.count, dt)),
+                    .map(|rest| RestWatch::new(rest, free.count, dt)),
                 outlet: scene.outlet_height(),
+                free,
                 leak: LeakWatch::of_scene(scene, &fixed),
                 floor: FloorWatch::of_scene(scene),
                 milestones: Vec::new(),
@@ -153,14 +187,16 @@ impl Process {
             return Ok(());
         }
         if let Some(leak) = &mut self.leak {
-            leak.check(engine.particles(), step, self.dt)?;
+            leak.check(engine.particles(), &self.free, step, self.dt)?;
         }
         if let (Some(floor), None) = (&mut self.floor, &self.door) {
-            floor.check(engine.particles(), step, self.dt)?;
+            floor.check(engine.particles(), &self.free, step, self.dt)?;
         }
         self.discharge(engine);
         let at_rest = match &mut self.rest {
-            Some(rest) if self.feed.is_empty() => rest.since(engine.particles(), step),
+            Some(rest) if self.feed.is_empty() => {
+                rest.since(engine.particles(), &self.free, step)
+            }
             // Nothing is at rest before all spheres are in.
             Some(rest) => {
                 rest.reset();
@@ -185,7 +221,8 @@ impl Process {
     fn discharge(&mut self, engine: &mut dyn Engine) {
         let Some(height) = self.outlet else { return };
         let particles = engine.particles();
-        let is_in = |i: usize| i < particles.fixed || particles.position[i].z >= height;
+        let is_in =
+            |i: usize| particles.position[i].z >= height || !self.free.is_free(particles, i);
         let keep: Vec<bool> = (0..particles.len()).map(is_in).collect();
         let gone = keep.iter().filter(|keep| !**keep).count();
         if gone > 0 {
@@ -227,11 +264,11 @@ impl Process {
     }
 
     fn end(&mut self, particles: &Particles, step: u64, at_rest: Option<u64>) {
-        if !self.feed.is_empty() || self.ended {
+        // Where all spheres are driven, nothing can be over before its time.
+        if !self.feed.is_empty() || self.ended || self.free.count == 0 {
             return;
         }
-        let inside = particles.len() - particles.fixed;
-        if inside == 0 {
+        if self.free.indices(particles).next().is_none() {
             // A silo whose grains all fell beside it never held any.
             if self.door.is_none() {
                 self.note(step, MilestoneKind::Emptied);

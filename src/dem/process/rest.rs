@@ -1,5 +1,6 @@
 //! When spheres count as at rest.
 
+use super::Free;
 use crate::particles::Particles;
 use crate::scene::Rest;
 
@@ -22,7 +23,7 @@ pub(super) struct RestWatch {
 }
 
 impl RestWatch {
-    /// A watch over a scene of `count` spheres, including those that are not in yet.
+    /// A watch over a scene of `count` free spheres, including those that are not in yet.
     pub(super) fn new(rest: &Rest, count: usize, dt: f64) -> Self {
         Self {
             all: rest.kinetic_energy,
@@ -39,8 +40,13 @@ impl RestWatch {
 
     /// Looks at the spheres, when all have come in. Returns the step since which they have been
     /// slow, if they are at rest by now.
-    pub(super) fn since(&mut self, particles: &Particles, step: u64) -> Option<u64> {
-        if !self.are_slow(particles) {
+    pub(super) fn since(
+        &mut self,
+        particles: &Particles,
+        free: &Free,
+        step: u64,
+    ) -> Option<u64> {
+        if !self.are_slow(particles, free) {
             self.since = None;
             return None;
         }
@@ -48,9 +54,9 @@ impl RestWatch {
         (step - since >= self.hold).then_some(since)
     }
 
-    fn are_slow(&self, particles: &Particles) -> bool {
+    fn are_slow(&self, particles: &Particles, free: &Free) -> bool {
         let mut sum = 0.0;
-        (particles.fixed..particles.len()).all(|sphere| {
+        free.indices(particles).all(|sphere| {
             let energy = kinetic_energy(particles, sphere);
             sum += energy;
             energy < self.one

@@ -201,8 +201,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return self.check_speeds(too_fast);
         }
         // The order of spheres follows from where they are after whole steps.
-        let begins_next =
-            next == Next::Step && !self.checks_order() && self.setup.driven.is_empty();
+        let begins_next = next == Next::Step && !self.checks_order() && self.driven.is_empty();
         let motion = match begins_next {
             true => Motion {
                 kicks: &[half, half],

@@ -66,6 +66,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Adapts the lists after spheres were added or removed.
     pub(super) fn renumber(&mut self) {
+        self.find_driven();
         if self.neighbours.list.is_some() {
             self.alike = SphereProperties::of_all::<N, T>(&self.particles);
         }

@@ -109,8 +109,8 @@ pub(in crate::dem) struct Setup {
     pub(in crate::dem) effects: Vec<PlacedEffect>,
     /// Whether an effect needs the number of spheres below each sphere.
     pub(in crate::dem) shielded: bool,
-    /// Spheres that move along prescribed paths, by their indices.
-    pub(in crate::dem) driven: Vec<(usize, Driven)>,
+    /// Paths of driven spheres, in the order of the spheres' numbers in the scene.
+    pub(in crate::dem) driven: Vec<Driven>,
     /// Absent where nothing resists rolling.
     pub(in crate::dem) rolling: Option<RollingLaw>,
     pub(in crate::dem) limits: Limits,
@@ -154,6 +154,8 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     pair_history: Vec<T::History>,
     /// The walls, the spheres near them, and the histories of these contacts.
     walls: Vec<WallContacts<T::History>>,
+    /// Indices of the driven spheres that are in, and the places of their paths.
+    driven: Vec<(usize, usize)>,
     /// How springs are loaded until the next evaluation.
     loading: Loading,
     /// Velocities and spins that load springs, if these are not those of the evaluation.
@@ -223,9 +225,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         normal: N,
         [tangential, tangential_at_walls]: [T; 2],
         setup: Setup,
-        particles: Particles,
+        mut particles: Particles,
     ) -> Self {
         Self {
+            driven: drive::find(&setup.driven, &mut particles),
             step: StepState::default(),
             neighbours: NeighbourState::new::<N>(&setup),
             pair_history: Vec::new(),

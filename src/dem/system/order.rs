@@ -31,6 +31,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let places = order::places(order);
         self.renumber_pairs(&places);
         self.particles.reorder(order);
+        self.find_driven();
         for (_, effect) in &mut self.setup.effects {
             effect.reorder(order);
         }

@@ -161,6 +161,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
         }
         *present = particles.into_owned();
+        self.find_driven();
         for (wall, known) in self.walls.iter_mut().zip(histories.walls) {
             wall.set(known);
         }

@@ -5,16 +5,14 @@ use crate::particles::vector::Vector;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The most spheres of a scene with driven ones: more are sorted in memory, and driven ones are
-/// found by their numbers.
-pub(crate) const MOST_BESIDE_DRIVEN: usize = 4095;
-
 /// A sphere that moves along a prescribed path, whatever acts on it: x(t) = x(0) + v t + A (sin(w t
-/// + p) - sin p). It keeps the spin of its start. Others feel it as any sphere.
+/// + p) - sin p). It keeps the spin of its start. Others feel it as any sphere. It is never removed,
+/// and does not count when spheres are to be at rest. One that a feed lets in moves along its path
+/// from then on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Driven {
-    /// Which sphere of the start, from 0.
+    /// Which sphere of the start, from 0; of a feed, in the order in which they come in.
     pub sphere: usize,
     /// Constant velocity v (m/s); the velocity of its start does not count.
     #[serde(default)]

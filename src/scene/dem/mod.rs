@@ -12,7 +12,6 @@ pub use crate::forces::friction::{
 };
 pub use crate::forces::rolling::Rolling;
 pub use driven::Driven;
-pub(crate) use driven::MOST_BESIDE_DRIVEN;
 pub use guards::Guards;
 pub use neighbours::Neighbours;
 pub(crate) use silo::MOST_HOPPER_SPHERES;

@@ -200,7 +200,8 @@ impl Hopper {
 pub struct Rest {
     /// Kinetic energy of all grains together (J), translation and rotation, below which they may be
     /// at rest. No single grain may have more than a hundredth of it, or of fewer than a hundred
-    /// grains more than its equal share.
+    /// grains more than its equal share. Spheres of `driven` do not count: a bed may be at rest
+    /// while they move.
     #[schemars(
         transform = quantity("E_{rest}", "J", "kinetic energy of spheres at rest").above(0.0)
     )]

@@ -2,7 +2,7 @@
 
 use super::plural;
 use crate::document::Problem;
-use crate::scene::{MOST_BESIDE_DRIVEN, Scene, Shape};
+use crate::scene::{Scene, Shape};
 
 impl Scene {
     pub(super) fn check_driven(&self, problems: &mut Vec<Problem>) {
@@ -12,17 +12,6 @@ impl Scene {
         let mut refuse = |path: String, message: String, help: &str| {
             problems.push(Problem::new(path, message).help(help));
         };
-        if self.has_flow() || self.spheres.count > MOST_BESIDE_DRIVEN {
-            let message = format!(
-                "[[driven]] counts spheres, which does not go with spheres that come or go, nor \
-                 with more than {MOST_BESIDE_DRIVEN}"
-            );
-            refuse(
-                "driven".to_owned(),
-                message,
-                "remove it, or use fewer spheres",
-            );
-        }
         for (k, path) in self.dem.driven.iter().enumerate() {
             if path.sphere >= self.spheres.count {
                 let spheres = plural(self.spheres.count, "sphere", "spheres");
