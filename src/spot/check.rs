@@ -29,22 +29,28 @@ impl Parameters {
     pub fn check(&self) -> Result<(), ParameterError> {
         let conditions = [
             self.conditions_on_the_box(),
+            self.conditions_on_the_opening(),
             self.conditions_on_spots(),
             self.conditions_on_modes(),
         ];
-        for (parameter, value, holds, requirement) in conditions.into_iter().flatten() {
-            if !holds {
-                return Err(ParameterError {
-                    parameter,
-                    value,
-                    requirement,
-                });
-            }
-        }
-        Ok(())
+        first_broken(conditions.into_iter().flatten())
+    }
+
+    /// The same of what a packing depends on: the box, and the spheres in it.
+    pub(super) fn check_box(&self) -> Result<(), ParameterError> {
+        first_broken(self.conditions_on_the_box())
     }
 
     fn conditions_on_the_box(&self) -> Vec<Condition> {
+        let d = self.diameter;
+        vec![
+            finite_above("diameter", d, 0.0),
+            at_least("half_width", self.half_width, 0.5 * d),
+            at_least("half_depth", self.half_depth, 0.5 * d),
+        ]
+    }
+
+    fn conditions_on_the_opening(&self) -> Vec<Condition> {
         let d = self.diameter;
         let (wide, deep) = (self.half_width, self.half_depth);
         let radius = self.spot_radius;
@@ -54,9 +60,6 @@ impl Parameters {
         };
         let room_for_spots = wide.min(deep);
         vec![
-            finite_above("diameter", d, 0.0),
-            finite_above("half_width", wide, 0.5 * d),
-            finite_above("half_depth", deep, 0.5 * d),
             at_most(name, opening, room, "half the box"),
             at_least(name, opening, 0.5 * d),
             at_most("spot_radius", radius, room_for_spots, "half the box"),
@@ -125,6 +128,19 @@ impl Parameters {
             all.push(at_least("influence above", above, 0.0));
         }
         all
+    }
+}
+
+/// An error for the first condition that does not hold.
+fn first_broken(conditions: impl IntoIterator<Item = Condition>) -> Result<(), ParameterError> {
+    let mut conditions = conditions.into_iter();
+    match conditions.find(|(_, _, holds, _)| !holds) {
+        None => Ok(()),
+        Some((parameter, value, _, requirement)) => Err(ParameterError {
+            parameter,
+            value,
+            requirement,
+        }),
     }
 }
 

@@ -18,10 +18,15 @@ impl Silo {
         let radius = 0.5 * parameters.diameter;
         let halves = [parameters.half_width, parameters.half_depth];
         Self {
-            room: halves.map(|half| half - radius),
+            room: halves.map(|half| (half - radius).max(0.0)),
             radius,
             orifice: parameters.orifice,
         }
+    }
+
+    /// Half of the room of centres along x and y (m): zero between walls a diameter apart.
+    pub(crate) fn room(&self) -> [f64; 2] {
+        self.room
     }
 
     /// The nearest place to a centre with the sphere between the walls. Not for NaN.

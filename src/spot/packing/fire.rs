@@ -90,10 +90,13 @@ impl Minimizer {
         Ok(apart)
     }
 
-    /// A random velocity.
+    /// A random velocity. Between walls that leave no room there is none across them.
     fn shove(&mut self) -> Vector {
         let mut along = || SHAKE * self.model.diameter * (2.0 * self.random.uniform() - 1.0);
-        Vector::new(along(), along(), along())
+        let [x, y, z] = [along(), along(), along()];
+        let [wide, deep] = self.model.silo.room().map(|room| room > 0.0);
+        let within = |along: f64, has_room: bool| if has_room { along } else { 0.0 };
+        Vector::new(within(x, wide), within(y, deep), z)
     }
 
     fn sort(

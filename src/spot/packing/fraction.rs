@@ -10,22 +10,26 @@ const MARGIN: f64 = 3.0;
 /// Scan points per diameter along y; there are fewer along the other axes.
 const RESOLUTION: f64 = 8.0;
 
+/// Least distance of opposite walls, in diameters: between nearer ones all spheres are in layers.
+const NARROWEST: f64 = 4.0;
+
 /// Share of the middle of the box that lies in spheres, at a lattice of points. From walls, which
 /// order the spheres in layers, the weight of the points rises smoothly from 0 at one diameter to 1
 /// in the middle, which averages over the layers. Exact to about .002. Zero if the packing is lower
-/// than eight diameters.
+/// than eight diameters, or walls are less than four apart: it has no such middle then.
 pub fn packing_fraction(parameters: &Parameters, centres: &[Vector]) -> f64 {
     let d = parameters.diameter;
     let top = centres.iter().fold(0.0, |most: f64, it| most.max(it.z));
-    if top < 8.0 * d {
+    let halves = [parameters.half_width, parameters.half_depth];
+    let is_narrow = halves.iter().any(|half| 2.0 * half < NARROWEST * d);
+    if top < 8.0 * d || is_narrow {
         return 0.0;
     }
-    let halves = [parameters.half_width, parameters.half_depth];
     let mut cells = Cells::new(d, halves, top);
     let order = cells.sort(centres);
     let sorted: Vec<Vector> = order.iter().map(|&it| centres[it as usize]).collect();
     let step = d / RESOLUTION;
-    let [x, y] = halves.map(|half| (half - d).max(0.5 * half));
+    let [x, y] = halves.map(|half| half - d);
     let heights = points(MARGIN * d, top - MARGIN * d, 3.0 * step);
     let mut ranges = Vec::new();
     let (mut covered, mut all) = (0.0, 0.0);

@@ -1,7 +1,8 @@
 //! Random dense packings to start from.
 //!
 //! Spheres at random places under a lid are pushed apart until none overlap: the energy of a soft
-//! repulsion is minimised. The lid is then lowered in small steps, each with a minimisation, until
+//! repulsion is minimised. Between near walls they may find no room; the lid is raised then, and
+//! they begin at other places. The lid is then lowered in small steps, each with a minimisation, until
 //! the packing fraction in the middle of the box is that of random close packing, or until the
 //! spheres jam: the procedure of O'Hern, Silbert, Liu and Nagel, Physical Review E 68 (2003)
 //! 011306. There is no gravity. The lid is then taken away, which leaves the top free.
@@ -23,8 +24,15 @@ pub use of_scene::{make, name};
 /// Packing fraction in the middle of the box at which the lid stops.
 pub const PACKING_FRACTION: f64 = 0.64;
 
-/// Packing fraction of the whole box at which minimisation begins; from there it always succeeds.
+/// Packing fraction of the whole box at which minimisation begins; from there it always succeeds,
+/// but between walls a few diameters apart.
 const FIRST_FRACTION: f64 = 0.57;
+
+/// The lid is raised by this factor if spheres find no room below it.
+const RAISE: f64 = 1.2;
+
+/// Greatest height of the lid, in that of all spheres on top of each other: each has room then.
+const HIGHEST: f64 = 4.0;
 
 /// Share of the height by which the lid is lowered at once.
 const STEP: f64 = 0.003;
@@ -71,7 +79,7 @@ pub fn random_packing(
     if spheres == 0 {
         return Err(PackingError::NoSpheres);
     }
-    parameters.check().map_err(StartError::from)?;
+    parameters.check_box().map_err(StartError::from)?;
     let workers = Workers::new(threads).map_err(|it| StartError::Threads(it.to_string()))?;
     workers.install(|| lower_lid(parameters, spheres, seed))
 }
@@ -94,9 +102,12 @@ fn lower_lid(
     let mut minimizer =
         Minimizer::new(&inflated, parameters.diameter, Stream::new("shaking", seed));
     let mut centres = random_centres(&inflated, height, spheres, seed);
-    let jammed = PackingError::Jammed { spheres, height };
-    if !minimizer.push_apart(&mut centres, height)? {
-        return Err(jammed);
+    while !minimizer.push_apart(&mut centres, height)? {
+        if height > HIGHEST * spheres as f64 * diameter {
+            return Err(PackingError::Jammed { spheres, height });
+        }
+        height *= RAISE;
+        centres = random_centres(&inflated, height, spheres, seed);
     }
     let mut step = STEP;
     while step >= LEAST_STEP && packing_fraction(parameters, &centres) < PACKING_FRACTION {
@@ -120,7 +131,8 @@ fn random_centres(parameters: &Parameters, height: f64, spheres: usize, seed: u6
     let radius = 0.5 * parameters.diameter;
     let halves = [parameters.half_width, parameters.half_depth];
     let mut place = || {
-        let [x, y] = halves.map(|half| (half - radius) * (2.0 * random.uniform() - 1.0));
+        let room = halves.map(|half| (half - radius).max(0.0));
+        let [x, y] = room.map(|room| room * (2.0 * random.uniform() - 1.0));
         Vector::new(x, y, radius + (height - 2.0 * radius) * random.uniform())
     };
     (0..spheres).map(|_| place()).collect()

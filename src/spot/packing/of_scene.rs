@@ -2,7 +2,7 @@
 
 use super::{PackingError, random_packing};
 use crate::scene::Scene;
-use crate::spot::parameters::{Orifice, Parameters};
+use crate::spot::parameters::Parameters;
 
 /// What chooses a packing.
 struct Choice {
@@ -16,7 +16,7 @@ struct Choice {
 }
 
 /// Of how packings are made.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 impl Choice {
     fn of(scene: &Scene) -> Self {
@@ -50,15 +50,9 @@ pub fn make(scene: &Scene, threads: usize) -> Result<Vec<[f64; 3]>, PackingError
     let choice = Choice::of(scene);
     let diameter = 2.0 * choice.radius;
     let [half_width, half_depth] = choice.sides.map(|side| 0.5 * side);
-    let narrow = half_width.min(half_depth);
     let parameters = Parameters {
         half_width,
         half_depth,
-        orifice: Orifice::Circle {
-            radius: (4.0 * diameter).min(narrow),
-        },
-        spot_radius: (2.6 * diameter).min(narrow),
-        wall_distance: 0.0,
         ..Parameters::figure_2(diameter)
     };
     let centres = random_packing(&parameters, choice.spheres, choice.seed, threads)?;
