@@ -7,7 +7,7 @@ mod walls;
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::time_step::{self, Tightest, tightest_limits};
-use super::{classify, format, job};
+use super::{classify, format, job, overlaps};
 use phase::cost::{Forecast, Leaves, forecast};
 use phase::dem::timestep::{Limit, Standing};
 use phase::document::LoadError;
@@ -77,6 +77,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.result(line("time step", text));
     }
     time_step::warn_of_jobs(&tightest, &sweep.axes, console);
+    overlaps::warn_of_jobs(&jobs, &sweep.axes, console);
     if kind == FileKind::Sweep {
         super::sweep::warn_of_windows(&sweep, &jobs, console);
     }

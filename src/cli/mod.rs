@@ -20,6 +20,7 @@ mod kind;
 mod man;
 mod neighbours;
 mod new;
+mod overlaps;
 mod plot;
 mod progress;
 mod reference;

@@ -6,7 +6,7 @@ mod interruptible;
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::sweep::seconds;
-use super::{folders, format, time_step};
+use super::{folders, format, overlaps, time_step};
 use again::Original;
 use interruptible::Ran;
 use phase::dem::timestep::Standing;
@@ -155,6 +155,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     folders::make_for(&path)?;
     let _lock = lock(&path)?;
     time_step::tell_of_scene(&scene, console);
+    overlaps::warn_of_scene(&scene, console);
     let interval = arguments.checkpoint_interval.unwrap_or(DEFAULT_INTERVAL);
     let checkpoints = Checkpoints::beside(&path, interval);
     let signature = store::CHECKPOINT_SIGNATURE;

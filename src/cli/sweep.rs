@@ -6,7 +6,7 @@ mod rounds;
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::job::NamedJob;
-use super::{classify, format, interrupt, plot, refined, time_step};
+use super::{classify, format, interrupt, overlaps, plot, refined, time_step};
 use phase::resume::DEFAULT_INTERVAL;
 use phase::store;
 use phase::sweep::{
@@ -124,6 +124,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     tell_of_other_sweep(&folder, &sweep, console);
     time_step::tell_of_jobs(&jobs, &sweep.axes, console);
+    overlaps::warn_of_jobs(&jobs, &sweep.axes, console);
     if !arguments.no_classify {
         warn_of_windows(&sweep, &jobs, console);
     }

@@ -2,7 +2,7 @@
 
 use crate::dem::SAFETY_FACTOR;
 use crate::document::{Document, LoadError, Problem};
-use crate::scene::{AUTO, Change, FileKind, SCENE, Scene, settings};
+use crate::scene::{AUTO, Change, FileKind, SCENE, Scene, in_start_file, settings};
 use serde_json::Value;
 use std::path::Path;
 
@@ -151,6 +151,25 @@ pub(crate) fn base_of_tree(
 
 /// The same of a tree in which no key that follows from others is left open.
 pub(crate) fn base_of_completed(
+    tree: Value,
+    folder: &Path,
+    reading: Reading,
+) -> Result<Scene, Vec<Problem>> {
+    let start_file = match &tree["start"]["kind"] {
+        kind if kind == "file" => tree["start"]["path"].as_str().map(|it| folder.join(it)),
+        _ => None,
+    };
+    let read = base_with_files(tree, folder, reading);
+    match start_file {
+        Some(path) => read.map_err(|problems| {
+            let placed = problems.into_iter().map(|it| in_start_file(&path, it));
+            placed.collect()
+        }),
+        None => read,
+    }
+}
+
+fn base_with_files(
     mut tree: Value,
     folder: &Path,
     reading: Reading,

@@ -31,13 +31,14 @@ mod vary;
 pub use accuracy::Accuracy;
 pub use change::Change;
 pub(crate) use change::is_within;
+pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use dem::{
     Contact, ContactDrag, Coulomb, CundallStrack, DemScene, Door, Driven, FixedSphere,
     FixedSpheres, Friction, Geometry, Guards, Hertz, Hopper, LengthUnit, Linear, Mindlin,
     MindlinDeresiewicz, Neighbours, Outlet, Rest, Rolling, Silbert, SilbertFriction, Spin,
 };
-pub(crate) use dem::MOST_HOPPER_SPHERES;
 pub use file_kind::FileKind;
+pub(crate) use files::in_start_file;
 pub use keys::Notation;
 pub(crate) use keys::leaf;
 pub use output::Output;
@@ -53,7 +54,7 @@ pub use tank::Tank;
 pub(crate) use time::AUTO;
 pub use time::{Integrator, Time};
 pub use units::Units;
-pub(crate) use validate::{plural, rounded};
+pub(crate) use validate::{at_least, at_most, plural, rounded};
 pub(crate) use vary::Template;
 
 // All tables of effects.

@@ -18,7 +18,8 @@ pub(super) static START_SPHERE: LazyLock<Schema> = LazyLock::new(Schema::of::<St
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Start {
-    /// Random positions without overlap, inside the tank's cylinder or its four sides.
+    /// Random positions without overlap, inside the tank's cylinder or its four sides and clear of
+    /// fixed spheres.
     Random {
         /// Lowest start height of a centre (m).
         #[schemars(transform = place("z_{min}", "lowest start height"))]
@@ -42,16 +43,21 @@ pub enum Start {
         spin: f64,
     },
     /// A random dense packing on the floor of a tank with four sides, made by the program: spheres
-    /// at rest that touch and do not overlap, of a packing fraction of 0.64 in the bulk. The seed,
-    /// the number of spheres, their radius and the sides alone choose it.
+    /// at rest that touch and do not overlap, of a packing fraction of 0.64 in the bulk, and looser
+    /// between sides that are near. The seed, the number of spheres, their radius and the sides
+    /// alone choose it.
     Packing {},
-    /// Every sphere listed in the scene.
+    /// Every sphere listed in the scene. Spheres may overlap walls and each other, as in a state
+    /// from which a run goes on. There is a warning of overlaps that push them apart faster than
+    /// any impact of the scene. Refused are centres outside of the tank or inside a fixed sphere,
+    /// and overlaps beyond `guards.overlap`.
     List {
         /// One entry per sphere; their number must equal `spheres.count`.
         // A million of them are in memory once, however often the scene is copied.
         spheres: Arc<Vec<StartSphere>>,
     },
     /// One sphere after the other, all at the same place with the same velocity, from time zero on.
+    /// No wall and no fixed sphere may be in the way there.
     Feed {
         /// Centre of a sphere when it comes in (m).
         #[schemars(transform = unit("m"))]

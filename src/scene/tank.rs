@@ -74,6 +74,23 @@ impl Tank {
         orifice.or(slit).unwrap_or(f64::NEG_INFINITY)
     }
 
+    /// How a centre (m) is outside of it, if it is: `outside the tank's wall`, or below its floor.
+    /// Spheres below an open floor may be on their way out, slanting by up to 45 degrees.
+    pub(crate) fn outside(&self, [x, y, z]: [f64; 3], is_closed: bool) -> Option<&'static str> {
+        let beyond = |place: f64, reach: Option<f64>| reach.is_some_and(|it| place.abs() >= it);
+        let wall = match (self.radius, self.reach()) {
+            (Some(radius), _) => x * x + y * y >= radius * radius,
+            (None, [width, depth]) => beyond(x, width) || beyond(y, depth),
+        };
+        let may_be_leaving = |depth: f64| !is_closed && self.inside_opening(x, y) > -depth;
+        let below = |floor: f64| z <= floor && !may_be_leaving(floor - z);
+        match self.floor {
+            _ if wall => Some("outside the tank's wall"),
+            Some(floor) if below(floor) => Some("below the tank's floor"),
+            _ => None,
+        }
+    }
+
     /// Whether its walls are plane, those that there are.
     pub fn has_sides(&self) -> bool {
         self.width.is_some() || self.depth.is_some()

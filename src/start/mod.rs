@@ -14,7 +14,7 @@ pub enum StartError {
     /// The random placement found no room.
     #[error(
         "no room for sphere {placed} of {count} (radius {radius} m) after {ATTEMPTS} attempts; \
-         use fewer or smaller spheres, or a larger range of start.z_min to start.z_max"
+         use fewer or smaller spheres, or a larger range of `start.z_min` to `start.z_max`"
     )]
     NoRoom {
         /// Spheres placed before.
@@ -106,7 +106,7 @@ fn place_at_random(
 ) -> Result<(), StartError> {
     let room = Room::of_scene(scene, heights).ok_or(StartError::NoTank)?;
     let mut random = scene.random_stream("positions");
-    particles.position = scatter(&particles.radius, &room, &mut random)?;
+    particles.position = scatter(&particles.radius, &room, &fixed(scene), &mut random)?;
     Ok(())
 }
 

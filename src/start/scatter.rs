@@ -1,6 +1,7 @@
 //! Random places without overlap.
 
 use super::{StartError, uniform};
+use crate::particles::Particles;
 use crate::particles::vector::Vector;
 use crate::scene::Scene;
 use rand::Rng;
@@ -55,19 +56,23 @@ impl Room {
     }
 }
 
-/// Random centres without overlap, uniform in the part of the room where a sphere does not touch
-/// the walls.
+/// Random centres without overlap, uniform in the part of the room where a sphere touches neither
+/// the walls nor the spheres that are fixed.
 pub(super) fn scatter(
     radii: &[f64],
     room: &Room,
+    fixed: &Particles,
     random: &mut impl Rng,
 ) -> Result<Vec<Vector>, StartError> {
-    let mut grid = Grid::new(radii, room);
-    let mut placed: Vec<Vector> = Vec::with_capacity(radii.len());
+    let all = [&fixed.radius, radii].concat();
+    let mut grid = Grid::new(&all, room);
+    let mut placed = fixed.position.clone();
+    placed.reserve(radii.len());
+    placed.iter().for_each(|&centre| grid.add(centre));
     for (i, &radius) in radii.iter().enumerate() {
         let free = |p: Vector| {
             grid.near(p).all(|j| {
-                let distance = radius + radii[j];
+                let distance = radius + all[j];
                 (p - placed[j]).norm_squared() > distance * distance
             })
         };
@@ -82,7 +87,7 @@ pub(super) fn scatter(
         placed.push(candidate);
         grid.add(candidate);
     }
-    Ok(placed)
+    Ok(placed.split_off(fixed.len()))
 }
 
 /// Cells over a room, at least as wide as the largest sphere, with the spheres placed so far.
@@ -132,6 +137,8 @@ impl Grid {
         (a * self.sizes[1] + b) * self.sizes[2] + c
     }
 
+    /// A sphere outside of the room is in the nearest cell: two that are near are in cells side by
+    /// side even so.
     fn add(&mut self, place: Vector) {
         let cell = self.index(self.cell(place));
         let number = self.before.len() as u32;

@@ -22,6 +22,7 @@ mod scenes;
 mod silo;
 mod spins;
 mod stability;
+mod starts;
 mod steel;
 #[path = "../support/mod.rs"]
 mod support;

@@ -1,5 +1,6 @@
 //! Problems of a scene that only the engine can find: the time step and the start.
 
+mod feed;
 mod start;
 mod step;
 
@@ -44,6 +45,11 @@ impl Scene {
     fn check_all_but_step(&self, problems: &mut Vec<Problem>) {
         self.check_relations(problems);
         self.check_room(problems);
+        self.check_feed_place(problems);
+        self.check_packing_beside_fixed(problems);
+        if problems.is_empty() {
+            self.check_overlaps(problems);
+        }
     }
 
     /// The scene that is run, checked. Where `time.safety_factor` is there, the time step is

@@ -1,7 +1,8 @@
-//! Whether a random start finds room for the spheres.
+//! Whether the spheres have room where they start.
 
-use crate::document::Problem;
-use crate::scene::{Scene, Start, Tank, plural, rounded};
+use crate::dem::overlap::{self, Overlap, Partner};
+use crate::document::{Problem, number};
+use crate::scene::{Scene, Start, Tank, at_least, plural, rounded};
 use crate::start;
 
 /// Largest share of the space open to the spheres that a random start may fill. Random placement
@@ -11,6 +12,10 @@ const PACKING_LIMIT: f64 = 0.30;
 
 /// Share up to which a random start is taken to succeed without a trial.
 const CERTAIN_PACKING: f64 = 0.10;
+
+/// A packing lies below this many times its usual height. Between walls a diameter or two apart,
+/// spheres fill a third of the usual volume.
+const HIGHEST_PACKING: f64 = 3.0;
 
 /// Largest number of spheres that are placed on trial. Larger numbers are small against their tank.
 const MOST_TRIED: usize = 10_000;
@@ -31,6 +36,12 @@ impl Scene {
     fn check_room_between(&self, area: f64, z_min: f64, z_max: f64, problems: &mut Vec<Problem>) {
         let radii = &self.spheres.radius;
         let volume = self.spheres.count as f64 * radii.mean_volume();
+        if self.dem.geometry.is_some() && self.trial_fails() {
+            let message = "the spheres find no room between those that are fixed";
+            let help = "let `start.z_min` to `start.z_max` reach farther, or use fewer spheres";
+            problems.push(Problem::new("start.z_max", message).help(help));
+            return;
+        }
         let height_for = |fraction: f64| volume / (fraction * area);
         let height = z_max - z_min + 2.0 * radii.mean();
         let fraction = height_for(1.0) / height;
@@ -58,6 +69,83 @@ impl Scene {
             rounded(z_max)
         );
         problems.push(Problem::new("start.z_max", message).help(help));
+    }
+
+    /// Refuses fixed spheres where a packing may lie.
+    pub(super) fn check_packing_beside_fixed(&self, problems: &mut Vec<Problem>) {
+        let (Start::Packing {}, Some(geometry)) = (&self.start, &self.dem.geometry) else {
+            return;
+        };
+        let tank = self.tank.clone().unwrap_or_default();
+        let floor = tank.floor.unwrap_or(0.0);
+        let top = floor + HIGHEST_PACKING * self.packed_height() + 2.0 * self.radius_range().1;
+        let fixed = geometry.spheres();
+        let in_the_way = fixed.walls.iter().chain(&fixed.door).find(|sphere| {
+            let [x, y, z] = sphere.position;
+            let within = |place: f64, reach: Option<f64>| {
+                reach.is_none_or(|reach| place.abs() - sphere.radius < reach)
+            };
+            let [wide, deep] = tank.reach();
+            let low = z - sphere.radius < top && z + sphere.radius > floor;
+            within(x, wide) && within(y, deep) && low
+        });
+        if let Some(sphere) = in_the_way {
+            let [x, y, z] = sphere.position.map(rounded);
+            let message = format!(
+                "a fixed sphere stands at ({x}, {y}, {z}) m, where the packing may lie: it fills \
+                 the box up to at most {} m",
+                rounded(top)
+            );
+            let help = "move it out of the box, or list the spheres with `kind = \"list\"`";
+            problems.push(Problem::new("geometry", message).help(help));
+        }
+    }
+
+    /// Refuses listed spheres that overlap so much that the run would end at once, or that have
+    /// their centre inside a fixed sphere. The deepest overlap is named.
+    ///
+    /// Other overlaps are allowed: those of soft contacts, with which a run goes on from a former
+    /// state, may be as deep as a radius. [`Release`](crate::dem::Release) finds those that no
+    /// motion of this scene explains, and commands warn of them.
+    pub(super) fn check_overlaps(&self, problems: &mut Vec<Problem>) {
+        let limit = self.dem.guards.overlap;
+        let mut deepest: Option<Overlap> = None;
+        overlap::visit(self, |overlap| {
+            let is_inside =
+                matches!(overlap.partner, Partner::Fixed(_)) && overlap.depth > overlap.radius;
+            let before = deepest.map_or(0.0, |it| it.depth_in_radii);
+            if (is_inside || overlap.depth_in_radii > limit) && overlap.depth_in_radii > before {
+                deepest = Some(overlap);
+            }
+        });
+        let Some(overlap) = deepest else { return };
+        let Overlap {
+            sphere,
+            partner,
+            depth,
+            depth_in_radii,
+            distance,
+            ..
+        } = overlap;
+        let message = match depth_in_radii > limit {
+            true => format!(
+                "sphere {sphere} starts {} m deep in {partner}, more than the {} radii at which \
+                 `guards.overlap` ends the run",
+                rounded(depth),
+                number(limit)
+            ),
+            false => format!("sphere {sphere} starts with its centre inside {partner}"),
+        };
+        let allowed = limit.min(1.0) * depth / depth_in_radii;
+        // A little more, so that rounding does not matter.
+        let apart = at_least((distance + depth - allowed) * (1.0 + 1e-9));
+        let other = match partner {
+            Partner::Wall(_) => partner.to_string(),
+            Partner::Sphere(_) | Partner::Fixed(_) => "the other centre".to_owned(),
+        };
+        let help = format!("keep its centre at least {} m from {other}", number(apart));
+        let path = format!("start.spheres[{sphere}].position");
+        problems.push(Problem::new(path, message).help(help));
     }
 
     /// Whether the spheres, if they are not too many for a quick trial, cannot be placed.

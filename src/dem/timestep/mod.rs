@@ -16,16 +16,15 @@
 //! limits do not consider several contacts of one sphere, for which the limit of twelve contacts is
 //! advised (tests/engine/stability measures both).
 
-mod overlap;
 mod standing;
 
 pub use crate::forces::contact::{Impact, LinearImpact, rayleigh_time};
 pub use crate::forces::limit::Limit;
 pub use standing::Standing;
 
+use super::overlap::deepest_at_start;
 use crate::forces::limit::{DISPLACEMENT, Regime, Scheme};
 use crate::scene::{Driven, Integrator, Scene, Spheres, Start, StartSphere, Tank};
-use overlap::deepest_at_start;
 use std::cell::LazyCell;
 
 /// The fastest relative speed (m/s) that the scene lets expect at an impact: the largest of the

@@ -83,6 +83,15 @@ impl TankWall {
         (tank.orifice_radius.map(orifice)).or(tank.slit_width.map(slit))
     }
 
+    /// What a message calls it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Floor(_) => "floor",
+            Self::Orifice(_) | Self::Slit(_) => "floor around its opening",
+            Self::Cylinder(_) | Self::Side(_) => "wall of the tank",
+        }
+    }
+
     /// The part of a step to which its forces belong.
     pub fn part(&self) -> Part {
         match self {

@@ -4,11 +4,11 @@ mod geometry;
 mod radii;
 mod start;
 
-use super::{Geometry, Radii, Scene, Start};
+use super::{Geometry, LIST_KEY, Radii, Scene, Start};
 use crate::document::{Problem, advice};
 use geometry::read_geometry;
 use radii::read_radii;
-use start::read_start;
+use start::{line_of, read_start};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -33,6 +33,21 @@ enum FileError {
         /// What is wrong and what is expected.
         reason: String,
     },
+}
+
+/// The same problem where the spheres of the start come from a file: one of a sphere names its
+/// line.
+pub(crate) fn in_start_file(path: &Path, problem: Problem) -> Problem {
+    let index = problem.path.strip_prefix(LIST_KEY);
+    let index = index.and_then(|it| it.strip_prefix('[')?.split(']').next()?.parse().ok());
+    match index.and_then(|sphere| line_of(path, sphere)) {
+        Some(line) => Problem {
+            message: format!("{}:{line}: {}", path.display(), problem.message),
+            path: "start.path".to_owned(),
+            ..problem
+        },
+        None => problem,
+    }
 }
 
 impl FileError {

@@ -38,6 +38,13 @@ pub(super) fn read_start(path: &Path) -> Result<Vec<StartSphere>, FileError> {
     Ok(spheres)
 }
 
+/// The line of a start file, from 1, that gives a sphere.
+pub(super) fn line_of(path: &Path, sphere: usize) -> Option<u64> {
+    let content = text::read(path).ok()?;
+    // The header line comes first.
+    text::lines(&content).nth(sphere + 1).map(|(line, _)| line)
+}
+
 fn fields(line: &str) -> impl Iterator<Item = &str> {
     line.split(',')
         .map(|field| field.trim().trim_matches('"').trim())

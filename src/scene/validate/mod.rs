@@ -195,6 +195,24 @@ pub(crate) fn plural(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }
 
+/// The least number of six significant digits that is no less than a value, for messages.
+pub(crate) fn at_least(value: f64) -> f64 {
+    let text = format!("{value:.5e}");
+    let nearest: f64 = text.parse().unwrap_or(value);
+    if nearest >= value {
+        return nearest;
+    }
+    let exponent = text.split_once('e').map_or("0", |(_, exponent)| exponent);
+    let last_digit: f64 = format!("0.00001e{exponent}").parse().unwrap_or(0.0);
+    let next = format!("{:.5e}", value + last_digit);
+    next.parse().unwrap_or(value)
+}
+
+/// The greatest number of six significant digits that is no more than a value, for messages.
+pub(crate) fn at_most(value: f64) -> f64 {
+    -at_least(-value)
+}
+
 /// To six significant digits, for messages.
 pub(crate) fn rounded(value: f64) -> String {
     number(format!("{value:.5e}").parse().unwrap_or(value))

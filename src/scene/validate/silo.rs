@@ -180,7 +180,13 @@ impl Scene {
         };
         let start = match &self.start {
             Start::Feed { position, .. } => Some(position[2]),
-            Start::List { spheres } => spheres.iter().map(|it| it.position[2]).reduce(f64::min),
+            Start::List { spheres } => {
+                // Driven spheres never leave.
+                let is_free =
+                    |number: &usize| self.dem.driven.iter().all(|path| path.sphere != *number);
+                let free = spheres.iter().enumerate().filter(|(k, _)| is_free(k));
+                free.map(|(_, it)| it.position[2]).reduce(f64::min)
+            }
             Start::Random { z_min, .. } => Some(*z_min),
             Start::Packing {} | Start::File { .. } => None,
         };
@@ -195,13 +201,7 @@ impl Scene {
     }
 
     fn check_feed(&self, problems: &mut Vec<Problem>) {
-        let Start::Feed {
-            position,
-            interval,
-            spread,
-            ..
-        } = &self.start
-        else {
+        let Start::Feed { interval, .. } = &self.start else {
             return;
         };
         let last = (self.spheres.count - 1) as f64 * interval;
@@ -212,29 +212,6 @@ impl Scene {
                 "the last sphere would come in",
                 self,
             ));
-        }
-        let largest = self.radius_range().1;
-        let fixed = self
-            .dem
-            .geometry
-            .as_ref()
-            .map(Geometry::spheres)
-            .unwrap_or_default();
-        let in_the_way = fixed.walls.iter().chain(&fixed.door).find(|sphere| {
-            let [x, y, z] = std::array::from_fn(|axis| sphere.position[axis] - position[axis]);
-            let aside = (x.abs() - spread).max(0.0);
-            let reach = largest + sphere.radius;
-            aside * aside + y * y + z * z < reach * reach
-        });
-        if let Some(sphere) = in_the_way {
-            let [x, _, z] = sphere.position;
-            let message = format!(
-                "spheres of radius {} m come in where a fixed one stands, at ({}, {}) m",
-                number(largest),
-                rounded(x),
-                rounded(z)
-            );
-            problems.push(Problem::new("start.position", message).help("move it away from there"));
         }
     }
 

@@ -1,6 +1,6 @@
 //! Whether the spheres of a scene have a place to start from.
 
-use super::{plural, rounded};
+use super::{at_least, plural, rounded};
 use crate::document::{Problem, number};
 use crate::scene::{Scene, Shape, Start, Tank};
 
@@ -47,7 +47,8 @@ impl Scene {
                 number(largest),
                 number(floor)
             );
-            let help = format!("use at least `z_min = {}`", rounded(floor + largest));
+            let least = number(at_least(floor + largest));
+            let help = format!("use at least `z_min = {least}`");
             problems.push(Problem::new("start.z_min", message).help(help));
         }
     }
@@ -106,28 +107,10 @@ impl Scene {
             problems.push(Problem::new("start.spheres", message).help(help));
         }
         let tank = self.tank.clone().unwrap_or_default();
-        let (round, floor) = (tank.radius.is_some(), tank.floor);
         for (index, sphere) in spheres.iter().enumerate() {
             let [x, y, z] = sphere.position;
-            let wall = match (round, tank.reach()) {
-                (true, [radius, _]) => {
-                    radius.is_some_and(|radius| x * x + y * y >= radius * radius)
-                }
-                (false, [width, depth]) => [(x, width), (y, depth)]
-                    .iter()
-                    .any(|(place, reach)| reach.is_some_and(|reach| place.abs() >= reach)),
-            };
-            // A sphere may be on its way out through an open floor, slanting by up to 45 degrees.
-            let is_open = self.dem.door.is_none();
-            let may_be_leaving = |depth: f64| is_open && tank.inside_opening(x, y) > -depth;
-            let below = floor.is_some_and(|floor| z <= floor && !may_be_leaving(floor - z));
-            if wall || below {
-                let place = if wall {
-                    "outside the tank's wall"
-                } else {
-                    "below the tank's floor"
-                };
-                let message = format!("sphere {index} at ({x}, {y}, {z}) m is {place}");
+            if let Some(outside) = tank.outside(sphere.position, self.dem.door.is_some()) {
+                let message = format!("sphere {index} at ({x}, {y}, {z}) m is {outside}");
                 let path = format!("start.spheres[{index}].position");
                 problems.push(Problem::new(path, message).help("move its centre into the tank"));
             }

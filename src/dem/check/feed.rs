@@ -1,0 +1,192 @@
+//! Whether the spheres of a feed have room where they come in, and leave it again.
+
+use crate::dem::overlap;
+use crate::dem::timestep::fastest_impact;
+use crate::dem::walls::Wall;
+use crate::document::{Problem, number};
+use crate::scene::{Geometry, Scene, Start, Tank, at_least, at_most, rounded};
+
+/// Overlaps with walls below this share of the radius are those of rounded positions.
+const ROUNDING: f64 = 1e-9;
+
+/// Where the largest sphere of a feed may come in: anywhere within `spread` (m) of a position along
+/// x.
+#[derive(Clone, Copy)]
+struct Place {
+    position: [f64; 3],
+    spread: f64,
+    radius: f64,
+}
+
+impl Scene {
+    /// Checks that nothing is in the way of the largest sphere, wherever along x it comes in. Any
+    /// overlap is a fault: spheres come in one by one, and each would be pushed out.
+    pub(super) fn check_feed_place(&self, problems: &mut Vec<Problem>) {
+        let Start::Feed {
+            position, spread, ..
+        } = self.start
+        else {
+            return;
+        };
+        let place = Place {
+            position,
+            spread,
+            radius: self.radius_range().1,
+        };
+        self.check_fixed_spheres_at(place, problems);
+        if self.misfit().is_none() {
+            self.check_walls_at(place, problems);
+        }
+        self.check_room_for_the_second(problems);
+    }
+
+    fn check_fixed_spheres_at(&self, place: Place, problems: &mut Vec<Problem>) {
+        let Place {
+            position,
+            spread,
+            radius,
+        } = place;
+        let fixed = self.dem.geometry.as_ref().map(Geometry::spheres);
+        let fixed = fixed.unwrap_or_default();
+        let in_the_way = fixed.walls.iter().chain(&fixed.door).find(|sphere| {
+            let [x, y, z] = std::array::from_fn(|axis| sphere.position[axis] - position[axis]);
+            let aside = (x.abs() - spread).max(0.0);
+            let reach = radius + sphere.radius;
+            aside * aside + y * y + z * z < reach * reach
+        });
+        if let Some(sphere) = in_the_way {
+            let [x, _, z] = sphere.position;
+            let message = format!(
+                "spheres of radius {} m come in where a fixed one stands, at ({}, {}) m",
+                number(radius),
+                rounded(x),
+                rounded(z)
+            );
+            problems.push(Problem::new("start.position", message).help("move it away from there"));
+        }
+    }
+
+    fn check_walls_at(&self, place: Place, problems: &mut Vec<Problem>) {
+        let Some(tank) = &self.tank else { return };
+        let Place {
+            position: [x, y, z],
+            spread,
+            radius,
+        } = place;
+        let mut clear = [x, y, z];
+        if let Some(fault) = self.fault_at(clear, radius) {
+            clear = place.clear_of(tank);
+            let message = format!("spheres of radius {} m come in {fault}", number(radius));
+            let help = format!("use `position = [{}]`", clear.map(number).join(", "));
+            problems.push(Problem::new("start.position", message).help(help));
+        }
+        // Walls are nearest at an end.
+        let [x, y, z] = clear;
+        let mut ends = [x - spread, x + spread].into_iter();
+        if let Some(fault) = ends.find_map(|x| self.fault_at([x, y, z], radius)) {
+            let message = format!(
+                "spheres of radius {} m that come in up to {} m aside would be {fault}",
+                number(radius),
+                number(spread)
+            );
+            let most = number(place.widest_at(clear, tank));
+            let help = format!("use `spread = {most}` or less");
+            problems.push(Problem::new("start.spread", message).help(help));
+        }
+    }
+
+    /// What is wrong with the place of a sphere that comes in, if walls are in its way.
+    fn fault_at(&self, centre: [f64; 3], radius: f64) -> Option<String> {
+        let tank = self.tank.as_ref()?;
+        if let Some(outside) = tank.outside(centre, self.dem.door.is_some()) {
+            return Some(outside.to_owned());
+        }
+        self.dem.contact.as_ref()?;
+        let contacts = overlap::walls(self).into_iter().map(|wall| {
+            let contact = wall.contact(centre.into(), radius);
+            (
+                wall.name(),
+                if contact.touches {
+                    contact.overlap
+                } else {
+                    0.0
+                },
+            )
+        });
+        let (name, deepest) = contacts.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        (deepest > ROUNDING * radius).then(|| format!("{} m deep in the {name}", rounded(deepest)))
+    }
+
+    /// A sphere that stays where it came in leaves no room for the next.
+    fn check_room_for_the_second(&self, problems: &mut Vec<Problem>) {
+        let Start::Feed { spread, .. } = self.start else {
+            return;
+        };
+        let gravity = self.gravity_in_fluid();
+        let falls = gravity.is_some_and(|gravity| gravity.acceleration != 0.0);
+        let moves = falls || fastest_impact(self) > 0.0;
+        if !moves && self.spheres.count > 1 && spread == 0.0 {
+            let message = "nothing moves spheres from where they come in: the second finds no room";
+            let help = "give them a `velocity`, or add [gravity]";
+            problems.push(Problem::new("start", message).help(help));
+        }
+    }
+}
+
+impl Place {
+    /// The nearest position at which walls and floor are not in the way, with as much of the spread
+    /// as there is room for; to six digits.
+    fn clear_of(&self, tank: &Tank) -> [f64; 3] {
+        let Self {
+            position: [x, y, z],
+            spread,
+            radius,
+        } = *self;
+        let z = match tank.floor {
+            Some(floor) => z.max(at_least(floor + radius)),
+            None => z,
+        };
+        if let Some(wall) = tank.radius {
+            let reach = wall - radius;
+            let spread = spread.min(reach);
+            // The largest share t of the distance from the axis with (t |x| + spread)^2 + (t y)^2
+            // = reach^2.
+            let square = x * x + y * y;
+            let half = spread * x.abs();
+            let root = (half * half + square * (reach * reach - spread * spread)).sqrt();
+            let share = match square > 0.0 {
+                true => ((root - half) / square).min(1.0),
+                false => 1.0,
+            };
+            let [x, y] = [x, y].map(|place| match share < 1.0 {
+                true => at_most((place * share).abs()).copysign(place),
+                false => place,
+            });
+            return [x, y, z];
+        }
+        let within = |place: f64, side: Option<f64>, spread: f64| match side {
+            Some(side) => {
+                let most = (0.5 * side - radius - spread).max(0.0);
+                match place.abs() > most {
+                    true => at_most(most).copysign(place),
+                    false => place,
+                }
+            }
+            None => place,
+        };
+        [within(x, tank.width, spread), within(y, tank.depth, 0.0), z]
+    }
+
+    /// The widest spread at a clear position (m), to six digits.
+    fn widest_at(&self, [x, y, _]: [f64; 3], tank: &Tank) -> f64 {
+        let room = match (tank.radius, tank.width) {
+            (Some(wall), _) => {
+                let reach = wall - self.radius;
+                (reach * reach - y * y).max(0.0).sqrt()
+            }
+            (None, Some(width)) => 0.5 * width - self.radius,
+            (None, None) => 0.0,
+        };
+        at_most((room - x.abs()).max(0.0))
+    }
+}

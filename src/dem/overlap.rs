@@ -1,0 +1,177 @@
+//! How deep spheres overlap at the start: each other, fixed spheres, and walls.
+
+use super::neighbours::visit_pairs;
+use super::timestep::fastest_impact;
+use super::walls::{TankWall, Wall};
+use crate::particles::Particles;
+use crate::scene::{Scene, Start};
+use crate::start;
+
+/// Overlaps below this share of the radius are those of rounded positions.
+const NEGLIGIBLE: f64 = 1e-6;
+
+/// What a sphere overlaps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Partner {
+    /// Another sphere that moves, by its number.
+    Sphere(usize),
+    /// A fixed sphere, by its centre (m).
+    Fixed([f64; 3]),
+    /// A wall of the tank, by its name.
+    Wall(&'static str),
+}
+
+/// An overlap at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overlap {
+    /// Number of the sphere.
+    pub sphere: usize,
+    /// Its radius (m).
+    pub radius: f64,
+    /// What it overlaps.
+    pub partner: Partner,
+    /// How deep (m).
+    pub depth: f64,
+    /// How deep, in radii of the smaller partner.
+    pub depth_in_radii: f64,
+    /// Distance of the centres, or of the sphere's centre from the wall (m).
+    pub distance: f64,
+    /// The speed (m/s) at which its elastic energy pushes the two apart.
+    pub speed: f64,
+}
+
+impl std::fmt::Display for Partner {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Sphere(number) => write!(formatter, "sphere {number}"),
+            Self::Fixed([x, y, z]) => {
+                write!(formatter, "the fixed sphere at ({x}, {y}, {z}) m")
+            }
+            Self::Wall(name) => write!(formatter, "the {name}"),
+        }
+    }
+}
+
+/// Visits every overlap of the spheres that a scene lists, if they have contacts. Other starts
+/// have none.
+pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
+    let Some(contact) = &scene.dem.contact else {
+        return;
+    };
+    // Radii may be drawn at random, so the spheres must be placed.
+    let (Start::List { .. }, Ok(spheres)) = (&scene.start, start::place(scene)) else {
+        return;
+    };
+    let mut particles = start::fixed(scene);
+    particles.append(spheres);
+    for path in &scene.dem.driven {
+        let driven = particles
+            .inverse_mass
+            .get_mut(particles.fixed + path.sphere);
+        driven.into_iter().for_each(|inverse| *inverse = 0.0);
+    }
+    let fixed = particles.fixed;
+    let Particles {
+        position,
+        radius,
+        inverse_mass,
+        ..
+    } = &particles;
+    let speed = |depth: f64, effective_radius: f64, inverse_mass: f64| {
+        (2.0 * contact.elastic_energy(depth, effective_radius) * inverse_mass).sqrt()
+    };
+    visit_pairs(&particles, |i, j| {
+        let distance = (position[i] - position[j]).norm();
+        let sum = radius[i] + radius[j];
+        let depth = sum - distance;
+        if depth > 0.0 {
+            let inverse_mass = inverse_mass[i] + inverse_mass[j];
+            let effective_radius = radius[i] * radius[j] / sum;
+            let [x, y, z] = [position[i].x, position[i].y, position[i].z];
+            visit(Overlap {
+                sphere: j - fixed,
+                radius: radius[j],
+                partner: match i.checked_sub(fixed) {
+                    Some(number) => Partner::Sphere(number),
+                    None => Partner::Fixed([x, y, z]),
+                },
+                depth,
+                depth_in_radii: depth / radius[i].min(radius[j]),
+                distance,
+                speed: speed(depth, effective_radius, inverse_mass),
+            });
+        }
+    });
+    for wall in walls(scene) {
+        for i in fixed..particles.len() {
+            let contact = wall.contact(position[i], radius[i]);
+            if contact.touches && contact.overlap > 0.0 {
+                visit(Overlap {
+                    sphere: i - fixed,
+                    radius: radius[i],
+                    partner: Partner::Wall(wall.name()),
+                    depth: contact.overlap,
+                    depth_in_radii: contact.overlap / radius[i],
+                    distance: radius[i] - contact.overlap,
+                    speed: speed(contact.overlap, radius[i], inverse_mass[i]),
+                });
+            }
+        }
+    }
+}
+
+/// The walls of the tank of a scene as they are at the start.
+pub(super) fn walls(scene: &Scene) -> Vec<TankWall> {
+    let is_closed = scene.dem.door.is_some();
+    let tank = scene.tank.as_ref();
+    tank.map_or_else(Vec::new, |tank| TankWall::of_tank(tank, is_closed))
+}
+
+/// The deepest overlap (m); zero if none touch.
+pub(super) fn deepest_at_start(scene: &Scene) -> f64 {
+    let mut deepest = 0.0;
+    visit(scene, |overlap| deepest = f64::max(deepest, overlap.depth));
+    deepest
+}
+
+/// Overlaps at the start that push spheres apart faster than any impact that a scene lets expect.
+/// Contacts of a former state of the scene hardly ever do: such impacts have made them, or weights
+/// that stand lower than they could have fallen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Release {
+    /// The overlap with the greatest speed.
+    pub fastest: Overlap,
+    /// How many more there are.
+    pub others: usize,
+    /// The fastest impact that the scene lets expect (m/s).
+    pub impact: f64,
+}
+
+impl Release {
+    /// Those of a scene, if there are any.
+    pub fn of_scene(scene: &Scene) -> Option<Self> {
+        let impact = fastest_impact(scene);
+        let mut found: Option<Self> = None;
+        visit(scene, |overlap| {
+            if overlap.depth_in_radii < NEGLIGIBLE || overlap.speed <= impact {
+                return;
+            }
+            found = Some(match found {
+                None => Self {
+                    fastest: overlap,
+                    others: 0,
+                    impact,
+                },
+                Some(before) => Self {
+                    fastest: match overlap.speed > before.fastest.speed {
+                        true => overlap,
+                        false => before.fastest,
+                    },
+                    others: before.others + 1,
+                    impact,
+                },
+            });
+        });
+        found
+    }
+}
