@@ -194,9 +194,7 @@ impl Process {
         }
         self.discharge(engine);
         let at_rest = match &mut self.rest {
-            Some(rest) if self.feed.is_empty() => {
-                rest.since(engine.particles(), &self.free, step)
-            }
+            Some(rest) if self.feed.is_empty() => rest.since(engine.particles(), &self.free, step),
             // Nothing is at rest before all spheres are in.
             Some(rest) => {
                 rest.reset();

@@ -40,12 +40,7 @@ impl RestWatch {
 
     /// Looks at the spheres, when all have come in. Returns the step since which they have been
     /// slow, if they are at rest by now.
-    pub(super) fn since(
-        &mut self,
-        particles: &Particles,
-        free: &Free,
-        step: u64,
-    ) -> Option<u64> {
+    pub(super) fn since(&mut self, particles: &Particles, free: &Free, step: u64) -> Option<u64> {
         if !self.are_slow(particles, free) {
             self.since = None;
             return None;

@@ -24,9 +24,7 @@ pub(super) fn find(paths: &[Driven], particles: &mut Particles) -> Vec<(usize, u
     };
     let path_of = |i| paths.binary_search_by_key(&number(i), |path| path.sphere);
     let moving = particles.fixed..particles.len();
-    let found: Vec<_> = moving
-        .filter_map(|i| Some((i, path_of(i).ok()?)))
-        .collect();
+    let found: Vec<_> = moving.filter_map(|i| Some((i, path_of(i).ok()?))).collect();
     for &(sphere, _) in &found {
         particles.inverse_mass[sphere] = 0.0;
         if particles.rotate() {
