@@ -3,12 +3,11 @@
 use super::spreading::correlation_radius;
 use super::{Drainage, flow_spread_of, spreading};
 use crate::measure::{
-    Badness, Centres, Layers, RadialDistribution, Walls, lacey_index, outflow_rate, solid_like,
-    stagnant_height, surface_angle, voronoi_cells,
+    Badness, Centres, Layers, RadialDistribution, lacey_index, outflow_rate, solid_like,
+    stagnant_height, surface_angle,
 };
 use crate::observe::Snapshot;
 use crate::statistics::Estimate;
-use std::f64::consts::PI;
 
 /// A number that is measured of a drainage.
 pub struct Quantity {
@@ -193,25 +192,9 @@ fn over_diameter(drainage: &Drainage<'_>, length: Estimate) -> Estimate {
     }
 }
 
-/// Volume of the spheres in the middle over that of their Voronoi cells.
+/// Volume of the spheres in the middle over the volume of their Voronoi cells.
 pub fn packing_fraction(drainage: &Drainage<'_>, state: &Snapshot) -> Option<f64> {
-    let filled_box = &drainage.filled_box;
-    let [x, y] = [filled_box.half_width, filled_box.half_depth];
-    let walls = Walls {
-        low: [-x, -y, filled_box.floor],
-        high: [x, y, f64::MAX],
-        farthest: filled_box.diameter,
-    };
-    let centres = Centres::of(state);
-    let region = filled_box.middle();
-    let cells = voronoi_cells(&centres, &walls)
-        .into_iter()
-        .zip(&centres.place);
-    let inside = cells.filter(|(_, place)| region.contains(**place));
-    let volumes: Vec<f64> = inside.map(|(cell, _)| cell.volume).collect();
-    let diameter = filled_box.diameter;
-    let spheres = volumes.len() as f64 * PI / 6.0 * diameter * diameter * diameter;
-    (!volumes.is_empty()).then(|| spheres / volumes.iter().sum::<f64>())
+    drainage.filled_box.packing_fraction(state)
 }
 
 /// Share of the spheres in the middle that are part of a crystal.

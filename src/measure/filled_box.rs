@@ -1,7 +1,9 @@
 //! A box filled with spheres, and its parts in which drainages are measured.
 
-use super::Region;
+use super::voronoi::reach_of_cells;
+use super::{Centres, Region, Walls, voronoi_cells};
 use crate::simulation::Snapshot;
+use std::f64::consts::PI;
 
 /// A box filled with spheres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +53,28 @@ impl FilledBox {
     /// height of its packing.
     pub fn middle(&self) -> Region {
         self.part(0.6, [0.14, 0.41])
+    }
+
+    /// Volume of the spheres in the middle over the volume of their Voronoi cells, which end at the
+    /// walls and, at the free surface, near the spheres. None without spheres in the middle.
+    pub fn packing_fraction(&self, state: &Snapshot) -> Option<f64> {
+        let centres = Centres::of(state);
+        let region = self.middle();
+        let heights = centres.place.iter().map(|it| it.z);
+        let top = heights.fold(self.floor + self.filled, f64::max);
+        let walls = Walls {
+            low: [-self.half_width, -self.half_depth, self.floor],
+            high: [self.half_width, self.half_depth, top + 0.5 * self.diameter],
+            farthest: reach_of_cells(&centres, &region, self.diameter),
+        };
+        let cells = voronoi_cells(&centres, &walls)
+            .into_iter()
+            .zip(&centres.place);
+        let inside = cells.filter(|(_, place)| region.contains(**place));
+        let volumes: Vec<f64> = inside.map(|(cell, _)| cell.volume).collect();
+        let diameter = self.diameter;
+        let spheres = volumes.len() as f64 * PI / 6.0 * diameter * diameter * diameter;
+        (!volumes.is_empty()).then(|| spheres / volumes.iter().sum::<f64>())
     }
 
     /// Where mixing is measured: the lower half.

@@ -95,6 +95,11 @@ impl<'a> CellGrid<'a> {
         self.start = start;
     }
 
+    /// Number of centres.
+    pub(super) fn len(&self) -> usize {
+        self.place.len()
+    }
+
     fn cell(&self, place: Vector) -> [usize; 3] {
         let from = place - self.corner;
         let along = [from.x, from.y, from.z];

@@ -1,7 +1,7 @@
 //! Volumes of Voronoi cells, and packing fractions of them.
 
 use super::polyhedron::Polyhedron;
-use super::{CellGrid, Centres};
+use super::{CellGrid, Centres, Region};
 use crate::particles::vector::Vector;
 use std::f64::consts::PI;
 
@@ -93,6 +93,47 @@ impl Search<'_> {
             }
         });
         near.sort_by(|one, other| one.0.total_cmp(&other.0));
+    }
+}
+
+/// Neighbours that tell how far apart spheres are.
+const NEIGHBOURS: usize = 6;
+/// Distance within which a sphere of a dense packing has so many neighbours, in diameters.
+const DENSE: f64 = 1.2;
+/// How far cells reach at the free surface of a loose packing, in distances of the last of these
+/// neighbours.
+const LOOSE_REACH: f64 = 2.0;
+
+/// How far cells may reach from their centres at a free surface (m), for the spheres of one
+/// diameter (m) in a region. In a dense packing, where at least half of them have six neighbours
+/// within 1.2 diameters, one diameter. In a looser one twice the median distance of the sixth
+/// neighbour, so that cells between spheres that are far apart are not cut.
+pub(super) fn reach_of_cells(centres: &Centres, region: &Region, diameter: f64) -> f64 {
+    let grid = CellGrid::new(&centres.place, DENSE * diameter);
+    let inside = centres.place.iter().filter(|it| region.contains(**it));
+    let mut distances: Vec<f64> = inside
+        .map(|it| of_last_neighbour(&grid, *it, diameter))
+        .collect();
+    distances.sort_by(f64::total_cmp);
+    match distances.get(distances.len() / 2) {
+        Some(median) if *median > DENSE * diameter => LOOSE_REACH * median,
+        _ => diameter,
+    }
+}
+
+/// Distance (m) of the sixth neighbour of a sphere; infinite where there are fewer.
+fn of_last_neighbour(grid: &CellGrid<'_>, place: Vector, diameter: f64) -> f64 {
+    let mut farthest = DENSE * diameter;
+    loop {
+        let mut near = Vec::new();
+        grid.within(place, farthest, |_, away| near.push(away.norm_squared()));
+        near.sort_by(f64::total_cmp);
+        // The first is the sphere itself.
+        match near.get(NEIGHBOURS) {
+            Some(squared) => return squared.sqrt(),
+            None if near.len() == grid.len() => return f64::INFINITY,
+            None => farthest *= 1.5,
+        }
     }
 }
 

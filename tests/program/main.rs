@@ -23,6 +23,7 @@ mod limits;
 mod loss;
 mod made_up;
 mod model;
+mod packing_fraction;
 mod plot;
 mod published;
 mod records;
@@ -36,5 +37,6 @@ mod silo_figures;
 mod silo_sweep;
 mod spot;
 mod stability_study;
+mod suggestions;
 #[path = "../support/mod.rs"]
 mod support;
