@@ -220,8 +220,10 @@ fn text(evaluation: &Evaluation) -> String {
     }
     for order in evaluation.orders.iter().filter(|it| it.is_clear()) {
         lines.push(format!(
-            "order of {} in {}: {:.2}",
-            order.method, order.key, order.order
+            "order of {} in {}: {}",
+            order.method,
+            order.key,
+            order.order.in_words(2)
         ));
     }
     for it in &evaluation.majorities {

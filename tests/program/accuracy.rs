@@ -89,6 +89,42 @@ fn the_cheapest_setting_of_a_motion_is_the_largest_step_within_the_tolerance() {
     assert_eq!(cheapest, Some("reference"), "{found:#}");
 }
 
+/// Symptom: "order 0.10" of a key without influence. Cause: an end of the range of orders passed for
+/// an order.
+#[test]
+fn a_key_without_influence_has_no_order() {
+    let place = Workplace::new();
+    let ladder = "key = \"guards.overlap\"\nvalues = [2.0, 4.0, 8.0]";
+    let study = MOTION.replace(
+        "key = \"time.dt\"\nvalues = [4e-4, 2e-4, 1e-4, 5e-5]",
+        ladder,
+    );
+    assert_ne!(study, MOTION);
+    place.write(
+        "study.toml",
+        &format!("{study}{SCENE}[scene.guards]\noverlap = 5.0\n"),
+    );
+    let order = &evaluation(&place, "study.toml")["orders"][0];
+    assert_eq!(order["key"], "guards.overlap");
+    assert_eq!(
+        (&order["order"], &order["bound"]),
+        (&Value::Null, &Value::from(0.1))
+    );
+    place
+        .phase(&["accuracy", "study.toml"])
+        .code(0)
+        .says("in guards.overlap: none, no measurable influence");
+    let figure = place.read("results/accuracy/study/work-precision.svg");
+    let texts = crate::support::texts(&figure);
+    assert!(
+        texts
+            .iter()
+            .any(|it| it.ends_with("(no measurable influence)")),
+        "{texts:?}"
+    );
+    assert!(!figure.contains("(order"), "{texts:?}");
+}
+
 #[test]
 fn runs_that_are_there_are_not_made_again() {
     let place = Workplace::new();

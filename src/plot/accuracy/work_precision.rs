@@ -9,7 +9,7 @@ use crate::plot::style::{self, Drawn, Sheet, px};
 use crate::plot::svg::Svg;
 use crate::plot::{PlotError, palette};
 use crate::record::Program;
-use crate::study::accuracy::{AccuracyStudy, Errors, Evaluation, Outcome};
+use crate::study::accuracy::{AccuracyStudy, Errors, Evaluation, Order, Outcome};
 use crate::study::comparison::Interval;
 use plotters::element::{Circle, ErrorBar, PathElement, Rectangle};
 use plotters::style::{BLACK, Color, RGBColor};
@@ -200,7 +200,10 @@ fn legend(evaluation: &Evaluation, methods: &[&str], floor: Option<Interval>) ->
         let mut orders = evaluation.orders.iter();
         let order = orders.find(|order| order.method == *method && order.is_clear());
         let text = match order {
-            Some(order) => format!("{method} (order {:.1})", order.order.abs()),
+            Some(it) => match it.order {
+                Order::Below(_) => format!("{method} (no measurable influence)"),
+                order => format!("{method} (order {})", order.in_words(1)),
+            },
             None => (*method).to_owned(),
         };
         entries.push(Entry::new(Key::Line(color(index, methods.len())), &text));

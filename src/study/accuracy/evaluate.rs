@@ -3,7 +3,7 @@
 use super::cases::{self, CaseRow, CaseSetting};
 use super::finding::Finding;
 use super::motion::MotionError;
-use super::order::fitted_order;
+use super::order::{Order, fitted_order};
 use super::{AccuracyStudy, Subject, Tolerance};
 use crate::classify::Label;
 use crate::study::comparison::{
@@ -50,15 +50,47 @@ pub enum Errors {
 
 /// The order of a method.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(into = "OrderRow")]
 pub struct MethodOrder {
     /// Name of the line.
     pub method: String,
     /// The key along it.
     pub key: String,
-    /// The power of the key's value with which the error falls.
-    pub order: f64,
+    /// With which power of the key's value errors grow, or fall.
+    pub order: Order,
+    /// Whether they fall with the key's value, as with a number of steps.
+    pub falls: bool,
     /// Largest misfit of the logarithm of an error.
     pub misfit: f64,
+}
+
+/// The order of a method, as `--json` prints it.
+#[derive(Serialize)]
+struct OrderRow {
+    method: String,
+    key: String,
+    /// Negative if errors fall; none where only a bound is known.
+    order: Option<f64>,
+    /// The bound, where it is all that is known.
+    bound: Option<f64>,
+    misfit: f64,
+}
+
+impl From<MethodOrder> for OrderRow {
+    fn from(of: MethodOrder) -> Self {
+        let sign = if of.falls { -1.0 } else { 1.0 };
+        let (order, bound) = match of.order {
+            Order::Power(power) => (Some(sign * power), None),
+            Order::Below(bound) | Order::Above(bound) => (None, Some(sign * bound)),
+        };
+        Self {
+            method: of.method,
+            key: of.key,
+            order,
+            bound,
+            misfit: of.misfit,
+        }
+    }
 }
 
 impl MethodOrder {
@@ -294,7 +326,8 @@ fn orders(outcomes: &[Outcome], reference: Option<usize>, time: Option<usize>) -
         Some(MethodOrder {
             method: method.to_owned(),
             key: key.to_owned(),
-            order: if falls { -order } else { order },
+            order,
+            falls,
             misfit,
         })
     };

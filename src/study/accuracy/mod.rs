@@ -25,7 +25,7 @@ pub use finding::Finding;
 pub(crate) use load::of_document;
 pub use load::{from_str, load};
 pub use motion::MotionError;
-pub use order::fitted_order;
+pub use order::{Order, fitted_order};
 pub use table::write_accuracy;
 
 use crate::study::comparison::Comparison;
