@@ -30,6 +30,9 @@ pub struct PointDisagreement {
     pub floor: f64,
 }
 
+/// A width that is rounding.
+const NO_WIDTH: f64 = 1e-12;
+
 /// What labels of a point, of the setting and of the reference, give with these weights of seeds.
 type OfPoint<'a> = &'a dyn Fn(&[Vec<Label>; 2], &[f64]) -> f64;
 
@@ -57,16 +60,11 @@ impl Disagreement {
             interval(&seeds, purpose, 1, |weights| mean(weights, of_point))
         };
         let bound = bound_of_never(seeds.iter().sum());
-        let mut excess = estimate(&format!("{purpose}, excess"), &|labels, weights| {
+        let excess = estimate(&format!("{purpose}, excess"), &|labels, weights| {
             chance(labels, weights) - floor(labels, weights)
         });
-        excess.low = excess.low.max(-1.0);
-        excess.high = excess.high.max(bound).min(1.0);
-        let share = |interval: Interval| Interval {
-            low: interval.low.clamp(0.0, 1.0),
-            high: interval.high.max(bound).min(1.0),
-            ..interval
-        };
+        let excess = widened(excess, bound, -1.0);
+        let share = |interval: Interval| widened(interval, bound, 0.0);
         let point = |[own, other]: &[Vec<Label>; 2]| {
             let once = vec![1.0; own.len()];
             PointDisagreement {
@@ -110,8 +108,29 @@ fn chance(own: &[Label], other: &[Label], weights: &[f64]) -> f64 {
     1.0 - (agreeing - same_seed) / (total * total - squares)
 }
 
+/// The interval within the range from `least` to 1, with the upper end at `bound` or above. A
+/// bootstrap of equal values tells no scatter, however few they are: where all labels of some
+/// points changed, and none of others, both ends are `bound` away from the value. What did not
+/// change at all does not come to less than nothing by that.
+fn widened(interval: Interval, bound: f64, least: f64) -> Interval {
+    let Interval {
+        value,
+        mut low,
+        mut high,
+    } = interval;
+    if high - low <= NO_WIDTH {
+        let zero = if value > -NO_WIDTH { 0.0 } else { -1.0 };
+        (low, high) = ((value - bound).max(zero), value + bound);
+    }
+    Interval {
+        value,
+        low: low.clamp(least, 1.0),
+        high: high.max(bound).min(1.0),
+    }
+}
+
 /// The largest chance of an event that has not been seen in so many trials: 1 - (1 - c)^(1/n) of
-/// the confidence c. A bootstrap of equal values tells no scatter, however few they are.
+/// the confidence c.
 fn bound_of_never(trials: usize) -> f64 {
     1.0 - libm::pow(1.0 - CONFIDENCE, 1.0 / trials.max(1) as f64)
 }
@@ -148,6 +167,34 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Symptom: intervals of no width where a setting changed all labels of some points. Cause: only
+    /// what was never seen had a bound.
+    #[test]
+    fn an_interval_has_a_width_on_both_sides() {
+        let of = |value: f64, least: f64| {
+            let interval = Interval {
+                value,
+                low: value,
+                high: value,
+            };
+            let Interval { low, high, .. } = widened(interval, 0.1, least);
+            [low, high]
+        };
+        assert_eq!(of(1.0, 0.0), [0.9, 1.0]);
+        assert_eq!(of(0.0, 0.0), [0.0, 0.1]);
+        assert_eq!(of(0.5, -1.0), [0.4, 0.6]);
+        assert_eq!(of(0.05, -1.0), [0.0, 0.05 + 0.1]);
+        assert_eq!(of(1.0, -1.0), [0.9, 1.0]);
+        assert_eq!(of(-0.5, -1.0), [-0.6, 0.1]);
+        let wide = Interval {
+            value: 0.5,
+            low: 0.2,
+            high: 0.8,
+        };
+        assert_eq!(widened(wide, 0.1, 0.0), wide);
+        assert_eq!(widened(wide, 0.9, 0.0).high, 0.9);
     }
 
     #[test]
