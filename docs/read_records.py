@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import h5py
+import numpy
 import pandas
 
 
@@ -19,10 +20,18 @@ def frames_of(record):
     return pandas.DataFrame(scalars).set_index("time")
 
 
+def chosen(labels):
+    """The run with the widest hole, where there are holes, else the first."""
+    holes = labels.get("hole_radius")
+    if holes is None or holes.isna().all():
+        return labels.iloc[0]
+    return labels.loc[holes.idxmax()]
+
+
 def main(folder):
     sweep = json.loads((folder / "sweep.json").read_text())
     axes = [axis["name"] for axis in sweep["axes"]]
-    print(sweep["title"], "over", " and ".join(axes))
+    print(sweep.get("title") or folder.name, "over", " and ".join(axes) or "seeds")
 
     # Identities are texts, even where they look like numbers.
     labels = pandas.read_csv(folder / "labels.csv", dtype={"id": str})
@@ -30,13 +39,15 @@ def main(folder):
     if len(axes) == 2:
         print(labels.pivot_table(index=axes[1], columns=axes[0], values="code").to_string())
 
-    # The record of one run: the one with the widest hole.
-    run = labels.loc[labels["hole_radius"].idxmax()]
+    run = chosen(labels)
     path = folder / "records" / f"{run['id']}.h5"
+    if not path.exists():
+        print("published without records; `phase sweep` makes them")
+        return
     with h5py.File(path) as record:
         print(f"{path.name}: {run['label']}, {record.attrs['outcome']}")
-        scene = json.loads(record.attrs["scene"])
-        print(scene["spheres"]["count"], "spheres of", scene["spheres"]["radius"], "m")
+        spheres = json.loads(record.attrs["scene"])["spheres"]
+        print(spheres["count"], "spheres of radius", spheres["radius"], "m")
 
         frames = frames_of(record)
         print("mean of the last second:")
@@ -44,9 +55,14 @@ def main(folder):
             data = record["observations"][name]
             print(f"  {name:15} {value:12.4e} {data.attrs['unit']:6} {data.attrs['description']}")
 
+        # Not a number where a sphere is not in.
         position = record["snapshots/position"][-1]
-        distance = (position[:, 0] ** 2 + position[:, 1] ** 2) ** 0.5
-        print(f"at the end the spheres are {distance.min():.4f} to {distance.max():.4f} m from the axis")
+        position = position[~numpy.isnan(position[:, 0])]
+        print(f"{len(position)} spheres are in at the end", end="")
+        if len(position) > 0:
+            distance = numpy.hypot(position[:, 0], position[:, 1])
+            print(f", {distance.min():.4f} to {distance.max():.4f} m from the axis", end="")
+        print()
 
 
 if __name__ == "__main__":
