@@ -1,21 +1,14 @@
 //! What the system sets limits to: memory, sizes of files, the standard output, signals, names.
 #![cfg(target_os = "linux")]
 
-use crate::support::{TinySweep, Workplace, scene_file, silo_file, wait_until};
+use crate::support::{TinySweep, Workplace, scene_file, signal, silo_file, wait_until};
 use std::os::unix::ffi::OsStrExt;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Output, Stdio};
 
-/// Runs a command of the shell in which `phase` stands for the built program.
-fn shell(place: &Workplace, script: &str) -> Output {
-    let phase = env!("CARGO_BIN_EXE_phase");
-    let script = script.replace("phase ", &format!("{phase} "));
-    let folder = place.path("");
-    let output = Command::new("sh")
-        .args(["-c", &script])
-        .current_dir(folder)
-        .output();
-    output.unwrap()
+/// Runs a line of the shell in which `phase` stands for the built program.
+fn shell(place: &Workplace, line: &str) -> Output {
+    place.shell(line).output().unwrap()
 }
 
 fn stderr(output: &Output) -> String {
@@ -208,44 +201,32 @@ fn a_signal_that_was_ignored_stays_ignored() {
         ..TinySweep::default()
     };
     place.write("many.toml", &many.text());
-    for (signal, trap) in [
+    for (name, trap) in [
         ("HUP", "trap '' HUP; "),
         ("INT", "trap '' INT; "),
         ("HUP", ""),
         ("TERM", ""),
     ] {
-        let phase = env!("CARGO_BIN_EXE_phase");
-        let script = format!(
-            "{trap}exec {phase} sweep many.toml --out {signal}{}",
-            trap.len()
-        );
-        let mut child = Command::new("sh")
-            .args(["-c", &script])
-            .current_dir(place.path(""))
-            .stderr(std::process::Stdio::null())
-            .stdout(std::process::Stdio::null())
+        let results = format!("{name}{}", trap.len());
+        let mut child = place
+            .shell(&format!("{trap}exec phase sweep many.toml --out {results}"))
+            .stderr(Stdio::null())
+            .stdout(Stdio::null())
             .spawn()
             .unwrap();
-        let records = place.path(&format!("{signal}{}/records", trap.len()));
+        let records = place.path(&results).join("records");
         wait_until(|| {
             records
                 .read_dir()
                 .is_ok_and(|mut files| files.next().is_some())
         });
-        let kill = |signal: &str| {
-            let id = child.id().to_string();
-            Command::new("kill")
-                .args(["-s", signal, &id])
-                .status()
-                .unwrap();
-        };
-        kill(signal);
+        signal(&child, name);
         std::thread::sleep(std::time::Duration::from_millis(300));
         let ended = child.try_wait().unwrap();
         assert_eq!(
             ended.is_none(),
             !trap.is_empty(),
-            "{signal} after `{trap}`: {ended:?}"
+            "{name} after `{trap}`: {ended:?}"
         );
         child.kill().unwrap();
         child.wait().unwrap();

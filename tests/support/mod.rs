@@ -1,6 +1,9 @@
 //! Runs the built program in a temporary folder, on sweeps that take milliseconds.
 #![allow(dead_code, reason = "each test program uses a part of it")]
 
+pub(crate) mod caller;
+
+use caller::command;
 use phase::store::{content_digest, read_record};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -40,10 +43,21 @@ impl Workplace {
     }
 
     pub(crate) fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_phase"));
+        let mut command = command(env!("CARGO_BIN_EXE_phase"));
         command.current_dir(self.folder.path()).args(arguments);
         // Packings that the program makes are kept here.
         command.env("XDG_CACHE_HOME", self.path("cache"));
+        command
+    }
+
+    /// Runs a line of the shell in which `phase` stands for the built program.
+    pub(crate) fn shell(&self, line: &str) -> Command {
+        let phase = env!("CARGO_BIN_EXE_phase");
+        let mut command = command("sh");
+        command
+            .args(["-c", &line.replace("phase ", &format!("'{phase}' "))])
+            .current_dir(self.folder.path())
+            .env("XDG_CACHE_HOME", self.path("cache"));
         command
     }
 
@@ -285,11 +299,21 @@ pub(crate) fn wait_until(mut holds: impl FnMut() -> bool) {
 }
 
 /// Sends a signal, such as `INT`, to a process.
+#[cfg(unix)]
 pub(crate) fn signal(child: &Child, name: &str) {
-    let status = Command::new("kill")
-        .args(["-s", name, &child.id().to_string()])
-        .status();
-    assert!(status.unwrap().success());
+    use rustix::process::{Pid, Signal, kill_process};
+    let signal = match name {
+        "HUP" => Signal::HUP,
+        "INT" => Signal::INT,
+        "TERM" => Signal::TERM,
+        _ => panic!("no signal {name}"),
+    };
+    kill_process(Pid::from_child(child), signal).unwrap();
+}
+
+#[cfg(not(unix))]
+pub(crate) fn signal(_: &Child, name: &str) {
+    panic!("this system has no signal {name}");
 }
 
 /// Waits for a process to end.
