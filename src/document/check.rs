@@ -84,7 +84,6 @@ impl Kind {
     }
 }
 
-/// What to write in place of a number that is not whole, or less than that.
 /// Of a table with any keys: TOML knows no null, which is what became of a number that is none.
 fn check_finite(value: &Value, path: &str, problems: &mut Vec<Problem>) {
     match value {
@@ -106,6 +105,7 @@ fn check_finite(value: &Value, path: &str, problems: &mut Vec<Problem>) {
     }
 }
 
+/// What to write in place of a number that is not whole, or less than `least`.
 fn advice_on_whole(number: &serde_json::Number, least: u64) -> String {
     let value = number.as_f64().unwrap_or(f64::NAN);
     match libm::trunc(value) == value && value >= least as f64 {

@@ -10,6 +10,7 @@ pub(crate) mod quantities;
 mod quantity;
 mod schema;
 mod spelling;
+mod suggestion;
 pub(crate) mod text;
 mod tree;
 
@@ -19,6 +20,7 @@ pub use problem::Problem;
 pub(crate) use quantity::{Attribute, Quantity, quantity, unit};
 pub(crate) use schema::Schema;
 pub(crate) use spelling::{any_of, number, one_of, quoted, suggest};
+pub(crate) use suggestion::{accepted, at_least, at_most, rounded_down, rounded_up};
 pub use text::advice;
 
 use serde_json::Value;

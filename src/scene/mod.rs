@@ -54,7 +54,7 @@ pub use tank::Tank;
 pub(crate) use time::AUTO;
 pub use time::{Integrator, Time};
 pub use units::Units;
-pub(crate) use validate::{at_least, at_most, plural, rounded};
+pub(crate) use validate::{multiple, plural, rounded};
 pub(crate) use vary::Template;
 
 // All tables of effects.

@@ -9,7 +9,7 @@ use phase::sweep::{self, Sweep};
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
 
-fn files(folder: &str) -> Vec<PathBuf> {
+pub(crate) fn files(folder: &str) -> Vec<PathBuf> {
     let mut files: Vec<PathBuf> = std::fs::read_dir(folder)
         .unwrap()
         .map(|entry| entry.unwrap().path())
@@ -20,7 +20,7 @@ fn files(folder: &str) -> Vec<PathBuf> {
 }
 
 /// Of which kind a file is: the beginning of its name says so.
-fn kind(path: &Path) -> &'static str {
+pub(crate) fn kind(path: &Path) -> &'static str {
     let name = path.file_name().unwrap().to_str().unwrap();
     let kinds = ["sweep", "stability", "accuracy"].into_iter();
     let mut own = kinds.filter(|kind| name.starts_with(&format!("{kind}-")));

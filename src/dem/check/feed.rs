@@ -3,8 +3,8 @@
 use crate::dem::overlap;
 use crate::dem::timestep::fastest_impact;
 use crate::dem::walls::Wall;
-use crate::document::{Problem, number};
-use crate::scene::{Geometry, Scene, Start, Tank, at_least, at_most, rounded};
+use crate::document::{Problem, number, rounded_down, rounded_up};
+use crate::scene::{Geometry, Scene, Start, Tank, rounded};
 
 /// Overlaps with walls below this share of the radius are those of rounded positions.
 const ROUNDING: f64 = 1e-9;
@@ -143,7 +143,7 @@ impl Place {
             radius,
         } = *self;
         let z = match tank.floor {
-            Some(floor) => z.max(at_least(floor + radius)),
+            Some(floor) => z.max(rounded_up(floor + radius)),
             None => z,
         };
         if let Some(wall) = tank.radius {
@@ -159,7 +159,7 @@ impl Place {
                 false => 1.0,
             };
             let [x, y] = [x, y].map(|place| match share < 1.0 {
-                true => at_most((place * share).abs()).copysign(place),
+                true => rounded_down((place * share).abs()).copysign(place),
                 false => place,
             });
             return [x, y, z];
@@ -168,7 +168,7 @@ impl Place {
             Some(side) => {
                 let most = (0.5 * side - radius - spread).max(0.0);
                 match place.abs() > most {
-                    true => at_most(most).copysign(place),
+                    true => rounded_down(most).copysign(place),
                     false => place,
                 }
             }
@@ -187,6 +187,6 @@ impl Place {
             (None, Some(width)) => 0.5 * width - self.radius,
             (None, None) => 0.0,
         };
-        at_most((room - x.abs()).max(0.0))
+        rounded_down((room - x.abs()).max(0.0))
     }
 }

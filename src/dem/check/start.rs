@@ -1,8 +1,8 @@
 //! Whether the spheres have room where they start.
 
 use crate::dem::overlap::{self, Overlap, Partner};
-use crate::document::{Problem, number};
-use crate::scene::{Scene, Start, Tank, at_least, plural, rounded};
+use crate::document::{Problem, accepted, at_least, number};
+use crate::scene::{Scene, Start, Tank, plural, rounded};
 use crate::start;
 
 /// Largest share of the space open to the spheres that a random start may fill. Random placement
@@ -36,21 +36,24 @@ impl Scene {
     fn check_room_between(&self, area: f64, z_min: f64, z_max: f64, problems: &mut Vec<Problem>) {
         let radii = &self.spheres.radius;
         let volume = self.spheres.count as f64 * radii.mean_volume();
-        if self.dem.geometry.is_some() && self.trial_fails() {
+        if self.dem.geometry.is_some() && self.trial_fails(z_max) {
             let message = "the spheres find no room between those that are fixed";
             let help = "let `start.z_min` to `start.z_max` reach farther, or use fewer spheres";
             problems.push(Problem::new("start.z_max", message).help(help));
             return;
         }
         let height_for = |fraction: f64| volume / (fraction * area);
-        let height = z_max - z_min + 2.0 * radii.mean();
-        let fraction = height_for(1.0) / height;
-        let limit = match fraction {
-            fraction if fraction > PACKING_LIMIT => PACKING_LIMIT,
-            // Spheres that are not small against the tank find less room: only a trial tells.
-            fraction if fraction > CERTAIN_PACKING && self.trial_fails() => CERTAIN_PACKING,
-            _ => return,
+        let fraction_up_to = |z_max: f64| height_for(1.0) / (z_max - z_min + 2.0 * radii.mean());
+        // Spheres that are not small against the tank find less room: only a trial tells.
+        let finds_room = |z_max: f64| match fraction_up_to(z_max) {
+            fraction if fraction > PACKING_LIMIT => false,
+            fraction if fraction > CERTAIN_PACKING => !self.trial_fails(z_max),
+            _ => true,
         };
+        if finds_room(z_max) {
+            return;
+        }
+        let fraction = fraction_up_to(z_max);
         let message = format!(
             "{} do not fit: they would fill {:.0} % of the space between `start.z_min` and \
              `start.z_max`, and a random start without overlap fills {:.0} % at most",
@@ -58,16 +61,24 @@ impl Scene {
             100.0 * fraction,
             100.0 * PACKING_LIMIT,
         );
-        let message = if limit < PACKING_LIMIT {
+        let message = if fraction <= PACKING_LIMIT {
             format!("{message} (less where spheres are large against the tank)")
         } else {
             message
         };
-        let z_max = z_min + 1.01 * (height_for(limit) - 2.0 * radii.mean());
-        let help = format!(
-            "use `z_max = {}` or more, or fewer or smaller spheres",
-            rounded(z_max)
-        );
+        let few = "fewer or smaller spheres";
+        let room = [PACKING_LIMIT, CERTAIN_PACKING]
+            .into_iter()
+            .find_map(|limit| {
+                let z_max = z_min + 1.01 * (height_for(limit) - 2.0 * radii.mean());
+                let z_max = accepted(z_max, |it| fraction_up_to(it) <= limit)?;
+                let is_enough = z_max.parse().is_ok_and(finds_room);
+                is_enough.then_some(z_max)
+            });
+        let help = match room {
+            Some(z_max) => format!("use `z_max = {z_max}` or more, or {few}"),
+            None => format!("use a higher `z_max`, or {few}"),
+        };
         problems.push(Problem::new("start.z_max", message).help(help));
     }
 
@@ -143,13 +154,21 @@ impl Scene {
             Partner::Wall(_) => partner.to_string(),
             Partner::Sphere(_) | Partner::Fixed(_) => "the other centre".to_owned(),
         };
-        let help = format!("keep its centre at least {} m from {other}", number(apart));
+        let help = format!("keep its centre at least {apart} m from {other}");
         let path = format!("start.spheres[{sphere}].position");
         problems.push(Problem::new(path, message).help(help));
     }
 
-    /// Whether the spheres, if they are not too many for a quick trial, cannot be placed.
-    fn trial_fails(&self) -> bool {
-        self.spheres.count <= MOST_TRIED && start::place(self).is_err()
+    /// Whether the spheres, if they are not too many for a quick trial, cannot be placed below
+    /// this height (m).
+    fn trial_fails(&self, highest: f64) -> bool {
+        if self.spheres.count > MOST_TRIED {
+            return false;
+        }
+        let mut scene = self.clone();
+        if let Start::Random { z_max, .. } = &mut scene.start {
+            *z_max = highest;
+        }
+        start::place(&scene).is_err()
     }
 }

@@ -1,8 +1,8 @@
 //! The time step: whether it is stable, and the one that follows from a scene (`dt = "auto"`).
 
 use crate::dem::timestep;
-use crate::document::{Problem, number};
-use crate::scene::{Scene, rounded};
+use crate::document::{Problem, accepted, number};
+use crate::scene::{Scene, multiple};
 
 /// Default of `time.safety_factor`: the step divided by the smallest limit.
 ///
@@ -42,11 +42,17 @@ impl Scene {
             timestep::fastest_impact(self),
         );
         // A round number of steps per frame, and some accuracy besides stability.
-        let steps = round_up(2.0 * self.time.frame_interval / limit.seconds);
-        let help = format!(
-            "use `dt = {}` or less: {steps} steps per frame, at most half the limit",
-            rounded(self.time.frame_interval / steps)
-        );
+        let frame = self.time.frame_interval;
+        let parts = self.parts_of_a_frame().unwrap_or(libm::round(frame / dt));
+        let steps = parts * round_up(2.0 * frame / (limit.seconds * parts));
+        let intervals = self.intervals_of_steps();
+        let divides = |dt: f64| intervals.iter().all(|(_, time)| multiple(*time, dt));
+        let help = match accepted(frame / steps, |dt| dt <= limit.seconds && divides(dt)) {
+            Some(dt) => {
+                format!("use `dt = {dt}` or less: {steps} steps per frame, at most half the limit")
+            }
+            None => "use a smaller one, such as half the limit".to_owned(),
+        };
         problems.push(Problem::new("time.dt", message).help(help));
     }
 

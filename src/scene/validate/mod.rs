@@ -10,6 +10,8 @@ mod steady;
 mod tank;
 mod time;
 
+pub(crate) use time::multiple;
+
 use super::{
     Contact, Friction, Geometry, LIST_KEY, Radii, SCENE, START_SPHERE, Scene, Spheres, Start,
 };
@@ -103,7 +105,7 @@ impl Scene {
         let count = self.spheres.count;
         if count > MOST_SPHERES {
             let message = format!("{} spheres are too many", number(count as f64));
-            let help = format!("{} are the most", number(MOST_SPHERES as f64));
+            let help = format!("{MOST_SPHERES} are the most");
             problems.push(Problem::new("spheres.count", message).help(help));
         }
         match &self.spheres.radius {
@@ -195,25 +197,7 @@ pub(crate) fn plural(count: usize, one: &str, many: &str) -> String {
     format!("{count} {}", if count == 1 { one } else { many })
 }
 
-/// The least number of six significant digits that is no less than a value, for messages.
-pub(crate) fn at_least(value: f64) -> f64 {
-    let text = format!("{value:.5e}");
-    let nearest: f64 = text.parse().unwrap_or(value);
-    if nearest >= value {
-        return nearest;
-    }
-    let exponent = text.split_once('e').map_or("0", |(_, exponent)| exponent);
-    let last_digit: f64 = format!("0.00001e{exponent}").parse().unwrap_or(0.0);
-    let next = format!("{:.5e}", value + last_digit);
-    next.parse().unwrap_or(value)
-}
-
-/// The greatest number of six significant digits that is no more than a value, for messages.
-pub(crate) fn at_most(value: f64) -> f64 {
-    -at_least(-value)
-}
-
-/// To six significant digits, for messages.
+/// To six significant digits: a number to read, not one to type.
 pub(crate) fn rounded(value: f64) -> String {
     number(format!("{value:.5e}").parse().unwrap_or(value))
 }

@@ -1,7 +1,8 @@
 //! Checks whether the output of a scene fits into memory.
 
 use super::rounded;
-use crate::document::{Problem, number};
+use super::time::multiple;
+use crate::document::{Problem, accepted, number};
 use crate::scene::Scene;
 
 /// Most numbers of an observable with several per frame: a gigabyte of them.
@@ -31,10 +32,8 @@ impl Scene {
                     rounded(bins),
                     rounded(frames)
                 );
-                let help = format!(
-                    "use `profile_bins = {}` or less in [output]",
-                    number(most.max(1.0))
-                );
+                let most = most.max(1.0) as u64;
+                let help = format!("use `profile_bins = {most}` or less in [output]");
                 problems.push(Problem::new("output.profile_bins", message).help(help));
             }
         }
@@ -70,11 +69,18 @@ impl Scene {
             refuse("output.trajectory", frames, help.to_owned());
         }
         let interval = self.output.snapshot_interval;
-        if interval > 0.0 && states(interval) > most.max(2.0) {
-            let help = format!(
-                "use `snapshot_interval = {}` or more, or 0 for the last one alone",
-                rounded(self.time.duration / most)
-            );
+        let fits = |interval: f64| states(interval) <= most.max(2.0);
+        if interval > 0.0 && !fits(interval) {
+            let frame = self.time.frame_interval;
+            // The first whole number of frames between snapshots with which they are few enough.
+            let apart = libm::floor(self.time.duration / (most.max(2.0) * frame)) + 1.0;
+            let least = accepted(apart * frame, |it| fits(it) && multiple(it, frame));
+            let help = match least {
+                Some(least) => format!(
+                    "use `snapshot_interval = {least}` or more, or 0 for the last one alone"
+                ),
+                None => "use a longer one, or 0 for the last one alone".to_owned(),
+            };
             refuse("output.snapshot_interval", states(interval), help);
         }
     }

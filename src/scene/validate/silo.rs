@@ -1,7 +1,7 @@
 //! Checks whether geometry, feed, door, rest and outlet of a scene go together.
 
 use super::rounded;
-use crate::document::{Problem, number};
+use crate::document::{Problem, accepted, at_most, number};
 use crate::scene::{Friction, Geometry, Hopper, MOST_HOPPER_SPHERES, Scene, Shape, Start, Tank};
 
 /// Shortest `rest.hold` (s): the spheres are looked at twice in this time.
@@ -162,7 +162,7 @@ impl Scene {
                 "`rest.hold` = {} s is no longer than the time between two looks at the spheres",
                 number(rest.hold)
             );
-            let help = format!("use {} or more", number(LEAST_HOLD));
+            let help = format!("use `hold = {}` or more", number(LEAST_HOLD));
             problems.push(Problem::new("rest.hold", message).help(help));
         }
     }
@@ -254,18 +254,26 @@ fn check_hopper(hopper: &Hopper, problems: &mut Vec<Problem>) {
             "an opening of {} m is as wide as the silo",
             number(hopper.opening)
         );
-        let help = format!("use less than {}", rounded(widest));
+        let help = format!("use less than {}", at_most(widest));
         problems.push(Problem::new("geometry.opening", message).help(help));
     }
     let count = hopper.count();
     if count > MOST_HOPPER_SPHERES {
         let message = format!("the spacing makes walls of {} spheres", rounded(count));
-        let least = hopper.spacing * count / MOST_HOPPER_SPHERES;
-        let help = format!(
-            "{} are the most: use `spacing = {}` or more, or shorter walls",
-            number(MOST_HOPPER_SPHERES),
-            rounded(least)
-        );
+        let fits = |spacing: f64| {
+            let hopper = Hopper {
+                spacing,
+                ..hopper.clone()
+            };
+            hopper.count() <= MOST_HOPPER_SPHERES
+        };
+        // Each part of the walls is cut into a whole number of spacings.
+        let least = 1.001 * hopper.spacing * count / MOST_HOPPER_SPHERES;
+        let advice = match accepted(least, fits) {
+            Some(least) => format!("use `spacing = {least}` or more, or shorter walls"),
+            None => "use a wider one, or shorter walls".to_owned(),
+        };
+        let help = format!("{} are the most: {advice}", number(MOST_HOPPER_SPHERES));
         problems.push(Problem::new("geometry.spacing", message).help(help));
     } else if hopper.spacing > 2.0 * hopper.radius {
         let message = format!(
@@ -273,7 +281,7 @@ fn check_hopper(hopper: &Hopper, problems: &mut Vec<Problem>) {
             number(hopper.radius),
             number(hopper.spacing)
         );
-        let help = format!("use `spacing = {}` or less", rounded(2.0 * hopper.radius));
+        let help = format!("use `spacing = {}` or less", at_most(2.0 * hopper.radius));
         problems.push(Problem::new("geometry.spacing", message).help(help));
     }
 }

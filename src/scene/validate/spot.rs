@@ -1,7 +1,7 @@
 //! Whether the tables of a scene go with the spot model, and spots with the box.
 
 use super::rounded;
-use crate::document::{Problem, number};
+use crate::document::{Problem, at_least, at_most, number};
 use crate::scene::{
     Guards, Neighbours, Output, RelaxationMethod, STICKING_OUT, Scene, Shape, Spot, SpotRelaxation,
     Start, StartSphere,
@@ -219,8 +219,8 @@ impl Scene {
             );
             let help = format!(
                 "use a `wall_distance` between {} and {}",
-                rounded(-half),
-                rounded(half)
+                at_least(-half),
+                at_most(half)
             );
             problems.push(Problem::new("spot.wall_distance", message).help(help));
         }

@@ -1,7 +1,7 @@
 //! Whether the spheres of a scene have a place to start from.
 
-use super::{at_least, plural, rounded};
-use crate::document::{Problem, number};
+use super::{plural, rounded};
+use crate::document::{Problem, accepted, number};
 use crate::scene::{Scene, Shape, Start, Tank};
 
 /// Most spheres that the floor under a packing may have room for.
@@ -38,17 +38,20 @@ impl Scene {
             return;
         }
         let largest = self.radius_range().1;
-        if let Some(floor) = self.tank.as_ref().and_then(|tank| tank.floor)
-            && z_min - floor < largest * (1.0 - 1e-9)
-        {
+        let floor = self.tank.as_ref().and_then(|tank| tank.floor);
+        let clears = |z_min: f64, floor: f64| z_min - floor >= largest * (1.0 - 1e-9);
+        if let Some(floor) = floor.filter(|floor| !clears(z_min, *floor)) {
             let message = format!(
                 "`start.z_min` = {} puts spheres of radius {} m into the floor at {} m",
                 number(z_min),
                 number(largest),
                 number(floor)
             );
-            let least = number(at_least(floor + largest));
-            let help = format!("use at least `z_min = {least}`");
+            let least = accepted(floor + largest, |it| clears(it, floor));
+            let help = match least {
+                Some(least) => format!("use at least `z_min = {least}`"),
+                None => "use a higher one".to_owned(),
+            };
             problems.push(Problem::new("start.z_min", message).help(help));
         }
     }

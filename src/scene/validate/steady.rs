@@ -1,7 +1,6 @@
 //! Whether runs of a scene can become steady.
 
-use super::rounded;
-use crate::document::{Problem, number};
+use crate::document::{Problem, at_least, number};
 use crate::scene::Scene;
 use crate::statistics::LEAST_VALUES;
 
@@ -35,7 +34,10 @@ impl Scene {
                 number(time.frame_interval),
             );
             let least = (LEAST_VALUES - 1) as f64 * time.frame_interval;
-            let help = format!("use {} s or more, or a shorter interval", rounded(least));
+            let help = format!(
+                "use `window = {}` or more, or a shorter `frame_interval`",
+                at_least(least)
+            );
             refuse("steady.window", message, help);
         }
         if steady.window > time.duration {

@@ -1,8 +1,8 @@
 //! Whether the times of a scene go together.
 
 use super::rounded;
-use crate::document::{Problem, number};
-use crate::scene::{Integrator, Output, Scene, Start};
+use crate::document::{Problem, accepted, number};
+use crate::scene::{Integrator, Output, Scene, Start, leaf};
 
 /// Two times count as commensurate if their ratio is a whole number within this.
 const ROUNDING: f64 = 1e-6;
@@ -74,7 +74,7 @@ impl Scene {
 }
 
 /// Whether `time` is a whole number of times `unit`, once or more often.
-pub(super) fn multiple(time: f64, unit: f64) -> bool {
+pub(crate) fn multiple(time: f64, unit: f64) -> bool {
     let ratio = time / unit;
     let whole = libm::round(ratio);
     whole >= 1.0 && (ratio - whole).abs() <= ROUNDING * whole.min(1e3)
@@ -88,10 +88,12 @@ pub(super) fn not_multiple(path: &str, time: f64, unit_path: &str, unit: f64) ->
         rounded(time / unit)
     );
     let below = libm::floor(time / unit);
-    let above = rounded((below + 1.0) * unit);
-    let multiples = match below {
-        below if below < 1.0 => format!("{above} s"),
-        below => format!("{} s or {above} s", rounded(below * unit)),
-    };
-    Problem::new(path, message).help(format!("use {multiples}"))
+    let key = leaf(path);
+    let multiples = [below, below + 1.0]
+        .into_iter()
+        .filter(|whole| *whole >= 1.0)
+        .filter_map(|whole| accepted(whole * unit, |it| multiple(it, unit)))
+        .map(|time| format!("`{key} = {time}`"))
+        .collect::<Vec<_>>();
+    Problem::new(path, message).help(format!("use {}", multiples.join(" or ")))
 }
