@@ -30,7 +30,9 @@ fn walls() -> Vec<Wall> {
     let with_door = |tank: &str| format!("{tank}\ndoor = {{ opens = 0.1 }}");
     vec![
         ("floor", ROUND.into(), |deep| [0.0, 0.0, R - deep * R]),
-        ("cylinder", ROUND.into(), |deep| [0.0, deep * R - 0.12, 0.2]),
+        ("cylinder", ROUND.into(), |deep| {
+            [0.0, -0.12 - deep * R, 0.2]
+        }),
         ("side", BOX.into(), |deep| [0.12 + deep * R, 0.0, 0.2]),
         ("back", BOX.into(), |deep| [0.0, 0.12 + deep * R, 0.2]),
         ("orifice", ORIFICE.into(), beside_edge),

@@ -3,7 +3,7 @@
 use crate::dem::overlap;
 use crate::dem::timestep::fastest_impact;
 use crate::dem::walls::Wall;
-use crate::document::{Problem, number, rounded_down, rounded_up};
+use crate::document::{Problem, at_most, number, rounded_down, rounded_up};
 use crate::scene::{Geometry, Scene, Start, Tank, rounded};
 
 /// Overlaps with walls below this share of the radius are those of rounded positions.
@@ -28,6 +28,10 @@ impl Scene {
         else {
             return;
         };
+        // Spots move no feed, which is refused there.
+        if self.spot.is_some() {
+            return;
+        }
         let place = Place {
             position,
             spread,
@@ -89,10 +93,29 @@ impl Scene {
                 number(radius),
                 number(spread)
             );
-            let most = number(place.widest_at(clear, tank));
+            let most = self.widest_spread(Place {
+                position: clear,
+                ..place
+            });
             let help = format!("use `spread = {most}` or less");
             problems.push(Problem::new("start.spread", message).help(help));
         }
+    }
+
+    /// The widest spread (m), to six digits, at a clear position where its own is too wide. The
+    /// shifts at which no wall is in the way are an interval.
+    fn widest_spread(&self, place: Place) -> String {
+        let [x, y, z] = place.position;
+        let (mut most, mut too_wide) = (0.0, place.spread);
+        for _ in 0..f64::MANTISSA_DIGITS {
+            let middle = 0.5 * (most + too_wide);
+            let mut ends = [x - middle, x + middle].into_iter();
+            match ends.any(|x| self.fault_at([x, y, z], place.radius).is_some()) {
+                true => too_wide = middle,
+                false => most = middle,
+            }
+        }
+        at_most(most)
     }
 
     /// What is wrong with the place of a sphere that comes in, if walls are in its way.
@@ -175,18 +198,5 @@ impl Place {
             None => place,
         };
         [within(x, tank.width, spread), within(y, tank.depth, 0.0), z]
-    }
-
-    /// The widest spread at a clear position (m), to six digits.
-    fn widest_at(&self, [x, y, _]: [f64; 3], tank: &Tank) -> f64 {
-        let room = match (tank.radius, tank.width) {
-            (Some(wall), _) => {
-                let reach = wall - self.radius;
-                (reach * reach - y * y).max(0.0).sqrt()
-            }
-            (None, Some(width)) => 0.5 * width - self.radius,
-            (None, None) => 0.0,
-        };
-        rounded_down((room - x.abs()).max(0.0))
     }
 }

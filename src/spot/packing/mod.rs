@@ -54,7 +54,10 @@ pub enum PackingError {
     #[error("a packing needs at least one sphere")]
     NoSpheres,
     /// Spheres stay overlapped.
-    #[error("{spheres} spheres could not be pushed apart below a lid at {height} m")]
+    #[error(
+        "{spheres} spheres could not be pushed apart below a lid at {height} m; make `tank.width` \
+         and `tank.depth` larger"
+    )]
     Jammed {
         /// Number of spheres.
         spheres: usize,
