@@ -58,8 +58,12 @@ pub(crate) struct Regime<'a> {
     pub(crate) inertia_factor: f64,
     /// Whether there are walls or fixed spheres.
     pub(crate) has_walls: bool,
-    /// The fastest relative speed (m/s) to expect.
+    /// Whether spheres move along prescribed paths, as if they were endlessly heavy.
+    pub(crate) drives: bool,
+    /// The fastest relative speed (m/s) to expect at an impact.
     pub(crate) fastest_impact: f64,
+    /// The fastest speed (m/s) of a sphere to expect, at impacts and between them.
+    pub(crate) fastest_motion: f64,
     /// The fastest spin (rad/s) to expect.
     pub(crate) fastest_spin: f64,
     /// The lowest height (m) of a centre.
@@ -84,17 +88,21 @@ impl Regime<'_> {
     }
 
     /// The limit at which the fastest sphere reaches the displacement guard: the smallest sphere,
-    /// hit by the largest at this speed (m/s).
+    /// hit by the largest at the fastest speed, or at this one (m/s) if it is faster.
     pub(crate) fn displacement(&self, speed: f64) -> Limit {
+        let speed = speed.max(self.fastest_motion);
         let (light, heavy) = (self.smallest_mass, self.largest_mass);
-        let knocked_on = 2.0 * heavy / (heavy + light);
+        let knocked_on = match self.drives {
+            true => 2.0,
+            false => 2.0 * heavy / (heavy + light),
+        };
         Limit {
             name: DISPLACEMENT,
             seconds: self.displacement_guard * self.smallest_radius / (speed * knocked_on),
             decisive: false,
             explanation: "the fastest sphere stays below the displacement guard: the smallest at \
-                          the speed of the fastest impact, times 2 M / (M + m), at which the \
-                          largest knocks it on",
+                          the fastest speed, times 2 M / (M + m), at which the largest knocks it \
+                          on, or times 2, at which a driven one does",
             consequence: Some(
                 "the fastest sphere may pass the displacement guard, which ends the run",
             ),

@@ -3,6 +3,7 @@
 use crate::large::large;
 use crate::scenes::state;
 use phase::dem::Simulation;
+use phase::dem::timestep::Standing;
 use phase::particles::vector::Vector;
 use phase::record::MilestoneKind;
 use phase::scene::{Integrator, Scene};
@@ -337,5 +338,81 @@ fn a_driven_sphere_is_found_among_many() {
                 "{integrator:?}"
             );
         }
+    }
+}
+
+/// A ball on a sphere that shakes at 100 Hz with four times gravity.
+fn shaken(integrator: Integrator, dt: &str) -> Scene {
+    let text = format!(
+        "spheres = {{ count = 2, radius = 0.01, density = 2500.0 }}
+        contact = {{ law = 'hertz', young_modulus = 1e7, poisson_ratio = 0.3, restitution = 0.8 }}
+        gravity = {{ acceleration = 9.81 }}
+        guards = {{ vertical = 100.0 }}
+        time = {{ dt = {dt}, duration = 20.0, frame_interval = 0.01, integrator = '{}' }}
+
+        [start]
+        kind = 'list'
+        spheres = [{{ position = [0.0, 0.0, 0.0] }}, {{ position = [0.0, 0.0, 0.02] }}]
+
+        [[driven]]
+        sphere = 0
+        amplitude = [0.0, 0.0, 1e-4]
+        angular_frequency = 628.3185307179586",
+        integrator.name()
+    );
+    let scene = Scene::from_toml(&text, std::path::Path::new("shaken.toml"));
+    scene.unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Symptom: with `dt = \"auto\"` and adaptive Verlet the step was one whole period, so that neither
+/// sphere moved. Cause: no limit knew of the period of a driven sphere.
+#[test]
+fn a_ball_bounces_on_a_sphere_that_shakes() {
+    for integrator in Integrator::ALL {
+        let scene = shaken(integrator, "'auto'");
+        assert!(scene.time.steps_per_frame() > 60, "{:e}", scene.time.dt);
+        let mut simulation = Simulation::new(&scene).unwrap();
+        let heights = (0..scene.time.frames()).map(|_| {
+            simulation.advance(scene.time.steps_per_frame()).unwrap();
+            simulation.particles().position[1].z - 0.02
+        });
+        let heights: Vec<f64> = heights.collect();
+        let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+        // 2.0 to 2.3 mm with each integrator and a thousand steps in a period.
+        assert!((1.6e-3..2.8e-3).contains(&mean), "{integrator:?}: {mean}");
+        // In the first second.
+        let top = heights[..100]
+            .iter()
+            .fold(0.0, |top: f64, height| top.max(*height));
+        assert!((4e-3..12e-3).contains(&top), "{integrator:?}: {top}");
+    }
+}
+
+/// Symptom: a step of a whole period was not warned of.
+#[test]
+fn a_step_of_a_period_is_warned_of() {
+    for integrator in Integrator::ALL {
+        let mut scene = shaken(integrator, "1e-4");
+        let warns = |scene: &Scene| {
+            let all = Standing::all(scene);
+            let standing = all
+                .iter()
+                .find(|it| it.limit.name == "driven period")
+                .unwrap();
+            assert!(!standing.limit.decisive);
+            standing.consequence().is_some()
+        };
+        assert!(!warns(&scene));
+        for (steps, expected) in [(13.0, false), (12.0, true), (2.0, true), (1.0, true)] {
+            scene.time.dt = 0.01 / steps;
+            assert_eq!(warns(&scene), expected, "{integrator:?}: {steps}");
+        }
+        // Of several, the fastest that moves decides.
+        scene.dem.driven.push(scene.dem.driven[0].clone());
+        scene.dem.driven[1].angular_frequency *= -2.0;
+        scene.time.dt = 0.01 / 20.0;
+        assert!(warns(&scene));
+        scene.dem.driven[1].amplitude = [0.0; 3];
+        assert!(!warns(&scene));
     }
 }

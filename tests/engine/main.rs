@@ -6,6 +6,7 @@ mod allocations;
 mod collisions;
 mod determinism;
 mod driven;
+mod fastest;
 mod integrators;
 mod invariants;
 mod large;
@@ -26,5 +27,6 @@ mod starts;
 mod steel;
 #[path = "../support/mod.rs"]
 mod support;
+mod time_scales;
 mod time_step;
 mod verification;

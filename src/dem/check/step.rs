@@ -62,6 +62,10 @@ impl Scene {
             let help = format!("{help}, or give `dt` as a number");
             Problem::new("time.dt", message).help(help)
         };
+        if let Some(reason) = timestep::unbounded_speed(self) {
+            let message = format!("`dt = \"auto\"` finds no fastest speed: {reason}");
+            return Err(Problem::new("time.dt", message).help("give `dt` as a number"));
+        }
         let least = timestep::least(self).ok_or_else(|| {
             let message =
                 "`dt = \"auto\"` finds no limit of the time step: nothing in the scene sets one";

@@ -122,6 +122,18 @@ impl Drag {
         }
     }
 
+    /// The speed (m/s) through the air at which the force on a sphere of that radius (m), along one
+    /// axis, is this (N); infinite if the force never is.
+    pub(super) fn speed_at(&self, radius: f64, force: f64) -> f64 {
+        let (c1, c2) = self.coefficients(radius);
+        match self.law {
+            _ if force == 0.0 => 0.0,
+            DragLaw::SchillerNaumann => SchillerNaumann::speed_at(c1, c2, force),
+            // The root of c1 u + c2 u^2 = F, in the form that does not cancel.
+            _ => 2.0 * force / (c1 + (c1 * c1 + 4.0 * c2 * force).sqrt()),
+        }
+    }
+
     /// Which kernel the law needs.
     pub(super) fn kernel(&self) -> Form {
         match self.form {
@@ -141,27 +153,45 @@ impl EffectKeys for Drag {
     /// A sphere that slips through the air at speed u returns to its terminal speed at the rate
     /// dF/du / m, which is (c1 + 2 c2 u) / m where the force is c1 u + c2 u^2. Swirl and updraught
     /// both act on the vertical velocity.
+    ///
+    /// Both forces change with place, and so are springs as well: the updraught, which decays with
+    /// height, of w^2 = beta F / m; the drag of the swirl, whose air is the faster the farther out,
+    /// of w^2 = g Omega with its part g of the rate; and the pressure of a fluid that turns.
     fn limit(&self, all: &Effects, regime: &Regime<'_>) -> Option<Limit> {
         let updraught = all.updraught.as_ref().map_or(0.0, |air| {
             let height = regime.lowest_height - air.origin;
             air.strength_in(all.swirl.as_ref()) * libm::exp(-air.decay * height)
         });
         let swirl = if all.swirl.is_some() { 1.0 } else { 0.0 };
-        let slope = self.slope(regime.smallest_radius, regime.fastest_impact);
+        let (radius, mass) = (regime.smallest_radius, regime.smallest_mass);
+        let speed = regime.fastest_impact;
+        let slope = self.slope(radius, speed);
         let coefficient = slope * (swirl + updraught);
+        let rotation = all.swirl.as_ref().map_or(0.0, |it| it.omega.abs());
+        let pressed = all.pressed_mass_ratio(regime.density) / regime.inertial_factor;
+        let decay = all.updraught.as_ref().map_or(0.0, |it| it.decay);
+        let springs = [
+            slope / mass * rotation,
+            swirl * pressed * rotation * rotation,
+            decay * updraught * self.coefficient(radius, speed) * speed / mass,
+        ];
+        let spring = springs.into_iter().fold(0.0, f64::max);
         Some(Limit {
             name: "drag",
-            seconds: (regime.scheme).oscillator(0.0, coefficient / regime.smallest_mass),
+            seconds: (regime.scheme).oscillator(spring.sqrt(), coefficient / mass),
             decisive: true,
             explanation: match self.law {
                 DragLaw::SchillerNaumann => {
-                    "2 m / (q dF/du) of the smallest sphere, over the factors of swirl and \
-                     updraught at the lowest height; q = 2 for synchronised-verlet, else 1"
+                    "(w dt)^2 + 2 q g dt < 4 of the smallest sphere, with g = dF/du / m times the \
+                     factors of swirl and updraught at the lowest height, and the largest of w^2 = \
+                     g Omega, beta F / m and the pressure of a fluid that turns; q = 2 for \
+                     synchronised-verlet, else 1"
                 }
                 _ => {
-                    "2 m / (q (c1 + 2 c2 u)) of the smallest sphere, times the factors of \
-                     swirl and updraught at the lowest height; q = 2 for \
-                     synchronised-verlet, else 1"
+                    "(w dt)^2 + 2 q g dt < 4 of the smallest sphere, with g = (c1 + 2 c2 u) / m \
+                     times the factors of swirl and updraught at the lowest height, and the \
+                     largest of w^2 = g Omega, beta F / m and the pressure of a fluid that turns; \
+                     q = 2 for synchronised-verlet, else 1"
                 }
             },
             consequence: Limit::PASSES_ITS_END,
@@ -205,10 +235,7 @@ impl Drag {
     fn linear_instead(&self, all: &Effects, mean: &MeanSphere) -> Option<Simplification> {
         let gravity = all.gravity_in_fluid(mean.density)?;
         let weight = mean.mass * gravity.acceleration.abs();
-        let (c1, c2) = self.coefficients(mean.radius);
-        // The root of c1 v + c2 v^2 = m g, in the form that does not cancel.
-        let root = (c1 * c1 + 4.0 * c2 * weight).sqrt();
-        let terminal = 2.0 * weight / (c1 + root);
+        let terminal = self.speed_at(mean.radius, weight);
         let of_one = Self {
             linear: 1.0,
             ..self.clone()

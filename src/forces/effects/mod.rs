@@ -25,6 +25,7 @@ use crate::document::Problem;
 use crate::particles::Particles;
 use crate::particles::bodies::{Asked, Bodies};
 use crate::particles::vector::Vector;
+use drag::Form;
 use fearless_simd::Level;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -233,6 +234,41 @@ impl Effects {
     pub(crate) fn fastest(&self, reach: f64) -> f64 {
         let speeds = self.keys().flatten().map(|keys| keys.fastest(reach));
         speeds.fold(0.0, f64::max)
+    }
+
+    /// The speed (m/s) through the air at which drag holds a sphere of that radius (m), mass (kg)
+    /// and density (kg/m3) against gravity, wherever it is. None if there is no such drag: that of
+    /// an updraught acts along z only, fades or grows with height, and fades below other spheres,
+    /// unless the sphere is `alone`.
+    pub(crate) fn terminal_speed(
+        &self,
+        radius: f64,
+        mass: f64,
+        density: f64,
+        alone: bool,
+    ) -> Option<f64> {
+        let drag = self.drag.as_ref()?;
+        let [along_x, along_z] = self.gravity_in_fluid(density)?.components();
+        let swirl = if self.swirl.is_some() { 1.0 } else { 0.0 };
+        let strength = |air: &Updraught| air.strength_in(self.swirl.as_ref());
+        let updraught = match self.updraught.as_ref() {
+            Some(air) if strength(air) == 0.0 => 0.0,
+            // Below it grows without end, and the limit of the step with it.
+            Some(air) if air.decay != 0.0 && along_z < 0.0 => return None,
+            Some(air) if air.decay == 0.0 && (air.alpha == 1.0 || alone) => strength(air),
+            _ => 0.0,
+        };
+        let factor = if along_x == 0.0 {
+            swirl + updraught
+        } else {
+            swirl
+        };
+        let speed = |acceleration: f64| drag.speed_at(radius, mass * acceleration.abs() / factor);
+        let speed = match drag.kernel() {
+            Form::Components => libm::hypot(speed(along_x), speed(along_z)),
+            _ => speed(libm::hypot(along_x, along_z)),
+        };
+        speed.is_finite().then_some(speed)
     }
 
     /// Simpler stand-ins for each effect, in that scene, whose mean sphere is `mean`.

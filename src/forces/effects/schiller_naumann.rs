@@ -48,6 +48,22 @@ impl SchillerNaumann {
         c1 * over_stokes(c2 * speed)
     }
 
+    /// The speed (m/s) at which the force is this (N): between 0 and the speed of Stokes' law, to
+    /// the last digit.
+    pub(super) fn speed_at(c1: f64, c2: f64, force: f64) -> f64 {
+        let (mut slow, mut fast) = (0.0, force / c1);
+        loop {
+            let middle = 0.5 * (slow + fast);
+            if !(slow < middle && middle < fast) {
+                return fast;
+            }
+            match Self::coefficient(c1, c2, middle) * middle < force {
+                true => slow = middle,
+                false => fast = middle,
+            }
+        }
+    }
+
     /// dF/du (kg/s) at that speed u (m/s), where it is larger than at any lower speed.
     pub(super) fn slope(c1: f64, c2: f64, speed: f64) -> f64 {
         let reynolds = c2 * speed;
