@@ -263,7 +263,8 @@ fn seconds(table: &toml::Value, name: &str) -> f64 {
 fn each_of_these_keys_moves_its_limit() {
     for (key, row) in &ROWS {
         let Limit(name, base) = row else { continue };
-        let text = format!("time = {{ dt = 1e-12, duration = 1.0, frame_interval = 1e-3 }}\n{base}");
+        let text =
+            format!("time = {{ dt = 1e-12, duration = 1.0, frame_interval = 1e-3 }}\n{base}");
         let mut table: toml::Value = toml::from_str::<toml::Table>(&text).unwrap().into();
         // The restitution holds at 1 m/s, which the file need not say.
         if key.ends_with("restitution_speed") {
