@@ -43,6 +43,7 @@ fn touches() -> Vec<Touch> {
             lesser_mass: 2.7e-3,
             effective_mass: 1.35e-3,
             normal_force: 0.0,
+            force_along_normal: 0.0,
             loading_velocity: Vector::new(0.1 * share, 0.02, 0.0),
             contact_radius: (EFFECTIVE_RADIUS * 1e-4 * share).sqrt(),
             loading_radius: (EFFECTIVE_RADIUS * 1e-4 * share).sqrt(),
@@ -66,6 +67,7 @@ fn laws<T: TangentialLaw>(bencher: Bencher<'_, '_>, tangential: T) {
             let force = normal.force(overlap, rate, radius, touch.effective_mass);
             let touch = Touch {
                 normal_force: force,
+                force_along_normal: force,
                 ..*touch
             };
             *spring = spring.turned(touch.normal);

@@ -48,6 +48,26 @@ impl Columns {
         z.store_slice(&mut third[at..at + ROWS]);
     }
 
+    /// Fills the columns, each with the row of its lane, and `fourth` with the fourth numbers.
+    #[inline(always)]
+    pub(crate) fn fill_four<S: Simd>(
+        &mut self,
+        fourth: &mut Column,
+        row: impl Fn(usize) -> f64x4<S>,
+    ) {
+        let [first, second, third] = &mut self.0;
+        for at in (0..BLOCK).step_by(ROWS) {
+            let [x, y, z, w] = turned_four(
+                #[inline(always)]
+                |k| row(at + k),
+            );
+            x.store_slice(&mut first[at..at + ROWS]);
+            y.store_slice(&mut second[at..at + ROWS]);
+            z.store_slice(&mut third[at..at + ROWS]);
+            w.store_slice(&mut fourth[at..at + ROWS]);
+        }
+    }
+
     /// The vector of a lane.
     #[inline(always)]
     pub(crate) fn vector(&self, k: usize) -> Vector {
@@ -65,28 +85,39 @@ impl Columns {
     /// The rows from `at` on; their fourth numbers mean nothing.
     #[inline(always)]
     pub(crate) fn rows<S: Simd>(&self, simd: S, at: usize) -> [f64x4<S>; ROWS] {
+        // With a number of no meaning: a row whose last one is known would be written in
+        // pieces, which takes longer, and longer still to read them as one.
+        self.rows_of_four(simd, at, &self.0[1])
+    }
+
+    /// The rows from `at` on, with their fourth numbers.
+    #[inline(always)]
+    pub(crate) fn rows_of_four<S: Simd>(
+        &self,
+        simd: S,
+        at: usize,
+        fourth: &Column,
+    ) -> [f64x4<S>; ROWS] {
         let [first, second, third] = &self.0;
-        let (first, second, third) = (
+        let (first, second, third, fourth) = (
             &first[at..at + ROWS],
             &second[at..at + ROWS],
             &third[at..at + ROWS],
+            &fourth[at..at + ROWS],
         );
         if <S::f64s as SimdBase<S>>::LEN < ROWS {
             let four = |column: &[f64]| f64x4::from_slice(simd, column);
-            let half = |x: &[f64], y: &[f64], z: &[f64]| {
-                let y = four(y);
-                transpose([four(x), y, four(z), y])
+            let half = |x: &[f64], y: &[f64], z: &[f64], w: &[f64]| {
+                transpose([four(x), four(y), four(z), four(w)])
             };
-            let [a, b, c, d] = half(&first[..4], &second[..4], &third[..4]);
-            let [e, f, g, h] = half(&first[4..], &second[4..], &third[4..]);
+            let [a, b, c, d] = half(&first[..4], &second[..4], &third[..4], &fourth[..4]);
+            let [e, f, g, h] = half(&first[4..], &second[4..], &third[4..], &fourth[4..]);
             [a, b, c, d, e, f, g, h]
         } else {
             let eight = |column: &[f64]| f64x8::from_slice(simd, column);
-            let (x, y, z) = (eight(first), eight(second), eight(third));
-            // With a number of no meaning: a row whose last one is known would be written in
-            // pieces, which takes longer, and longer still to read them as one.
-            let (low, more_low) = (x.zip_low(z), y.zip_low(y));
-            let (high, more_high) = (x.zip_high(z), y.zip_high(y));
+            let (x, y, z, w) = (eight(first), eight(second), eight(third), eight(fourth));
+            let (low, more_low) = (x.zip_low(z), y.zip_low(w));
+            let (high, more_high) = (x.zip_high(z), y.zip_high(w));
             let (a, b) = low.zip_low(more_low).split();
             let (c, d) = low.zip_high(more_low).split();
             let (e, f) = high.zip_low(more_high).split();
@@ -96,16 +127,28 @@ impl Columns {
     }
 }
 
-/// Rows as columns, without their fourth numbers. Spelled out, as closures given to array methods
-/// would be calls of functions that are compiled without these vectors.
+/// Rows as columns, without their fourth numbers.
 #[inline(always)]
 pub(crate) fn turned<S: Simd>(row: impl Fn(usize) -> f64x4<S>) -> [f64x8<S>; 3] {
+    let [x, y, z, _] = turned_four(row);
+    [x, y, z]
+}
+
+/// Rows as columns. Spelled out, as closures given to array methods would be calls of functions
+/// that are compiled without these vectors.
+#[inline(always)]
+fn turned_four<S: Simd>(row: impl Fn(usize) -> f64x4<S>) -> [f64x8<S>; 4] {
     let (a, b, c, d) = (row(0), row(1), row(2), row(3));
     let (e, f, g, h) = (row(4), row(5), row(6), row(7));
     if <S::f64s as SimdBase<S>>::LEN < ROWS {
-        let [x, y, z, _] = transpose([a, b, c, d]);
-        let [u, v, w, _] = transpose([e, f, g, h]);
-        [x.combine(u), y.combine(v), z.combine(w)]
+        let [x, y, z, w] = transpose([a, b, c, d]);
+        let [more_x, more_y, more_z, more_w] = transpose([e, f, g, h]);
+        [
+            x.combine(more_x),
+            y.combine(more_y),
+            z.combine(more_z),
+            w.combine(more_w),
+        ]
     } else {
         let (ab, cd, ef, gh) = (a.combine(b), c.combine(d), e.combine(f), g.combine(h));
         let (even, more_even) = (ab.unzip_low(cd), ef.unzip_low(gh));
@@ -114,6 +157,7 @@ pub(crate) fn turned<S: Simd>(row: impl Fn(usize) -> f64x4<S>) -> [f64x8<S>; 3] 
             even.unzip_low(more_even),
             odd.unzip_low(more_odd),
             even.unzip_high(more_even),
+            odd.unzip_high(more_odd),
         ]
     }
 }

@@ -1,13 +1,15 @@
-//! A sphere hits another one, or what does not move, head-on under the Hertz contact of Silbert et
-//! al.
+//! A sphere hits another one, or what does not move, under the Hertz contact of Silbert et al.,
+//! head-on or obliquely with their friction.
 
 use super::bench::{Bench, SilbertMaterial, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
 use crate::dem::Simulation;
-use crate::scene::{DemScene, FixedSphere, Geometry, Scene, Tank};
+use crate::particles::vector::Vector;
+use crate::scene::{DemScene, FixedSphere, Friction, Geometry, Scene, Tank};
 use serde::Deserialize;
+use std::f64::consts::PI;
 
-/// A sphere hits another one, or what does not move, head-on.
+/// A sphere hits another one, or what does not move. Two spheres move in the frame of the second.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SilbertImpact {
@@ -18,8 +20,14 @@ pub struct SilbertImpact {
     #[serde(default)]
     partner_radius: Option<f64>,
     material: SilbertMaterial,
+    #[serde(default)]
+    friction: Option<Friction>,
     /// Relative speed (m/s).
     speed: f64,
+    /// Angles between velocity and normal (degrees), one impact each; one head-on if there are
+    /// none.
+    #[serde(default)]
+    angles: Vec<u32>,
     /// Time steps in the duration of the elastic impact.
     steps_per_contact: f64,
 }
@@ -42,10 +50,40 @@ impl Family for SilbertImpact {
         "silbert-impact"
     }
 
-    /// Contact time, restitution and deepest overlap.
+    /// Contact time, restitution and deepest overlap of a head-on impact; the spin of the sphere
+    /// (rad/s), positive where it rolls forward, after oblique ones.
     fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
-        let dt = self.elastic_time() / self.steps_per_contact;
-        let mut simulation = Simulation::new(&self.scene(dt, bench))?;
+        if self.angles.is_empty() {
+            let outcome = self.impact(0.0, bench)?;
+            return Ok(named([
+                ("contact_time", outcome.contact_time),
+                ("restitution", outcome.restitution),
+                ("maximum_overlap", outcome.maximum_overlap),
+            ]));
+        }
+        let spin = |&angle: &u32| {
+            let outcome = self.impact(f64::from(angle), bench)?;
+            Ok((format!("spin_at_{angle}"), outcome.spin))
+        };
+        self.angles.iter().map(spin).collect()
+    }
+}
+
+/// What an impact leaves.
+struct Outcome {
+    contact_time: f64,
+    restitution: f64,
+    maximum_overlap: f64,
+    spin: f64,
+}
+
+impl SilbertImpact {
+    /// An impact at an angle (degrees).
+    fn impact(&self, angle: f64, bench: &mut Bench<'_>) -> Result<Outcome, VerifyError> {
+        let (sine, cosine) = libm::sincos(angle * PI / 180.0);
+        let velocity = Vector::new(-cosine, 0.0, sine) * self.speed;
+        let dt = self.elastic_time(-velocity.x) / self.steps_per_contact;
+        let mut simulation = Simulation::new(&self.scene(velocity, dt, bench))?;
         let (mut overlap, mut deepest) = (0.0, 0.0_f64);
         for _ in 0..(PATIENCE * self.steps_per_contact) as u64 {
             let earlier = overlap;
@@ -56,11 +94,14 @@ impl Family for SilbertImpact {
             if overlap <= 0.0 {
                 // The overlap is zero in between, if it falls as a straight line.
                 let behind = overlap / (overlap - earlier);
-                return Ok(named([
-                    ("contact_time", simulation.time() - behind * dt),
-                    ("restitution", apart / self.speed),
-                    ("maximum_overlap", deepest),
-                ]));
+                let particles = simulation.particles();
+                let spin = particles.spin.get(particles.fixed);
+                return Ok(Outcome {
+                    contact_time: simulation.time() - behind * dt,
+                    restitution: apart / -velocity.x,
+                    maximum_overlap: deepest,
+                    spin: spin.map_or(0.0, |spin| -spin.y),
+                });
             }
         }
         Err(VerifyError::Unfinished {
@@ -68,15 +109,13 @@ impl Family for SilbertImpact {
             steps: simulation.step(),
         })
     }
-}
 
-impl SilbertImpact {
     fn partner_radius(&self) -> f64 {
         self.partner_radius.unwrap_or(self.radius)
     }
 
-    /// Duration of the same impact without losses (s).
-    fn elastic_time(&self) -> f64 {
+    /// Duration of the same impact without losses (s) at a normal speed (m/s).
+    fn elastic_time(&self, speed: f64) -> f64 {
         let (radius, other) = (self.radius, self.partner_radius());
         let mass = |radius| self.material.mass(radius);
         let (effective_radius, effective_mass) = match self.partner {
@@ -88,17 +127,20 @@ impl SilbertImpact {
             Partner::Side => (radius, mass(radius)),
         };
         self.material
-            .impact(effective_radius, effective_mass, self.speed)
+            .impact(effective_radius, effective_mass, speed)
             .contact_time()
     }
 
     /// They touch at the start; the partner rests at the origin.
-    fn scene(&self, dt: f64, bench: &Bench<'_>) -> Scene {
+    fn scene(&self, velocity: Vector, dt: f64, bench: &Bench<'_>) -> Scene {
         let distance = match self.partner {
             Partner::Side => 0.0,
             Partner::Sphere | Partner::FixedSphere => self.radius + self.partner_radius(),
         };
-        let mut spheres = vec![moving([distance, 0.0, 0.0], [-self.speed, 0.0, 0.0])];
+        let mut spheres = vec![moving(
+            [distance, 0.0, 0.0],
+            [velocity.x, velocity.y, velocity.z],
+        )];
         let (mut geometry, mut tank) = (None, None);
         match self.partner {
             Partner::Sphere => {
@@ -126,6 +168,7 @@ impl SilbertImpact {
             tank,
             dem: DemScene {
                 contact: Some(self.material.contact()),
+                friction: self.friction.clone(),
                 geometry,
                 ..unguarded()
             },
@@ -138,12 +181,15 @@ impl SilbertImpact {
         let particles = simulation.particles();
         let (position, velocity) = (&particles.position, &particles.velocity);
         let sphere = particles.fixed;
-        let (place, speed) = (position[sphere].x, velocity[sphere].x);
-        let sum = self.radius + self.partner_radius();
-        match self.partner {
-            Partner::Sphere => (sum - (place - position[1].x), speed - velocity[1].x),
-            Partner::FixedSphere => (sum - (place - position[0].x), speed),
-            Partner::Side => (-place, speed),
-        }
+        let (place, speed) = (position[sphere], velocity[sphere]);
+        let other = match self.partner {
+            Partner::Sphere => 1,
+            Partner::FixedSphere => 0,
+            Partner::Side => return (-place.x, speed.x),
+        };
+        let offset = place - position[other];
+        let distance = offset.norm();
+        let apart = (speed - velocity[other]).dot(offset) / distance;
+        (self.radius + self.partner_radius() - distance, apart)
     }
 }

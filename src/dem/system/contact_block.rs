@@ -50,8 +50,10 @@ pub(super) struct ContactBlock<H> {
     /// Contacts with a wall, present and earlier.
     wall_contact: WallContactColumns,
     earlier_wall_contact: WallContactColumns,
-    /// Forces of springs (N).
+    /// Forces of springs (N), and the contact radii (m) at which they had them, if the law has
+    /// these.
     spring: Columns,
+    spring_radius: Column,
     /// [`Turning`] of every contact, if the law has it.
     turning_force: Columns,
     turning_normal_force: Column,
@@ -94,6 +96,7 @@ impl<H: History> ContactBlock<H> {
             wall_contact: WallContactColumns::NONE,
             earlier_wall_contact: WallContactColumns::NONE,
             spring: Columns::ZERO,
+            spring_radius: [0.0; BLOCK],
             turning_force: Columns::ZERO,
             turning_normal_force: [0.0; BLOCK],
             turning_peak: [0.0; BLOCK],
@@ -165,6 +168,11 @@ impl<H: History> ContactBlock<H> {
             ),
             false => self.turn_springs(Self::normal),
         }
+        self.change_springs(
+            laws.tangential.keeps(),
+            #[inline(always)]
+            |block, k| block.contact_radius[k],
+        );
         for k in 0..BLOCK {
             let state = self.contact_state::<T, EARLIER>(k, self.properties[1].at(k));
             let geometry = laws.geometry(&state, self.roots(k));

@@ -81,6 +81,8 @@ pub(super) struct LoadedContact {
     pub(super) touches: bool,
     pub(super) too_deep: bool,
     pub(super) overlap: f64,
+    /// Contact radius (m), if a law needs it.
+    pub(super) contact_radius: f64,
     /// The force (N) without friction.
     pub(super) force: Vector,
     /// Distances of both centres from the contact point, in radii.
@@ -117,7 +119,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
     #[inline(always)]
     pub(super) fn pair_force(&self, state: &ContactState, history: T::History) -> ContactForce {
         let geometry = self.pair_geometry(state);
-        self.force(state, &geometry, Self::turned(history, &geometry))
+        self.force(state, &geometry, self.brought_here(history, &geometry))
     }
 
     /// The geometry of two spheres.
@@ -132,9 +134,10 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         self.geometry(state, roots)
     }
 
-    /// The forces of a history turned into the plane of a contact, if it has any.
+    /// The forces of a history, if it has any, turned into the plane of a contact and changed with
+    /// its radius.
     #[inline(always)]
-    fn turned(history: T::History, geometry: &ContactGeometry) -> T::History {
+    fn brought_here(&self, history: T::History, geometry: &ContactGeometry) -> T::History {
         if !Self::HAS_HISTORY {
             return history;
         }
@@ -145,7 +148,12 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
                 None => spring.turned(geometry.normal),
             }
         };
-        let now = T::History::of_spring(turned(history.spring().force));
+        let mut spring = turned(history.spring().force);
+        if T::History::HAS_RADIUS {
+            let keeps = self.tangential.keeps();
+            spring.force = spring.force * keeps.factor(history.radius(), geometry.contact_radius);
+        }
+        let now = T::History::of_spring(spring);
         if !T::History::TURNS {
             return now;
         }
@@ -172,7 +180,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         let contact = wall.contact(state.offset, radius);
         let geometry = self.geometry_at_wall(state, contact, earlier.as_ref());
         let laws = self.at_walls();
-        laws.force(state, &geometry, Self::turned(history, &geometry))
+        laws.force(state, &geometry, laws.brought_here(history, &geometry))
     }
 
     /// Force and torques of a contact, whose history is in the plane across the normal.
@@ -237,6 +245,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
             touches: geometry.touches,
             too_deep: geometry.too_deep,
             overlap: geometry.overlap,
+            contact_radius: geometry.contact_radius,
             force: force.total,
             lever: geometry.lever,
             spring: self.loaded(&touch, geometry, spring, turning),
@@ -319,6 +328,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
                 true => or_zero(force.along),
                 false => force.along,
             },
+            force_along_normal: force.along,
             loading_velocity,
             loading_radius,
             loading_time: self.loading.duration,

@@ -120,6 +120,7 @@ mod tests {
             lesser_mass: 1e-3,
             effective_mass: 5e-4,
             normal_force: 2.0,
+            force_along_normal: 2.0,
             loading_velocity: along * speed,
             contact_radius: 1e-3,
             loading_radius: 1e-3,

@@ -1,6 +1,8 @@
 //! Mindlin friction by increments.
 
-use super::{Coulomb, FrictionKeys, LoadedSpring, Spring, TangentialLaw, Touch};
+use super::{
+    Coulomb, FrictionKeys, Keeps, LoadedSpring, Spring, SpringAtRadius, TangentialLaw, Touch,
+};
 use crate::document::quantity;
 use crate::forces::contact::contact_radius;
 use crate::forces::contact::{Collision, Hertz};
@@ -87,6 +89,7 @@ pub struct MindlinLaw {
     coefficient: f64,
     /// 8 G* (Pa).
     modulus: f64,
+    keeps: Keeps,
 }
 
 impl MindlinLaw {
@@ -95,17 +98,29 @@ impl MindlinLaw {
         Self {
             coefficient,
             modulus: mindlin_modulus(young_modulus, poisson_ratio),
+            keeps: Keeps::Force,
         }
+    }
+
+    /// The same law with a spring that keeps something else.
+    #[must_use]
+    pub fn keeping(self, keeps: Keeps) -> Self {
+        Self { keeps, ..self }
     }
 }
 
 impl TangentialLaw for MindlinLaw {
     const USES_CONTACT_RADIUS: bool = true;
-    type History = Spring;
+    type History = SpringAtRadius;
+
+    #[inline(always)]
+    fn keeps(&self) -> Keeps {
+        self.keeps
+    }
 
     #[inline(always)]
     fn load(&self, touch: &Touch, spring: Spring) -> LoadedSpring {
-        let stiffness = self.modulus * touch.loading_radius;
+        let stiffness = self.modulus * self.keeps.loading_radius(touch);
         let limit = self.coefficient * touch.normal_force;
         spring.loaded(touch, stiffness, Vector::ZERO, limit)
     }
@@ -115,7 +130,8 @@ impl TangentialLaw for MindlinLaw {
         self.modulus * contact_radius(overlap, effective_radius)
     }
 
-    fn energy(&self, spring: &Spring, overlap: f64, effective_radius: f64) -> f64 {
-        spring.energy(self.stiffness(overlap, effective_radius))
+    fn energy(&self, spring: &SpringAtRadius, overlap: f64, effective_radius: f64) -> f64 {
+        let contact_radius = contact_radius(overlap, effective_radius);
+        spring.energy(self.keeps, self.modulus, contact_radius)
     }
 }

@@ -3,6 +3,7 @@
 
 mod coulomb;
 mod cundall_strack;
+mod keeps;
 mod keys;
 mod mindlin;
 mod mindlin_deresiewicz;
@@ -12,6 +13,7 @@ mod spring;
 
 pub use coulomb::{Coulomb, CoulombLaw};
 pub use cundall_strack::{CundallStrack, CundallStrackLaw};
+pub use keeps::{Keeps, SpringAtRadius};
 pub use keys::Friction;
 pub(crate) use keys::{FrictionKeys, with_pairs_of_laws};
 pub use mindlin::{Mindlin, MindlinLaw};
@@ -20,6 +22,7 @@ pub use silbert::{SilbertFriction, SilbertFrictionLaw};
 pub use spin::{Spin, SpinLaw};
 pub use spring::{LoadedSpring, Spring};
 
+use crate::particles::block::Row;
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
 use serde::de::DeserializeOwned;
@@ -46,8 +49,10 @@ pub struct Touch {
     /// The [contact radius](super::contact::contact_radius) (m), if a law uses it.
     pub contact_radius: f64,
     /// Normal force (N). Zero where partners attract each other or part faster than their
-    /// elasticity recovers; then no tangential force acts.
+    /// elasticity recovers; most laws then have no tangential force.
     pub normal_force: f64,
+    /// The contact force along the normal (N), negative where partners attract each other.
+    pub force_along_normal: f64,
     /// The mean sliding velocity since the last evaluation of this contact (m/s). It loads springs.
     pub loading_velocity: Vector,
     /// The mean [contact radius](super::contact::contact_radius) since then (m).
@@ -129,10 +134,13 @@ pub struct Turning {
     pub(crate) peak: f64,
 }
 
-/// What a contact remembers: nothing, a spring, or a spring and its latest turning point.
+/// What a contact remembers: nothing, a spring, or a spring and either the contact radius at which
+/// it had its force or its latest turning point.
 pub trait History: Copy + Default + Send + Sync + Serialize + DeserializeOwned {
     /// Whether it has a turning point.
     const TURNS: bool = false;
+    /// Whether it has the contact radius at which the spring had its force.
+    const HAS_RADIUS: bool = false;
 
     /// Its spring.
     fn spring(self) -> Spring;
@@ -150,6 +158,27 @@ pub trait History: Copy + Default + Send + Sync + Serialize + DeserializeOwned {
     #[inline(always)]
     fn with_turning(self, _: Turning) -> Self {
         self
+    }
+
+    /// The contact radius (m) at which the spring had its force, if it has that.
+    #[inline(always)]
+    fn radius(self) -> f64 {
+        0.0
+    }
+
+    /// The row of the spring's force and the contact radius, whose last number means nothing
+    /// without the radius.
+    #[inline(always)]
+    fn row(self) -> Row {
+        self.spring().force.row()
+    }
+
+    /// The history of a contact with that row.
+    #[inline(always)]
+    fn of_row(row: Row) -> Self {
+        Self::of_spring(Spring {
+            force: Vector::of_row(row),
+        })
     }
 
     /// The history of the same contact as the other partner sees it.
@@ -216,6 +245,14 @@ pub trait TangentialLaw: Copy + Send + Sync + 'static {
         let (force, left) = loaded.capped(squared, inverse_square_root(squared));
         *spring = left;
         touch.traction(force)
+    }
+
+    /// What its spring keeps while the contact radius changes. All but [`Keeps::Force`] need a
+    /// history that [has the radius](History::HAS_RADIUS). The `spring` of
+    /// [`load`](Self::load) has changed already.
+    #[inline(always)]
+    fn keeps(&self) -> Keeps {
+        Keeps::Force
     }
 
     /// The spring of a law with history, loaded over the coming step.

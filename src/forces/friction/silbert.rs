@@ -1,6 +1,8 @@
 //! The friction of Silbert et al.
 
-use super::{FrictionKeys, Grip, LoadedSpring, Spring, TangentialLaw, Touch};
+use super::{
+    FrictionKeys, Grip, Keeps, LoadedSpring, Spring, SpringAtRadius, TangentialLaw, Touch,
+};
 use crate::document::quantity;
 use crate::forces::contact::contact_radius;
 use crate::forces::contact::{Collision, Silbert};
@@ -8,9 +10,9 @@ use crate::forces::limit::{Limit, Regime};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A history spring sqrt(R_eff xi) k_t by increments and a dashpot sqrt(R_eff xi) gamma_t
-/// m_eff, together capped at mu F_n (Silbert et al., 2001); needs the silbert contact. The
-/// spring keeps its force, where LAMMPS keeps the displacement.
+/// A spring sqrt(R_eff xi) k_t, which keeps its displacement while the overlap xi changes, and a
+/// dashpot sqrt(R_eff xi) gamma_t m_eff, together capped at mu |F_n| (Silbert et al., 2001;
+/// `gran/hertz/history` of LAMMPS); needs the silbert contact.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SilbertFriction {
@@ -60,15 +62,14 @@ impl FrictionKeys<Silbert> for SilbertFriction {
     }
 }
 
-/// A spring of stiffness sqrt(R_eff xi) k_t and a dashpot sqrt(R_eff xi) gamma_t m_eff beside it,
-/// together capped at mu F_n (Silbert et al., Phys. Rev. E 64, 051302 (2001), for Hertzian
-/// spheres).
+/// A spring of stiffness sqrt(R_eff xi) k_t and a dashpot sqrt(R_eff xi) gamma_t m_eff beside it, f
+/// = -sqrt(R_eff xi) (k_t u + gamma_t m_eff du/dt), together capped at mu |F_n| (Silbert et al.,
+/// Phys. Rev. E 64, 051302 (2001), for Hertzian spheres, in the form of `gran/hertz/history` of
+/// LAMMPS). The cap holds where partners attract each other too.
 ///
-/// The spring is loaded by increments, df = -sqrt(R_eff xi) k_t du, and keeps its force, as
-/// Mindlin's does: if a contact at rest is only pressed harder, the tangential force does not grow.
-/// `gran/hertz/history` of LAMMPS keeps the displacement instead, so that there the force grows and
-/// shrinks with sqrt(xi); and it caps at mu |F_n| also where partners attract each other, where
-/// here no tangential force acts.
+/// The spring keeps its displacement u: if a contact at rest is pressed harder, the tangential
+/// force grows. That makes energy, which [`Keeps::Lesser`] does not. The displacement turns with
+/// the normal and keeps its length, where LAMMPS projects it: both agree as the step shrinks.
 #[derive(Clone, Copy, Debug)]
 pub struct SilbertFrictionLaw {
     coefficient: f64,
@@ -76,6 +77,7 @@ pub struct SilbertFrictionLaw {
     stiffness: f64,
     /// gamma_t (1/(m s)).
     damping: f64,
+    keeps: Keeps,
 }
 
 impl SilbertFrictionLaw {
@@ -85,7 +87,14 @@ impl SilbertFrictionLaw {
             coefficient,
             stiffness,
             damping,
+            keeps: Keeps::Displacement,
         }
+    }
+
+    /// The same law with a spring that keeps something else.
+    #[must_use]
+    pub fn keeping(self, keeps: Keeps) -> Self {
+        Self { keeps, ..self }
     }
 }
 
@@ -93,13 +102,18 @@ impl TangentialLaw for SilbertFrictionLaw {
     const NEEDS_EFFECTIVE_MASS: bool = true;
     const USES_CONTACT_RADIUS: bool = true;
     const DRAGS: bool = true;
-    type History = Spring;
+    type History = SpringAtRadius;
+
+    #[inline(always)]
+    fn keeps(&self) -> Keeps {
+        self.keeps
+    }
 
     #[inline(always)]
     fn load(&self, touch: &Touch, spring: Spring) -> LoadedSpring {
-        let stiffness = self.stiffness * touch.loading_radius;
+        let stiffness = self.stiffness * self.keeps.loading_radius(touch);
         let damping = self.damping * touch.effective_mass * touch.contact_radius;
-        let limit = self.coefficient * touch.normal_force;
+        let limit = self.coefficient * touch.force_along_normal.abs();
         spring.loaded(touch, stiffness, touch.sliding_velocity() * damping, limit)
     }
 
@@ -113,7 +127,8 @@ impl TangentialLaw for SilbertFrictionLaw {
         self.damping * grip.effective_mass * contact_radius
     }
 
-    fn energy(&self, spring: &Spring, overlap: f64, effective_radius: f64) -> f64 {
-        spring.energy(self.stiffness(overlap, effective_radius))
+    fn energy(&self, spring: &SpringAtRadius, overlap: f64, effective_radius: f64) -> f64 {
+        let contact_radius = contact_radius(overlap, effective_radius);
+        spring.energy(self.keeps, self.stiffness, contact_radius)
     }
 }

@@ -218,10 +218,17 @@ impl<H: History> ContactBlock<H> {
     #[inline(always)]
     fn gather_springs<S: Simd>(&mut self, simd: S, history: impl Fn(usize) -> H) {
         if Self::HAS_HISTORY {
-            self.spring.fill::<S>(
-                #[inline(always)]
-                |k| history(k).spring().force.simd(simd),
-            );
+            match H::HAS_RADIUS {
+                true => self.spring.fill_four::<S>(
+                    &mut self.spring_radius,
+                    #[inline(always)]
+                    |k| f64x4::simd_from(simd, history(k).row()),
+                ),
+                false => self.spring.fill::<S>(
+                    #[inline(always)]
+                    |k| f64x4::simd_from(simd, history(k).row()),
+                ),
+            }
         }
         if H::TURNS {
             for k in 0..BLOCK {

@@ -4,9 +4,8 @@ use super::ContactBlock;
 use crate::dem::system::sums::Sums;
 use crate::dem::system::touching::{Entries, Lanes};
 use crate::dem::system::wall_contacts::NearSphere;
-use crate::forces::friction::{History, Spring, TangentialLaw};
+use crate::forces::friction::{History, TangentialLaw};
 use crate::particles::block::{BLOCK, ROWS};
-use crate::particles::vector::Vector;
 use fearless_simd::{Simd, f64x4};
 
 /// Vectors of eight contacts.
@@ -131,12 +130,14 @@ impl<H: History> ContactBlock<H> {
             return;
         }
         for at in (0..BLOCK).step_by(ROWS) {
-            let rows = self.spring.rows(simd, at);
+            let rows = match H::HAS_RADIUS {
+                true => self.spring.rows_of_four(simd, at, &self.spring_radius),
+                false => self.spring.rows(simd, at),
+            };
             for k in 0..ROWS {
                 if let Some(history) = histories.get_mut(entry(at + k)) {
-                    let force = Vector::of_row(rows[k].into());
                     let turning = self.turning(at + k);
-                    *history = H::of_spring(Spring { force }).with_turning(turning);
+                    *history = H::of_row(rows[k].into()).with_turning(turning);
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use super::{ContactBlock, NOT_DEEP, if_touching, store};
 use crate::dem::system::contact_laws::LoadedContact;
-use crate::forces::friction::{History, LoadedSpring, Spring, TangentialLaw, Turning, arm};
+use crate::forces::friction::{History, Keeps, LoadedSpring, Spring, TangentialLaw, Turning, arm};
 use crate::particles::block::{BLOCK, ROWS};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
@@ -78,6 +78,9 @@ impl<H: History> ContactBlock<H> {
         if T::DRAGS {
             store(&mut self.drag, k, touches, loaded.spring.drag);
         }
+        if H::HAS_RADIUS {
+            self.spring_radius[k] = if_touching(touches, loaded.contact_radius);
+        }
         self.limit[k] = loaded.spring.limit;
         self.squared[k] = if_touching(touches, loaded.spring.squared());
         self.lever[k] = loaded.lever;
@@ -112,6 +115,18 @@ impl<H: History> ContactBlock<H> {
                 let (normal, turn) = normal_and_turn(block, k);
                 spring.turned_by(normal, turn)
             });
+        }
+    }
+
+    /// Changes the forces of springs with the contact radius (m), in a loop of its own because of
+    /// the quotient.
+    #[inline(always)]
+    pub(super) fn change_springs(&mut self, keeps: Keeps, radius: impl Fn(&Self, usize) -> f64) {
+        if H::HAS_RADIUS && keeps != Keeps::Force {
+            for k in 0..BLOCK {
+                let factor = keeps.factor(self.spring_radius[k], radius(self, k));
+                self.spring.set(k, self.spring.vector(k) * factor);
+            }
         }
     }
 

@@ -4,7 +4,7 @@ use super::ContactBlock;
 use crate::dem::system::contact_laws::Laws;
 use crate::dem::system::contact_state::SphereProperties;
 use crate::dem::walls::Wall;
-use crate::forces::contact::NormalLaw;
+use crate::forces::contact::{NormalLaw, contact_radius};
 use crate::forces::friction::{History, TangentialLaw};
 use crate::particles::block::BLOCK;
 use crate::particles::vector::Vector;
@@ -69,6 +69,14 @@ impl<H: History> ContactBlock<H> {
                 |block, k| block.wall_contact.at(k).normal,
             ),
         }
+        self.change_springs(
+            laws.tangential.keeps(),
+            #[inline(always)]
+            |block, k| {
+                let overlap = block.wall_contact.at(k).overlap;
+                contact_radius(overlap, block.properties[0].radius[k])
+            },
+        );
         for k in 0..BLOCK {
             let mut state = self.contact_state::<T, EARLIER>(k, SphereProperties::WALL);
             state.spin[1] = Vector::ZERO;

@@ -43,6 +43,7 @@ fn touch(overlap: f64, way: f64) -> Touch {
         effective_mass: 1e-3,
         contact_radius: radius,
         normal_force: normal_force(overlap),
+        force_along_normal: normal_force(overlap),
         loading_velocity: velocity,
         loading_radius: radius,
         loading_time: 1.0,
