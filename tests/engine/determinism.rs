@@ -332,8 +332,12 @@ fn odd_friction() -> impl Strategy<Value = Option<Friction>> {
                 regularisation
             }
         ))),
-        prop::sample::select(vec![0.0, 0.3, 1e300])
-            .prop_map(|coefficient| Some(Friction::Mindlin(Mindlin { coefficient }))),
+        (prop::sample::select(vec![0.0, 0.3, 1e300]), any::<bool>()).prop_map(
+            |(coefficient, rescale)| Some(Friction::Mindlin(Mindlin {
+                coefficient,
+                rescale
+            }))
+        ),
     ]
 }
 

@@ -13,8 +13,8 @@ use proptest::prelude::*;
 
 /// Laws in which every force on a sphere has a reaction on its partner, torques included.
 fn reciprocal_frictions() -> impl Strategy<Value = Option<Friction>> {
-    let [none, _, coulomb, mindlin] = frictions();
-    prop::sample::select(vec![none, coulomb, mindlin])
+    let [none, _, coulomb, mindlin, rescaled] = frictions();
+    prop::sample::select(vec![none, coulomb, mindlin, rescaled])
 }
 
 fn integrators() -> impl Strategy<Value = Integrator> {
@@ -77,7 +77,7 @@ proptest! {
         let friction = if coulomb {
             Friction::Coulomb(Coulomb { coefficient, regularisation: 1e-2 })
         } else {
-            Friction::Mindlin(Mindlin { coefficient })
+            Friction::Mindlin(Mindlin { coefficient, rescale: false })
         };
         let (into, along) = (libm::cos(angle), libm::sin(angle));
         let sphere = StartSphere {

@@ -34,7 +34,10 @@ pub(crate) fn large(friction: Option<Friction>, integrator: Integrator) -> Scene
 }
 
 fn mindlin() -> Option<Friction> {
-    Some(Friction::Mindlin(Mindlin { coefficient: 0.3 }))
+    Some(Friction::Mindlin(Mindlin {
+        coefficient: 0.3,
+        rescale: false,
+    }))
 }
 
 /// Places, velocities and spins in the order of the scene.

@@ -22,6 +22,7 @@ mod rolling;
 mod scenes;
 mod silo;
 mod spins;
+mod spring_energy;
 mod stability;
 mod starts;
 mod steel;

@@ -20,7 +20,10 @@ fn frictions() -> [Friction; 2] {
             coefficient: 0.3,
             regularisation: 1e-2,
         }),
-        Friction::Mindlin(Mindlin { coefficient: 0.3 }),
+        Friction::Mindlin(Mindlin {
+            coefficient: 0.3,
+            rescale: false,
+        }),
     ]
 }
 

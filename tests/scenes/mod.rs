@@ -12,7 +12,7 @@ use proptest::prelude::*;
 pub(crate) const INTEGRATORS: [Integrator; 4] = Integrator::ALL;
 
 /// No friction, and every law of it.
-pub(crate) fn frictions() -> [Option<Friction>; 4] {
+pub(crate) fn frictions() -> [Option<Friction>; 5] {
     [
         None,
         Some(Friction::Spin(Spin { coefficient: 0.01 })),
@@ -20,7 +20,14 @@ pub(crate) fn frictions() -> [Option<Friction>; 4] {
             coefficient: 0.3,
             regularisation: 1e-2,
         })),
-        Some(Friction::Mindlin(Mindlin { coefficient: 0.3 })),
+        Some(Friction::Mindlin(Mindlin {
+            coefficient: 0.3,
+            rescale: false,
+        })),
+        Some(Friction::Mindlin(Mindlin {
+            coefficient: 0.3,
+            rescale: true,
+        })),
     ]
 }
 

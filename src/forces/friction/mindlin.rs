@@ -18,6 +18,11 @@ pub struct Mindlin {
     /// Coefficient mu.
     #[schemars(transform = quantity("μ", "", "coefficient of friction").at_least(0.0))]
     pub coefficient: f64,
+    /// Whether the spring keeps its displacement while the contact is released, and its force while
+    /// it is pressed harder. Then it never makes energy (Thornton, Cummins and Cleary, 2013;
+    /// `mindlin_rescale/force` of LAMMPS). If not, it always keeps its force.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub rescale: bool,
 }
 
 impl Mindlin {
@@ -29,11 +34,15 @@ impl FrictionKeys<Hertz> for Mindlin {
     type Law = MindlinLaw;
 
     fn law(&self, contact: &Hertz, _: f64) -> MindlinLaw {
-        MindlinLaw::new(
+        let law = MindlinLaw::new(
             self.coefficient,
             contact.young_modulus,
             contact.poisson_ratio,
-        )
+        );
+        match self.rescale {
+            true => law.keeping(Keeps::Lesser),
+            false => law,
+        }
     }
 
     fn limit(
@@ -81,9 +90,9 @@ pub(super) fn mindlin_modulus(young_modulus: f64, poisson_ratio: f64) -> f64 {
 /// Granular Matter 13, 643 (2011)).
 ///
 /// The force of a spring that holds still stays when the normal force falls, although its
-/// stiffness does not (Thornton, Cummins and Cleary, Powder Technology 233, 30 (2013), shrink it):
-/// an elastic impact can so gain energy, less than 1e-5 of it for nu >= 0.22 and mu < 3, up to
-/// 4e-4 for nu = 0 and mu = 0.5.
+/// stiffness does not, unless the law is to keep something else ([`Keeps`]). An elastic impact can
+/// so gain energy, less than 1e-5 of it for nu >= 0.22 and mu < 3, up to 4e-4 for nu = 0 and mu =
+/// 0.5; closed paths can gain more.
 #[derive(Clone, Copy, Debug)]
 pub struct MindlinLaw {
     coefficient: f64,

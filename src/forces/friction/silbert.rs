@@ -28,6 +28,11 @@ pub struct SilbertFriction {
         transform = quantity("b_t", "1/(m s)", "tangential drag constant").at_least(0.0)
     )]
     pub damping: f64,
+    /// Whether the spring keeps its displacement while the contact is released, and its force while
+    /// it is pressed harder. Then it never makes energy (Thornton, Cummins and Cleary, 2013;
+    /// `mindlin_rescale/force` of LAMMPS). If not, it always keeps its displacement.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub rescale: bool,
 }
 
 impl SilbertFriction {
@@ -39,7 +44,11 @@ impl FrictionKeys<Silbert> for SilbertFriction {
     type Law = SilbertFrictionLaw;
 
     fn law(&self, _: &Silbert, _: f64) -> SilbertFrictionLaw {
-        SilbertFrictionLaw::new(self.coefficient, self.stiffness, self.damping)
+        let law = SilbertFrictionLaw::new(self.coefficient, self.stiffness, self.damping);
+        match self.rescale {
+            true => law.keeping(Keeps::Lesser),
+            false => law,
+        }
     }
 
     fn limit(&self, _: &Silbert, collisions: &[Collision], regime: &Regime<'_>) -> Option<Limit> {

@@ -69,7 +69,10 @@ fn oblique(integrator: Integrator, part: f64) -> f64 {
         ];
         let scene = cluster(
             spheres,
-            Some(Friction::Mindlin(Mindlin { coefficient: 3.0 })),
+            Some(Friction::Mindlin(Mindlin {
+                coefficient: 3.0,
+                rescale: false,
+            })),
             1e-6,
         );
         assert_limited_by(&scene, "sticking contact");
@@ -196,7 +199,10 @@ fn a_spin_above_its_damping_limit_is_reported() {
         spin: [0.0, 1.0, 0.0],
         ..StartSphere::at([0.0; 3])
     };
-    let friction = Friction::Mindlin(Mindlin { coefficient: 0.5 });
+    let friction = Friction::Mindlin(Mindlin {
+        coefficient: 0.5,
+        rescale: false,
+    });
     let mut scene = cluster(vec![spinning], Some(friction), 1e-6);
     scene.dem.effects.spin_damping = Some(SpinDamping { coefficient: 1e-3 });
     assert_limited_by(&scene, "spin damping");

@@ -91,7 +91,10 @@ fn steel_that_strikes_steel_askew_keeps_its_momenta_and_gains_no_energy() {
             ];
             let scene = cluster(
                 askew.to_vec(),
-                Some(Friction::Mindlin(Mindlin { coefficient })),
+                Some(Friction::Mindlin(Mindlin {
+                    coefficient,
+                    rescale: false,
+                })),
                 1e-6,
             );
             let scene = at(&with_restitution(of_steel(scene), 0.8), integrator, 0.2);

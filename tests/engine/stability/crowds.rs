@@ -12,7 +12,10 @@ use phase::scene::{
 };
 use phase::start::StartError;
 
-pub(crate) const MINDLIN: Friction = Friction::Mindlin(Mindlin { coefficient: 0.5 });
+pub(crate) const MINDLIN: Friction = Friction::Mindlin(Mindlin {
+    coefficient: 0.5,
+    rescale: false,
+});
 
 /// A damped column at rest of spheres with these radii (m), the lowest first: every contact is as
 /// deep as its load asks.

@@ -97,7 +97,13 @@ fn fast_spheres_do_not_leave_the_tank_unreported() {
 
 /// Spheres in air that turns at 2000 rad/s.
 fn whirled(young_modulus: f64) -> Scene {
-    let mut scene = dropped(20, Some(Friction::Mindlin(Mindlin { coefficient: 0.5 })));
+    let mut scene = dropped(
+        20,
+        Some(Friction::Mindlin(Mindlin {
+            coefficient: 0.5,
+            rescale: false,
+        })),
+    );
     scene.dem.effects.swirl = Some(Swirl { omega: 2000.0 });
     scene.dem.effects.drag = Some(toml::from_str("law = 'constant'\nlinear = 0.5").unwrap());
     scene.tank = Some(Tank {

@@ -61,7 +61,10 @@ fn neck(ratio: f64) -> Scene {
                 restitution_speed: 0.1,
                 dissipation_factor: 1.0,
             })),
-            friction: Some(Friction::Mindlin(Mindlin { coefficient: 0.5 })),
+            friction: Some(Friction::Mindlin(Mindlin {
+                coefficient: 0.5,
+                rescale: false,
+            })),
             effects: Effects {
                 gravity: downward(),
                 ..Effects::default()

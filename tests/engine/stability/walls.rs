@@ -30,7 +30,10 @@ fn frictions() -> [Friction; 2] {
             coefficient: 0.5,
             regularisation: 1e-2,
         }),
-        Friction::Mindlin(Mindlin { coefficient: 0.5 }),
+        Friction::Mindlin(Mindlin {
+            coefficient: 0.5,
+            rescale: false,
+        }),
     ]
 }
 
@@ -200,7 +203,10 @@ fn fixed_spheres_reach_into_walls_as_they_like() {
         let free = StartSphere::at([0.0, 0.0, 0.05]);
         let mut scene = tank(
             vec![free],
-            Some(Friction::Mindlin(Mindlin { coefficient: 0.5 })),
+            Some(Friction::Mindlin(Mindlin {
+                coefficient: 0.5,
+                rescale: false,
+            })),
         );
         scene.dem.geometry = Some(Geometry::List {
             walls: vec![

@@ -225,7 +225,10 @@ fn any_way_to_find_neighbours_goes_on() {
 #[test]
 fn a_pile_needs_its_histories() {
     let mut scene = tank(
-        Some(Friction::Mindlin(Mindlin { coefficient: 0.3 })),
+        Some(Friction::Mindlin(Mindlin {
+            coefficient: 0.3,
+            rescale: false,
+        })),
         Integrator::SymplecticEuler,
     );
     (scene.dem.effects.updraught, scene.dem.effects.swirl) = (None, None);
