@@ -1,5 +1,6 @@
 //! Borders between labels along one axis, with bands.
 
+use super::between::changes;
 use super::{Code, Lattice, ProbabilityMap, RefineError};
 use serde::{Deserialize, Serialize};
 
@@ -49,7 +50,8 @@ impl Borders {
     /// The crossings along an axis: for an Ω axis, the table of Ω*.
     ///
     /// Between two neighbouring places, a crossing lies where the probabilities of both labels are
-    /// equal if their logarithms change at a constant rate. The band reaches as far down as the
+    /// equal, and greater than all others, if their logarithms change at a constant rate. So there
+    /// may be several: from one label to another through a third. The band reaches as far down as the
     /// label of the upper side is probable (2.5 % for the band of 95 %), and as far up as that of
     /// the lower side is: for a single border these are the quantiles of the place where the label
     /// of one seed changes. So it holds both what the model does not know and what seeds change.
@@ -83,26 +85,24 @@ impl Borders {
                 lattice.place(&indices)
             });
             let column = Column {
-                map,
-                places: &places.collect::<Vec<_>>(),
+                logs: places.map(|place| map.logs(place)).collect(),
                 units: &units,
             };
             for step in 1..units.len() {
-                let labels = [step - 1, step].map(|index| map.best(column.places[index]));
-                if labels[0] == labels[1] {
-                    continue;
+                for change in changes(column.logs(step)) {
+                    let at = column.between(step, change.share);
+                    let bands = column.bands(step, at, change.labels);
+                    let mut values = lattice.values(first);
+                    values[axis] = crossed.value(at);
+                    let [band68, band95] = bands.map(|band| band.map(|unit| crossed.value(unit)));
+                    crossings.push(Crossing {
+                        values,
+                        labels: change.labels.map(|label| map.codes()[label]),
+                        band68,
+                        band95,
+                        width: bands[1][1] - bands[1][0],
+                    });
                 }
-                let (at, bands) = column.cross(step, labels);
-                let mut values = lattice.values(first);
-                values[axis] = crossed.value(at);
-                let [band68, band95] = bands.map(|band| band.map(|unit| crossed.value(unit)));
-                crossings.push(Crossing {
-                    values,
-                    labels: labels.map(|label| map.codes()[label]),
-                    band68,
-                    band95,
-                    width: bands[1][1] - bands[1][0],
-                });
             }
         }
         Self { axis, crossings }
@@ -159,32 +159,19 @@ pub fn widths(lattice: &Lattice, map: &ProbabilityMap) -> Vec<Width> {
 
 /// Places along the axis that is crossed.
 struct Column<'a> {
-    map: &'a ProbabilityMap,
-    places: &'a [usize],
+    /// Logarithms of the probabilities of all labels.
+    logs: Vec<Vec<f64>>,
     units: &'a [f64],
 }
 
 impl Column<'_> {
-    /// Logarithm of the probability of a label.
-    fn log(&self, index: usize, label: usize) -> f64 {
-        libm::log(self.map.at(self.places[index])[label].max(1e-300))
+    /// Logarithms at places `step - 1` and `step`.
+    fn logs(&self, step: usize) -> [&[f64]; 2] {
+        [&self.logs[step - 1], &self.logs[step]]
     }
 
-    /// Where between places `step - 1` and `step` two labels are equally probable.
-    fn equal(&self, step: usize, low: usize, high: usize) -> f64 {
-        let below = self.log(step - 1, low) - self.log(step - 1, high);
-        let above = self.log(step, high) - self.log(step, low);
-        let share = if below + above > 0.0 {
-            below / (below + above)
-        } else {
-            0.5
-        };
-        self.between(step, share)
-    }
-
-    /// The border of two labels between places `step - 1` and `step`, and its bands.
-    fn cross(&self, step: usize, [low, high]: [usize; 2]) -> (f64, [[f64; 2]; 2]) {
-        let at = self.equal(step, low, high);
+    /// The bands of a border between places `step - 1` and `step`.
+    fn bands(&self, step: usize, at: f64, [low, high]: [usize; 2]) -> [[f64; 2]; 2] {
         let band = |end| {
             let within = [end, 1.0 - end].map(|share| self.between(step, share));
             [
@@ -192,7 +179,7 @@ impl Column<'_> {
                 self.up(step, at, low, end).max(within[1]),
             ]
         };
-        (at, ENDS.map(band))
+        ENDS.map(band)
     }
 
     /// The place at this share of the way from `step - 1` to `step`.
@@ -205,7 +192,7 @@ impl Column<'_> {
     fn down(&self, step: usize, at: f64, label: usize, end: f64) -> f64 {
         let bound = libm::log(end);
         for step in (1..=step).rev() {
-            let [low, high] = [self.log(step - 1, label), self.log(step, label)];
+            let [low, high] = self.logs(step).map(|logs| logs[label]);
             if low < bound {
                 let share = (bound - low) / (high - low).max(bound - low);
                 return self.between(step, share).min(at);
@@ -217,8 +204,8 @@ impl Column<'_> {
     /// The same upwards.
     fn up(&self, step: usize, at: f64, label: usize, end: f64) -> f64 {
         let bound = libm::log(end);
-        for step in step..self.places.len() {
-            let [low, high] = [self.log(step - 1, label), self.log(step, label)];
+        for step in step..self.logs.len() {
+            let [low, high] = self.logs(step).map(|logs| logs[label]);
             if high < bound {
                 let share = (bound - high) / (low - high).max(bound - high);
                 return self.between(step, 1.0 - share).max(at);

@@ -1,5 +1,11 @@
 //! Borders and bands as curves in a plane of two axes.
+//!
+//! A square of four places is cut into four triangles by its centre, where logarithms have the mean
+//! of its corners; in a triangle they are linear. So the regions in which a label is the most
+//! probable one fill the plane without gaps: their borders end at the sides of the plane or where
+//! three of them meet, and cross the lines between places where [`Borders`](super::Borders) do.
 
+use super::between::{equal, is_ahead};
 use super::{Code, Lattice, ProbabilityMap};
 use std::collections::BTreeMap;
 
@@ -21,21 +27,38 @@ pub struct Panel<'a> {
     pub place: usize,
 }
 
-/// An edge between two nodes: from that of these indices along x (0) or y (1).
-type Edge = (usize, usize, usize);
+/// A corner of triangles: twice its indices along x and y, which are odd at centres of squares.
+type Node = [usize; 2];
+
+/// What tells points of curves apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Vertex {
+    /// On the edge between two nodes, the lesser first.
+    Edge(Node, Node),
+    /// In the triangle of these nodes, where a third label is as probable.
+    Junction([Node; 3], usize),
+}
+
+/// A point of a curve, in the scales of the axes.
+type Point = (Vertex, [f64; 2]);
+
+/// A triangle: its nodes, and functions that are linear in it, by their values there.
+struct Triangle<'a> {
+    nodes: [Node; 3],
+    /// Places of the nodes, in the scales of the axes.
+    units: [[f64; 2]; 3],
+    values: [&'a [f64]; 3],
+}
 
 impl Panel<'_> {
-    /// The border of two labels: where their probabilities are equal, beside places of which they
-    /// are the most probable ones.
+    /// The border of two labels: where they are the two most probable ones, and equally so.
     pub fn border(&self, one: Code, other: Code) -> Vec<Curve> {
         let (Some(one), Some(other)) = (self.label(one), self.label(other)) else {
             return Vec::new();
         };
-        let value = |at: &[f64]| log(at[one]) - log(at[other]);
-        self.contour(value, |corners| {
-            let best = corners.map(|place| self.map.best(place));
-            best.contains(&one) && best.contains(&other)
-        })
+        let labels = [one.min(other), one.max(other)];
+        let logs = |place: usize| self.map.logs(place);
+        self.contour(logs, |triangle| triangle.border(labels))
     }
 
     /// Where a label has this probability (between 0 and 1). For a band of 95 % between two labels
@@ -44,67 +67,74 @@ impl Panel<'_> {
         let Some(label) = self.label(label) else {
             return Vec::new();
         };
+        let log = |p: f64| libm::log(p.max(1e-15));
         let log_odds = |p: f64| log(p) - log(1.0 - p);
         let wanted = log_odds(probability);
-        self.contour(|at| log_odds(at[label]) - wanted, |_| true)
+        let above = |place: usize| vec![log_odds(self.map.at(place)[label]) - wanted, 0.0];
+        self.contour(above, |triangle| triangle.line([0, 1]))
     }
 
     fn label(&self, code: Code) -> Option<usize> {
         self.map.codes().iter().position(|other| *other == code)
     }
 
-    /// Where a function of the probabilities passes zero in the squares that are asked for
-    /// (marching squares); it is taken as linear in the scales of the axes.
+    /// The curves whose piece in each triangle is given by the values at the places.
     fn contour(
         &self,
-        value: impl Fn(&[f64]) -> f64,
-        is_asked: impl Fn([usize; 4]) -> bool,
+        values: impl Fn(usize) -> Vec<f64>,
+        piece: impl Fn(&Triangle<'_>) -> Option<[Point; 2]>,
     ) -> Vec<Curve> {
-        let [columns, rows] = [self.x, self.y].map(|axis| self.lattice.axes()[axis].values().len());
-        let node = |i: usize, j: usize| value(self.map.at(self.place_of(i, j)));
-        let is_above = |i: usize, j: usize| node(i, j) >= 0.0;
-        let ends = |(i, j, along): Edge| [(i, j), (i + 1 - along, j + along)];
-        let mut joined: BTreeMap<Edge, Vec<Edge>> = BTreeMap::new();
-        for i in 1..columns {
-            for j in 1..rows {
-                let corners = [(i - 1, j - 1), (i, j - 1), (i, j), (i - 1, j)];
-                if !is_asked(corners.map(|(i, j)| self.place_of(i, j))) {
-                    continue;
-                }
-                let edges = [
-                    (i - 1, j - 1, 0),
-                    (i, j - 1, 1),
-                    (i - 1, j, 0),
-                    (i - 1, j - 1, 1),
-                ];
-                let crossed: Vec<Edge> = edges
-                    .into_iter()
-                    .filter(|edge| {
-                        let [one, other] = ends(*edge);
-                        is_above(one.0, one.1) != is_above(other.0, other.1)
-                    })
-                    .collect();
-                // Two or four; at a saddle they are joined in this order.
-                for pair in crossed.chunks_exact(2) {
-                    joined.entry(pair[0]).or_default().push(pair[1]);
-                    joined.entry(pair[1]).or_default().push(pair[0]);
+        let [across, up] = [self.x, self.y].map(|axis| {
+            let axis = &self.lattice.axes()[axis];
+            let units = axis.values().iter().map(|value| axis.unit(*value));
+            units.collect::<Vec<f64>>()
+        });
+        let nodes = |(j, i)| values(self.place_of(i, j));
+        let rows = (0..up.len()).flat_map(|j| (0..across.len()).map(move |i| (j, i)));
+        let at: Vec<Vec<f64>> = rows.map(nodes).collect();
+        let mut joined: BTreeMap<Vertex, Vec<Vertex>> = BTreeMap::new();
+        let mut points: BTreeMap<Vertex, [f64; 2]> = BTreeMap::new();
+        for i in 1..across.len() {
+            for j in 1..up.len() {
+                let corners = [[i - 1, j - 1], [i, j - 1], [i, j], [i - 1, j]];
+                let of_corners = corners.map(|[i, j]| at[i + j * across.len()].as_slice());
+                let sums = (0..of_corners[0].len()).map(|index| {
+                    let four = of_corners.map(|values| values[index]);
+                    0.25 * ((four[0] + four[2]) + (four[1] + four[3]))
+                });
+                let of_centre: Vec<f64> = sums.collect();
+                let centre = [i - 1, i].map(|i| across[i]).iter().sum::<f64>() * 0.5;
+                let centre = [centre, 0.5 * (up[j - 1] + up[j])];
+                for side in 0..4 {
+                    let ends = [side, (side + 1) % 4];
+                    let [one, other] = ends.map(|end| corners[end]);
+                    let unit = |[i, j]: Node| [across[i], up[j]];
+                    let triangle = Triangle {
+                        nodes: [
+                            one.map(|it| 2 * it),
+                            other.map(|it| 2 * it),
+                            [2 * i - 1, 2 * j - 1],
+                        ],
+                        units: [unit(one), unit(other), centre],
+                        values: [of_corners[ends[0]], of_corners[ends[1]], &of_centre],
+                    };
+                    let Some([from, to]) = piece(&triangle) else {
+                        continue;
+                    };
+                    points.extend([from, to]);
+                    joined.entry(from.0).or_default().push(to.0);
+                    joined.entry(to.0).or_default().push(from.0);
                 }
             }
         }
-        let point = |edge: Edge| {
-            let [one, other] = ends(edge);
-            let [a, b] = [one, other].map(|(i, j)| node(i, j));
-            let share = a / (a - b);
-            let on = |axis: usize, from: usize, to: usize| {
-                let axis = &self.lattice.axes()[axis];
-                let [from, to] = [from, to].map(|index| axis.unit(axis.values()[index]));
-                axis.value(from + share * (to - from))
-            };
-            [on(self.x, one.0, other.0), on(self.y, one.1, other.1)]
+        let value = |vertex: Vertex| {
+            let [x, y] = points[&vertex];
+            let axes = self.lattice.axes();
+            [axes[self.x].value(x), axes[self.y].value(y)]
         };
         let chains = chains(joined).into_iter();
         chains
-            .map(|chain| chain.into_iter().map(point).collect())
+            .map(|chain| chain.into_iter().map(value).collect())
             .collect()
     }
 
@@ -117,28 +147,104 @@ impl Panel<'_> {
     }
 }
 
-/// Logarithm, finite for 0 too.
-fn log(p: f64) -> f64 {
-    libm::log(p.max(1e-15))
+impl Triangle<'_> {
+    /// Where two functions, the lesser index first, are equal: from edge to edge.
+    fn line(&self, labels: [usize; 2]) -> Option<[Point; 2]> {
+        let [from, to] = self.ends(labels)?;
+        Some([self.on(from, labels), self.on(to, labels)])
+    }
+
+    /// The part of the line on which no other function is greater.
+    fn border(&self, labels: [usize; 2]) -> Option<[Point; 2]> {
+        let [one, other] = labels;
+        let edges = self.ends(labels)?;
+        let mut ends = edges.map(|edge| self.on(edge, labels));
+        let mut shares = [0.0, 1.0];
+        for third in (0..self.values[0].len()).filter(|it| !labels.contains(it)) {
+            let [from, to] = edges.map(|edge| {
+                let [low, high] =
+                    edge.map(|node| self.values[node][one] - self.values[node][third]);
+                low + self.share(edge, labels) * (high - low)
+            });
+            let share = from / (from - to);
+            let end = match (from < 0.0, to < 0.0) {
+                (false, false) => continue,
+                (true, true) => return None,
+                (true, false) if share > shares[0] => 0,
+                (false, true) if share < shares[1] => 1,
+                _ => continue,
+            };
+            shares[end] = share;
+            let mut three = [one, other, third];
+            three.sort_unstable();
+            ends[end] = (
+                Vertex::Junction(self.nodes, third),
+                self.meeting(three).unwrap_or(ends[end].1),
+            );
+        }
+        (shares[0] < shares[1]).then_some(ends)
+    }
+
+    /// The two edges, by indices of their nodes, on which the order of two functions changes.
+    fn ends(&self, [one, other]: [usize; 2]) -> Option<[[usize; 2]; 2]> {
+        let is_ahead = self.values.map(|values| is_ahead(values, one, other));
+        let alone =
+            (0..3).find(|&node| (0..3).all(|it| it == node || is_ahead[it] != is_ahead[node]))?;
+        // From the lesser node, so that both triangles of an edge find the same point.
+        let edge = |other: usize| match self.nodes[alone] < self.nodes[other] {
+            true => [alone, other],
+            false => [other, alone],
+        };
+        Some([edge((alone + 1) % 3), edge((alone + 2) % 3)])
+    }
+
+    /// Where two functions are equal on an edge, as a share of it.
+    fn share(&self, edge: [usize; 2], [one, other]: [usize; 2]) -> f64 {
+        equal(edge.map(|node| self.values[node]), one, other)
+    }
+
+    /// The point of an edge where two functions are equal.
+    fn on(&self, edge: [usize; 2], labels: [usize; 2]) -> Point {
+        let share = self.share(edge, labels);
+        let [from, to] = edge.map(|node| self.units[node]);
+        let unit = [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]));
+        let [one, other] = edge.map(|node| self.nodes[node]);
+        (Vertex::Edge(one, other), unit)
+    }
+
+    /// Where three functions are equal: a sum of the nodes with the weights that solve both
+    /// equations.
+    fn meeting(&self, [one, other, third]: [usize; 3]) -> Option<[f64; 2]> {
+        let first = self.values.map(|values| values[one] - values[other]);
+        let second = self.values.map(|values| values[other] - values[third]);
+        let weights =
+            [(1, 2), (2, 0), (0, 1)].map(|(a, b)| first[a] * second[b] - first[b] * second[a]);
+        let sum: f64 = weights.iter().sum();
+        let unit = [0, 1].map(|axis| {
+            let parts = [0, 1, 2].map(|node| weights[node] * self.units[node][axis]);
+            parts.iter().sum::<f64>() / sum
+        });
+        unit.iter().all(|it| it.is_finite()).then_some(unit)
+    }
 }
 
-/// Edges one after the other as they are joined, open chains first.
-fn chains(mut joined: BTreeMap<Edge, Vec<Edge>>) -> Vec<Vec<Edge>> {
+/// Vertices one after the other as they are joined, open chains first.
+fn chains(mut joined: BTreeMap<Vertex, Vec<Vertex>>) -> Vec<Vec<Vertex>> {
     let ends = joined.iter().filter(|(_, next)| next.len() == 1);
-    let ends: Vec<Edge> = ends.map(|(edge, _)| *edge).collect();
-    let all: Vec<Edge> = joined.keys().copied().collect();
+    let ends: Vec<Vertex> = ends.map(|(vertex, _)| *vertex).collect();
+    let all: Vec<Vertex> = joined.keys().copied().collect();
     let mut chains = Vec::new();
     for start in ends.into_iter().chain(all) {
         let mut chain = vec![start];
-        let mut edge = start;
-        while let Some(next) = joined.get_mut(&edge).and_then(|next| next.pop()) {
+        let mut vertex = start;
+        while let Some(next) = joined.get_mut(&vertex).and_then(|next| next.pop()) {
             if let Some(back) = joined.get_mut(&next)
-                && let Some(place) = back.iter().position(|other| *other == edge)
+                && let Some(place) = back.iter().position(|other| *other == vertex)
             {
                 back.remove(place);
             }
             chain.push(next);
-            edge = next;
+            vertex = next;
         }
         if chain.len() > 1 {
             chains.push(chain);

@@ -46,6 +46,12 @@ impl ProbabilityMap {
         &self.probabilities[place * labels..(place + 1) * labels]
     }
 
+    /// Logarithm of the probability of each label at a place; finite for 0 too.
+    pub(super) fn logs(&self, place: usize) -> Vec<f64> {
+        let logs = self.at(place).iter().map(|p| libm::log(p.max(1e-300)));
+        logs.collect()
+    }
+
     /// What one more run at a place would tell, in bits.
     pub fn information(&self, place: usize) -> f64 {
         self.information[place]

@@ -43,6 +43,7 @@
 //! # Ok::<(), phase::refine::RefineError>(())
 //! ```
 
+mod between;
 mod borders;
 mod choice;
 mod cholesky;
