@@ -3,9 +3,10 @@
 use super::axes::Plot;
 use super::legend::{Entry, Key};
 use super::page::{Frame, Page, Plan};
-use super::scale::{Span, Ticks};
+use super::scale::Span;
 use super::style::{Drawn, px};
 use super::svg::Svg;
+use super::ticks::Ticks;
 use super::{PlotError, palette};
 use crate::record::Program;
 use crate::study::ablation::{Ablated, Verdict};
@@ -55,7 +56,7 @@ pub fn draw(
         legend: legend.collect(),
         ..Plan::default()
     });
-    let (size, body) = page.draw(|sheet| {
+    let body = page.draw(|sheet| {
         let changed = page.axes(sheet, 0)?;
         let time = page.axes(sheet, 1)?;
         let rows = ablated.len() as f64;
@@ -91,7 +92,7 @@ pub fn draw(
         changed.draw()?;
         time.draw()
     })?;
-    Ok(Svg::of_program("ablation", title, program, size, &body))
+    Ok(Svg::of_program("ablation", title, program, &body))
 }
 
 /// Time over that of the scene as it is.

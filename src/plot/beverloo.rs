@@ -3,7 +3,7 @@
 
 use super::chart::{Bar, Chart, Line, Panel, ends, samples};
 use super::grid::GridAxis;
-use super::scale;
+use super::numbers;
 use super::series::{self, Series};
 use super::style::px;
 use super::svg::Svg;
@@ -294,7 +294,7 @@ fn notes(lines: &[FittedLine], outlet: &Outlet, units: Units) -> Vec<String> {
         without => format!(" {without} runs whose outflow stopped or did not end have no rate."),
     };
     let (least, most) = ends(lines.iter().map(|line| line.bed.number_density));
-    let range = match [least, most].map(|it| scale::rounded(it, 3)) {
+    let range = match [least, most].map(|it| numbers::rounded(it, 3)) {
         [least, most] if least == most => most,
         [least, most] => format!("{least} to {most}"),
     };

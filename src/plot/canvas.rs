@@ -6,8 +6,8 @@
 
 use super::PlotError;
 use super::style::{self, Sheet};
-use super::text::{SUBSCRIPT_SIZE, runs};
-use crate::fonts::FAMILY;
+use super::text::{SUBSCRIPT_SIZE, plain, runs};
+use crate::fonts::{self, FAMILY};
 use crate::markup::escape;
 use crate::render::Image;
 use base64::Engine;
@@ -31,13 +31,20 @@ pub(super) const SNAP: i32 = 4;
 
 type Drawn = Result<(), DrawingErrorKind<Infallible>>;
 
-/// Size of a canvas, and the elements on it.
-pub(super) type Body = ((u32, u32), String);
+/// What has been drawn on a canvas.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Body {
+    size: (u32, u32),
+    elements: String,
+    /// Texts with letters that the font lacks, and these letters.
+    pub(super) unwritten: Vec<(String, Vec<char>)>,
+    /// What cannot be seen on it.
+    pub(super) warnings: Vec<String>,
+}
 
 /// Collects the elements of an SVG.
 pub(super) struct Canvas<'a> {
-    body: &'a mut String,
-    size: (u32, u32),
+    body: &'a mut Body,
 }
 
 /// Draws on a canvas of that size.
@@ -45,20 +52,19 @@ pub(super) fn draw(
     (width, height): (i32, i32),
     content: impl FnOnce(&Sheet<'_>) -> style::Drawn,
 ) -> Result<Body, PlotError> {
-    let size = (width as u32, height as u32);
-    let mut body = String::new();
-    let canvas = Canvas {
-        body: &mut body,
-        size,
+    let mut body = Body {
+        size: (width as u32, height as u32),
+        ..Body::default()
     };
+    let canvas = Canvas { body: &mut body };
     content(&canvas.into_drawing_area())?;
-    Ok((size, body))
+    Ok(body)
 }
 
 impl Canvas<'_> {
     fn element(&mut self, element: &str) -> Drawn {
-        self.body.push_str(element);
-        self.body.push('\n');
+        self.body.elements.push_str(element);
+        self.body.elements.push('\n');
         Ok(())
     }
 }
@@ -67,7 +73,7 @@ impl DrawingBackend for Canvas<'_> {
     type ErrorType = Infallible;
 
     fn get_size(&self) -> (u32, u32) {
-        self.size
+        self.body.size
     }
 
     fn ensure_prepared(&mut self) -> Drawn {
@@ -175,6 +181,10 @@ impl DrawingBackend for Canvas<'_> {
         (x, y): BackendCoord,
     ) -> Drawn {
         let size = style.size();
+        let lacking = fonts::lacking(text);
+        if !lacking.is_empty() {
+            self.body.unwritten.push((plain(text), lacking));
+        }
         // Top means the top of capitals (.73 em), bottom that of the descenders (.24 em).
         let baseline = match style.anchor().v_pos {
             VPos::Top => 0.73,
@@ -262,9 +272,10 @@ pub(super) fn picture(image: &Image, (x, y): (i32, i32), file: &[u8]) -> String 
     )
 }
 
-/// The elements as an SVG document of `size` units, `head` before them.
-pub(super) fn document(size: (u32, u32), head: &str, body: &str) -> String {
-    let (width, height) = size;
+/// What is drawn as an SVG document, `head` before it.
+pub(super) fn document(head: &str, body: &Body) -> String {
+    let (width, height) = body.size;
+    let body = &body.elements;
     let pixels = |units: u32| f64::from(units) / f64::from(UNITS);
     let view = format!(r#"viewBox="0 0 {width} {height}""#);
     let font = format!(r#"font-family="'{FAMILY}', Verdana, sans-serif""#);

@@ -1,6 +1,6 @@
 //! What names runs that are no points of a sweep: the keys in which their scenes differ.
 
-use super::scale;
+use super::numbers;
 use crate::document::differing_keys;
 use crate::scene::{Scene, leaf};
 use serde_json::Value;
@@ -39,28 +39,37 @@ pub(super) fn of(scenes: &[&Scene]) -> Vec<Vec<String>> {
         !tables.iter().any(is_in)
     };
     keys.retain(is_outermost);
-    let name = |scene: &&Scene| keys.iter().map(|key| part(scene, key)).collect();
-    scenes.iter().map(name).collect()
+    let trees = scenes.iter().map(|scene| serde_json::to_value(scene));
+    let trees: Vec<Value> = trees.map(Result::unwrap_or_default).collect();
+    let name = |(scene, tree): (&&Scene, &Value)| {
+        let parts = keys.iter().map(|key| part(scene, tree, &trees, key));
+        parts.collect()
+    };
+    scenes.iter().zip(&trees).map(name).collect()
 }
 
-/// The value of a key of a scene, in words.
-fn part(scene: &Scene, key: &str) -> String {
-    let tree = serde_json::to_value(scene).unwrap_or_default();
-    match key
-        .split('.')
-        .try_fold(&tree, |table, name| table.get(name))
-    {
+/// The value of a key in a tree.
+fn at<'a>(tree: &'a Value, key: &str) -> Option<&'a Value> {
+    let mut names = key.split('.');
+    names.try_fold(tree, |table, name| table.get(name))
+}
+
+/// The value of a key of a scene, in words, `trees` being all scenes.
+fn part(scene: &Scene, tree: &Value, trees: &[Value], key: &str) -> String {
+    match at(tree, key) {
         None | Some(Value::Null) => format!("{} not set", words(key)),
         Some(Value::Object(table)) if table.is_empty() => words(key),
         Some(Value::Object(table)) => {
             let parts = table
                 .keys()
-                .map(|name| part(scene, &format!("{key}.{name}")));
+                .map(|name| part(scene, tree, trees, &format!("{key}.{name}")));
             format!("{}: {}", words(key), parts.collect::<Vec<_>>().join(", "))
         }
         Some(Value::String(text)) => text.replace('-', " "),
         Some(Value::Number(number)) => {
-            let value = scale::number(number.as_f64().unwrap_or(f64::NAN));
+            let others = trees.iter().filter_map(|tree| at(tree, key)?.as_f64());
+            let others: Vec<f64> = others.collect();
+            let value = numbers::among(number.as_f64().unwrap_or(f64::NAN), &others);
             match scene.notation(key) {
                 Some(it) => format!("${}$ = {value} {}", it.symbol, it.unit)
                     .trim_end()
@@ -122,6 +131,14 @@ mod tests {
         assert_eq!(names[1], ["gravity not set", "$ρ$ = 2500 kg/m³"]);
         assert_eq!(names[2], ["gravity: $g$ = 1.6 m/s²", "$ρ$ = 3000 kg/m³"]);
         assert_eq!(of(&[&scenes[0], &scenes[0]]), [[""; 0]; 2]);
+    }
+
+    /// Symptom: two records had one name. Cause: four digits, whatever the other values are.
+    #[test]
+    fn names_have_the_digits_that_tell_values_apart() {
+        let scenes = [falling(None, 2500.1), falling(None, 2500.3)];
+        let names = of(&[&scenes[0], &scenes[1]]);
+        assert_eq!(names, [["$ρ$ = 2500.1 kg/m³"], ["$ρ$ = 2500.3 kg/m³"]]);
     }
 
     #[test]

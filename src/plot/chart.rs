@@ -4,8 +4,10 @@ use super::canvas::Body;
 use super::legend::{Entry, Key};
 use super::page::{Frame, Page, Plan};
 use super::scale::Span;
+use super::spacing::Spacing;
 use super::style::{self, Drawn, Sheet, px};
 use super::svg::Svg;
+use super::ticks::Ticks;
 use super::{PlotError, Source, palette};
 use plotters::element::{ErrorBar, PathElement};
 use plotters::style::{Color, RGBColor};
@@ -55,6 +57,9 @@ impl Bar {
     }
 }
 
+/// Both axes of powers of ten.
+pub(super) const BOTH_LOGARITHMIC: [Spacing; 2] = [Spacing::Logarithmic, Spacing::Logarithmic];
+
 /// A panel.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Panel {
@@ -66,8 +71,10 @@ pub(super) struct Panel {
     pub(super) lines: Vec<Line>,
     /// Drawn over the lines.
     pub(super) bars: Vec<Bar>,
-    /// Whether the horizontal and the vertical axis are of powers of ten.
-    pub(super) logarithmic: [bool; 2],
+    /// How values of the horizontal and of the vertical axis are spaced.
+    pub(super) spacing: [Spacing; 2],
+    /// Where the horizontal axis has ticks.
+    pub(super) ticks: Ticks,
 }
 
 impl Panel {
@@ -81,7 +88,7 @@ impl Panel {
             y,
             lines,
             bars: Vec::new(),
-            logarithmic: [false; 2],
+            ..Self::default()
         }
     }
 
@@ -101,12 +108,8 @@ impl Panel {
         let bars = self.bars.iter();
         let ends = bars.flat_map(|bar| [bar.ends[0].max(0.1 * bar.at.1), bar.ends[1]]);
         let y = decades(points.map(|point| point.1).chain(ends));
-        let logarithmic = [self.logarithmic[0], true];
-        Self {
-            y,
-            logarithmic,
-            ..self
-        }
+        let spacing = [self.spacing[0].clone(), Spacing::Logarithmic];
+        Self { y, spacing, ..self }
     }
 
     /// The same with both over powers of ten.
@@ -116,7 +119,7 @@ impl Panel {
         let panel = self.logarithmic();
         Self {
             x,
-            logarithmic: [true; 2],
+            spacing: BOTH_LOGARITHMIC,
             ..panel
         }
     }
@@ -152,8 +155,8 @@ pub(super) struct Chart {
 
 impl Chart {
     pub(super) fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let (size, body) = self.body(source.sweep.title.as_deref())?;
-        Ok(Svg::new(self.name, source, size, &body))
+        let body = self.body(source.sweep.title.as_deref())?;
+        Ok(Svg::new(self.name, source, &body))
     }
 
     /// Size of the canvas, and what is drawn on it below a title.
@@ -161,11 +164,12 @@ impl Chart {
         let frame = |panel: &Panel| Frame {
             head: panel.head.clone(),
             x: Span {
-                logarithmic: panel.logarithmic[0],
+                spacing: panel.spacing[0].clone(),
+                ticks: panel.ticks.clone(),
                 ..Span::linear(panel.x)
             },
             y: Span {
-                logarithmic: panel.logarithmic[1],
+                spacing: panel.spacing[1].clone(),
                 ..Span::linear(panel.y)
             },
         };

@@ -1,6 +1,6 @@
 //! Which runs a figure of single runs shows.
 
-use super::{PlotError, Source, grid};
+use super::{PlotError, Source, grid, numbers};
 use crate::classify::Label;
 use crate::classify::{LabelRow, Point};
 use crate::record::RunRecord;
@@ -218,19 +218,20 @@ impl Run<'_> {
     }
 }
 
-/// `symbol = value unit`; small lengths in millimetres.
+/// `symbol = value unit`, with as many digits as tell it from the other values of its axis; small
+/// lengths in millimetres.
 pub(super) fn quantity(source: &Source<'_>, key: &str, name: &str, value: f64) -> String {
+    let axes = source.sweep.axes.iter().filter(|axis| axis.key == key);
+    let others: Vec<f64> = axes.flat_map(|axis| axis.values.iter().copied()).collect();
     let Some(notation) = source.sweep.scene.notation(key) else {
-        return format!("{name} = {}", super::scale::number(value));
+        return format!("{name} = {}", numbers::among(value, &others));
     };
-    let (value, unit) = match notation.unit {
-        "m" if value.abs() < 0.1 => (value * 1e3, "mm"),
-        unit => (value, unit),
+    let (factor, unit) = match notation.unit {
+        "m" if value.abs() < 0.1 => (1e3, "mm"),
+        unit => (1.0, unit),
     };
-    let text = format!(
-        "${}$ = {} {unit}",
-        notation.symbol,
-        super::scale::number(value)
-    );
+    let others: Vec<f64> = others.iter().map(|other| other * factor).collect();
+    let number = numbers::among(value * factor, &others);
+    let text = format!("${}$ = {number} {unit}", notation.symbol);
     text.trim_end().to_owned()
 }

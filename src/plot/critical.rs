@@ -32,7 +32,7 @@ pub(super) fn curves<P>(scene: &Scene, grid: &Grid<P>, panel: &Panel<P>) -> Vec<
         pieces
     };
     let value = |key: &str, place: f64| match other {
-        Some(axis) if axis.key == key => Some(place / axis.factor),
+        Some(axis) if axis.key == key => Some(axis.value(place)),
         _ => fixed(key, grid, panel),
     };
     let without = |place: f64| {
@@ -83,7 +83,7 @@ fn pieces(
         .map(|fraction| other.map_or(fraction, |axis| axis.along(fraction)))
         .collect();
     let shown = |place: &f64| {
-        let critical = critical(*place)? * omega.factor;
+        let critical = omega.show(critical(*place)?);
         Some(critical).filter(|critical| critical.is_finite())
     };
     let curve: Vec<Option<f64>> = places.iter().map(shown).collect();

@@ -1,8 +1,11 @@
 //! The critical rotation over the radius of the spheres (Rice, 2012, eq. 43 and figure 19).
 
 use super::chart::{Chart, Line, Panel, ends, samples};
+use super::grid::GridAxis;
+use super::spacing::Spacing;
 use super::style::px;
 use super::svg::Svg;
+use super::ticks::Ticks;
 use super::{Figure, PlotError, Source, choice, palette};
 use crate::classify::{Family, TANK};
 use crate::scene::Scene;
@@ -30,10 +33,13 @@ impl Figure for CriticalRotation {
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
         let (low, high) = radii(source);
+        let x = (low * 1e3, high * 1e3);
+        let (spacing, ticks) = axis(source);
         let (mut lines, mut legend) = (Vec::new(), Vec::new());
         for (name, color, scene) in scenes(source) {
-            let omega = |radius: f64| critical(&scene, radius).map(|omega| (radius * 1e3, omega));
-            let points: Option<Vec<_>> = samples(low, high).map(omega).collect();
+            let omega = |radius: f64| critical(&scene, radius * 1e-3).map(|omega| (radius, omega));
+            let radii = samples(0.0, 1.0).map(|share| spacing.along(share, x.0, x.1));
+            let points: Option<Vec<_>> = radii.map(omega).collect();
             let points = points.ok_or(PlotError::Scene {
                 figure: self.name(),
                 needs: "a tank with a radius, and gravity",
@@ -44,11 +50,14 @@ impl Figure for CriticalRotation {
         if lines.len() == 1 {
             legend.clear();
         }
-        let x = (low * 1e3, high * 1e3);
         Chart {
             name: self.name(),
             common: fixed(source),
-            panels: vec![Panel::new(Vec::new(), x, lines).down_to_zero()],
+            panels: vec![Panel {
+                spacing: [spacing, Spacing::Linear],
+                ticks,
+                ..Panel::new(Vec::new(), x, lines).down_to_zero()
+            }],
             columns: 1,
             height: px(400),
             x_label: "radius of the spheres $r$ (mm)".to_owned(),
@@ -57,6 +66,21 @@ impl Figure for CriticalRotation {
             ..Chart::default()
         }
         .draw(source)
+    }
+}
+
+/// How radii (mm) are spaced, and where they have ticks: as on other figures of the sweep.
+fn axis(source: &Source<'_>) -> (Spacing, Ticks) {
+    let mut axes = source.sweep.axes.iter();
+    let index = axes.position(|axis| axis.key == "spheres.radius");
+    let axis = index.map(|index| GridAxis {
+        factor: 1e3,
+        ..GridAxis::new(index, source.sweep, source.table)
+    });
+    match axis.map(|axis| (axis.spacing(), axis.shown())) {
+        Some((spacing @ Spacing::Equal(_), radii)) => (spacing, Ticks::Values(radii)),
+        Some((spacing, _)) => (spacing, Ticks::Round),
+        None => (Spacing::Linear, Ticks::Round),
     }
 }
 

@@ -5,7 +5,7 @@ use super::canvas::Body;
 use super::color_bar::ColorBar;
 use super::contour::Piece;
 use super::critical;
-use super::grid::{self, Grid, Panel};
+use super::grid::{self, Grid, GridAxis, Panel};
 use super::legend::{Entry, Key};
 use super::page::{Frame, Page, Plan};
 use super::scale::Scale;
@@ -87,6 +87,31 @@ impl Curve {
     }
 }
 
+/// A cell along one axis, in units of the canvas.
+struct Side {
+    /// The value it stands for.
+    value: f64,
+    length: f64,
+    /// Twice the way from the value to the nearer end.
+    around: f64,
+}
+
+/// The cells of an axis of this length.
+fn sides(axis: &GridAxis, scale: &Scale, length: i32) -> Vec<Side> {
+    let at = |value: f64| scale.fraction(value) * f64::from(length);
+    let edges = axis.edges();
+    let cells = axis.values.iter().zip(edges.windows(2));
+    let side = |(&value, ends): (&f64, &[f64])| {
+        let [low, here, high] = [ends[0], axis.show(value), ends[1]].map(at);
+        Side {
+            value,
+            length: high - low,
+            around: 2.0 * (here - low).min(high - here),
+        }
+    };
+    cells.map(side).collect()
+}
+
 /// A diagram: what differs between the figures that are one.
 pub(super) struct Diagram<'a, P = Point> {
     /// Name of the figure.
@@ -111,8 +136,8 @@ impl Diagram<'_> {
             .collect();
         let entries = Curve::entries(&curves, critical::WORDS);
         let title = source.sweep.title.as_deref();
-        let (size, body) = self.body(title, &curves, entries)?;
-        Ok(Svg::new(self.name, source, size, &body))
+        let body = self.body(title, &curves, entries)?;
+        Ok(Svg::new(self.name, source, &body))
     }
 }
 
@@ -150,12 +175,14 @@ impl<P> Diagram<'_, P> {
             ..Plan::default()
         });
         page.legend.0.cell = self.smallest_cell(&page);
-        page.draw(|sheet| {
+        let mut body = page.draw(|sheet| {
             for (index, curves) in curves.iter().enumerate() {
                 self.draw_panel(sheet, &page, index, curves)?;
             }
             bar.iter().try_for_each(|bar| bar.draw(sheet, page.aside))
-        })
+        })?;
+        body.warnings = self.warnings(&page);
+        Ok(body)
     }
 
     fn frames(&self, columns: usize) -> Vec<Frame> {
@@ -217,18 +244,30 @@ impl<P> Diagram<'_, P> {
                 draw(sheet, &pixels.collect::<Vec<_>>())?;
             }
         }
-        for (corners, look) in cells() {
+        for (point, look) in self.points(plot).into_iter().zip(&looks) {
             // A mark where seeds disagree.
             if let Some(look) = look
                 && look.agreement < 1.0
             {
-                style::disagreement(sheet, corners, look.agreement, page.legend.0.cell)?;
+                style::disagreement(sheet, point, look.agreement, page.legend.0.cell)?;
             }
             if let Some(color) = look.and_then(|look| look.mark) {
-                style::mark(sheet, corners, color)?;
+                style::mark(sheet, point, color)?;
             }
         }
         axes.draw()
+    }
+
+    /// The points of all cells on the canvas: at their values, which are not in the middle of
+    /// uneven cells.
+    fn points(&self, plot: &Plot<'_>) -> Vec<(i32, i32)> {
+        let y = self.grid.y.as_ref().map_or(vec![0.5], GridAxis::shown);
+        let row = |y: &f64| {
+            let across = self.grid.x.shown().into_iter();
+            let points = across.map(|x| plot.map_coordinate(&(x, *y)));
+            points.collect::<Vec<_>>()
+        };
+        y.iter().flat_map(row).collect()
     }
 
     /// Edges of the cells on the canvas, horizontally and vertically.
@@ -266,20 +305,36 @@ impl<P> Diagram<'_, P> {
         [(x[0], y[last_y]), (x[last_x], y[0])]
     }
 
-    /// Shortest side of a cell, as far as marks grow with it.
-    fn smallest_cell(&self, page: &Page) -> i32 {
-        let shortest = |edges: Vec<f64>, scale: &Scale, length: i32| {
-            let places = edges.windows(2);
-            let sides = places.map(|pair| scale.fraction(pair[1]) - scale.fraction(pair[0]));
-            (sides.fold(1.0, f64::min) * f64::from(length)) as i32
-        };
+    /// The cells of both axes on the canvas.
+    fn sides(&self, page: &Page) -> [Vec<Side>; 2] {
         let ((x, y), (width, height)) = (page.scales(0), page.panel);
-        let across = shortest(self.grid.x.edges(), x, width);
-        let up = match &self.grid.y {
-            Some(axis) => shortest(axis.edges(), y, height),
-            None => height,
+        let up = self.grid.y.as_ref();
+        let up = up.map(|axis| sides(axis, y, height)).unwrap_or_default();
+        [sides(&self.grid.x, x, width), up]
+    }
+
+    /// Shortest side of a cell around its point, as far as marks grow with it.
+    fn smallest_cell(&self, page: &Page) -> i32 {
+        let sides = self.sides(page).into_iter().flatten();
+        let strip = f64::from(page.panel.1);
+        let shortest = sides.map(|side| side.around).fold(strip, f64::min);
+        (shortest as i32).min(style::LARGEST_CELL)
+    }
+
+    /// Says which axes have cells that are too narrow to be seen.
+    fn warnings(&self, page: &Page) -> Vec<String> {
+        let axes = [Some(&self.grid.x), self.grid.y.as_ref()];
+        let axes = axes.into_iter().zip(self.sides(page));
+        let warning = |(axis, sides): (Option<&GridAxis>, Vec<Side>)| {
+            let (name, least) = (&axis?.name, f64::from(px(1)));
+            let narrow = sides.into_iter().find(|side| side.length < least)?;
+            Some(format!(
+                "cells of the axis `{name}` are narrower than a pixel, such as the one at {}; with \
+                 `equal_steps = [\"{name}\"]` in [plot] its values stand at equal distances",
+                narrow.value
+            ))
         };
-        across.min(up).min(style::LARGEST_CELL)
+        axes.filter_map(warning).collect()
     }
 
     /// Draws the lines between cells of different groups.

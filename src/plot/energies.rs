@@ -4,7 +4,7 @@ use super::chart::{self, Chart, Line, Panel};
 use super::choice::{self, Run};
 use super::style::px;
 use super::svg::Svg;
-use super::{Figure, PlotError, Source, palette, scale};
+use super::{Figure, PlotError, Source, numbers, palette};
 use crate::classify::{Family, TANK};
 use crate::record::RunRecord;
 
@@ -132,7 +132,7 @@ fn of_run(run: &Run<'_>, head: Vec<String>, record: &RunRecord) -> [Panel; 2] {
     };
     let larger = match begin {
         1.0 => "first second".to_owned(),
-        _ => format!("first {} s", scale::number(begin)),
+        _ => format!("first {} s", numbers::number(begin)),
     };
     [(head, duration), (vec![larger], begin)]
         .map(|(head, end)| Panel::new(head, (0.0, end), lines.clone()))

@@ -46,8 +46,8 @@ pub fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
         legend,
         ..Chart::default()
     };
-    let (size, body) = chart.body(record.scene.title.as_deref())?;
-    Ok(Svg::of_record("ledger", record, size, &body))
+    let body = chart.body(record.scene.title.as_deref())?;
+    Ok(Svg::of_record("ledger", record, &body))
 }
 
 /// All kinds of energy that the run knew.

@@ -104,15 +104,16 @@ impl Legend {
 fn draw_key(sheet: &Sheet<'_>, key: Key, (left, middle): (i32, i32), cell: i32) -> Drawn {
     let (right, top, bottom) = (left + KEY.0, middle - KEY.1 / 2, middle + KEY.1 / 2);
     let corners = [(left, top), (right, bottom)];
+    let centre = (left.midpoint(right), middle);
     match key {
         Key::Fill(fill) => style::paint(sheet, corners, fill)?,
         Key::Agreement(agreement) => {
             style::fill(sheet, corners, WHITE)?;
-            style::disagreement(sheet, corners, agreement, cell)?;
+            style::disagreement(sheet, centre, agreement, cell)?;
         }
         Key::Curve => return style::curve(sheet, &[(left, middle), (right, middle)]),
         Key::Border => return style::border(sheet, &[(left, middle), (right, middle)]),
-        Key::Mark(color) => return style::mark(sheet, corners, color),
+        Key::Mark(color) => return style::mark(sheet, centre, color),
         Key::Dashes => return style::dashes(sheet, &[(left, middle), (right, middle)]),
         Key::Dot(color) => {
             let middle = (left.midpoint(right), middle);

@@ -3,7 +3,9 @@
 use super::chart::{self, Bar, Chart, Line, Panel};
 use super::grid::{Grid, GridAxis};
 use super::map::{self, Map};
+use super::scale::Span;
 use super::series::{self, Series};
+use super::spacing::Spacing;
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
@@ -29,10 +31,8 @@ impl Figure for MeasuresFigure {
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
         let axis = Grid::new(source)?.x;
         let (lines, left_out) = series::lines(source, &axis)?;
-        let shown = axis.shown();
-        let x = chart::range(shown.iter().copied()).unwrap_or((0.0, 1.0));
         let panels: Vec<Panel> = map::of_measures(source.table.family)
-            .filter_map(|map| panel(source, map, &lines, &axis, x))
+            .filter_map(|map| panel(source, map, &lines, &axis))
             .collect();
         if panels.is_empty() {
             let figure = self.name();
@@ -70,27 +70,35 @@ fn note(sweep: &Sweep) -> String {
 }
 
 /// The panel of a measure; none if no run has it.
-fn panel(
-    source: &Source<'_>,
-    map: &Map,
-    lines: &[Series],
-    axis: &GridAxis,
-    x: (f64, f64),
-) -> Option<Panel> {
+fn panel(source: &Source<'_>, map: &Map, lines: &[Series], axis: &GridAxis) -> Option<Panel> {
+    // The axis of the phase diagram, on which points stand at their values.
+    let Span {
+        low,
+        high,
+        spacing,
+        ticks,
+        ..
+    } = axis.span();
+    let aside = |value: f64, lines: f64| {
+        let place = spacing.fraction(value, low, high) + ASIDE * lines;
+        spacing.along(place, low, high)
+    };
     let mut panel = Panel {
         head: vec![map.label(source.sweep.scene.units())],
-        x,
+        x: (low, high),
+        spacing: [spacing.clone(), Spacing::Linear],
+        ticks,
         ..Panel::default()
     };
     for (index, line) in lines.iter().enumerate() {
-        let aside = ASIDE * (x.1 - x.0) * (index as f64 - 0.5 * (lines.len() - 1) as f64);
+        let from_middle = index as f64 - 0.5 * (lines.len() - 1) as f64;
         let bars: Vec<Bar> = line
             .points
             .iter()
             .filter_map(|(at, point)| {
                 let values = map.values(source, point);
                 let mean = Estimate::of_mean(&values)?;
-                let at = (axis.show(*at) + aside, mean.value);
+                let at = (aside(axis.show(*at), from_middle), mean.value);
                 // One run says nothing of its scatter.
                 match map.is_share() && values.len() > 1 {
                     true => {

@@ -9,7 +9,7 @@ use super::chart::{self, Chart, Line, Panel, samples};
 use super::critical_rotation::{radii, volume};
 use super::style::px;
 use super::svg::Svg;
-use super::{Figure, PlotError, Source, palette, scale};
+use super::{Figure, PlotError, Source, numbers, palette};
 use crate::classify::{Family, TANK};
 use crate::scene::Scene;
 use crate::theory::unshielded_lift;
@@ -53,7 +53,7 @@ impl Figure for NetForce {
             } else {
                 ""
             };
-            format!("$Ω$ = {} rad/s{own}", scale::number(share * omega))
+            format!("$Ω$ = {} rad/s{own}", numbers::number(share * omega))
         };
         Chart {
             name: self.name(),

@@ -16,7 +16,8 @@ const GAP: (i32, i32) = (px(14), px(12));
 const ROW_HEAD: i32 = px(24);
 /// Room between panels and what stands beside them.
 const ASIDE: i32 = px(16);
-/// Least width of a panel; a page of many panels gets wider than [`WIDTH`].
+/// Least width of a panel; a page of many panels gets wider than [`WIDTH`], and one of panels that
+/// two labels of ticks do not fit below.
 const LEAST_PANEL: i32 = px(90);
 /// Room of tick labels below a panel.
 const TICKS_BELOW: i32 = 2 * TICK + SMALL + px(2);
@@ -115,7 +116,9 @@ impl Across {
             Some(aspect) => (f64::from(plan.height) * aspect) as i32,
             None => i32::MAX,
         };
-        let panel = most.min((room / columns).max(LEAST_PANEL));
+        let least = Room::Across(room / columns);
+        let least = plan.most(|frame| &frame.x, least, |scale| scale.needed_length(least));
+        let panel = most.min((room / columns).max(LEAST_PANEL).max(least));
         let pitch = panel + gap;
         let right = left + columns * pitch - gap;
         let least = only(plan.aspect.is_none(), WIDTH);

@@ -54,7 +54,8 @@ impl Figure for RefinedDiagram {
         let (grid, places) = grid_of(source, &learnt)?;
         let curves = curves(source, &learnt, &grid, &places);
         let cells = || grid.panels.iter().flat_map(|it| it.cells.iter().flatten());
-        let is_plane = grid.y.is_some();
+        // Borders between places of one column are no curves.
+        let is_plane = grid.x.values.len() > 1 && grid.cells().1 > 1;
         let diagram = Diagram {
             name: self.name(),
             grid: &grid,
@@ -69,8 +70,8 @@ impl Figure for RefinedDiagram {
             entries.push(Entry::new(Key::Border, "border"));
         }
         let title = source.sweep.title.as_deref();
-        let (size, body) = diagram.body(title, &curves, entries)?;
-        Ok(Svg::new(self.name(), source, size, &body))
+        let body = diagram.body(title, &curves, entries)?;
+        Ok(Svg::new(self.name(), source, &body))
     }
 }
 
@@ -81,7 +82,7 @@ fn grid_of(source: &Source<'_>, learnt: &Learnt) -> Result<(Grid<Cell>, Vec<usiz
     let axis = |place: usize| {
         let index = places[place]?;
         let more = std::iter::empty();
-        Some(GridAxis::over(index, &sweep.axes, &sweep.scene, more))
+        Some(GridAxis::over(index, &sweep.axes, &sweep.scene, more).with(&sweep.plot))
     };
     let panels_of = |place: usize| {
         let mut axis = axis(place)?;

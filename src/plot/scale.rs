@@ -1,15 +1,12 @@
 //! A scale: from the values of an axis to the canvas, with ticks that fit.
 
+use super::numbers::number;
+use super::spacing::Spacing;
 use super::style::SMALL;
 use super::text;
+use super::ticks::{self, Tick, Ticks};
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use std::ops::Range;
-
-/// Most ticks of a scale whose positions are free.
-const MOST_TICKS: usize = 9;
-
-/// Most values of an axis that are ticks themselves.
-const MOST_VALUES: usize = 12;
 
 /// The length of an axis (units of the canvas) and its direction.
 #[derive(Clone, Copy, Debug)]
@@ -18,27 +15,22 @@ pub(super) enum Room {
     Up(i32),
 }
 
+impl Room {
+    fn length(self) -> f64 {
+        let (Self::Across(length) | Self::Up(length)) = self;
+        f64::from(length)
+    }
+}
+
 /// The range of an axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Span {
     pub(super) low: f64,
     pub(super) high: f64,
-    pub(super) logarithmic: bool,
+    pub(super) spacing: Spacing,
     pub(super) ticks: Ticks,
     /// Size of the letters of its labels, where it is not that of small ones.
     pub(super) letters: Option<i32>,
-}
-
-/// Where an axis has ticks.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) enum Ticks {
-    /// At round numbers, as many as fit.
-    #[default]
-    Round,
-    /// At these values if they are few, short and fit; else at round numbers.
-    Values(Vec<f64>),
-    /// At these values, with these labels.
-    Given(Vec<(f64, String)>),
 }
 
 impl Span {
@@ -52,12 +44,12 @@ impl Span {
     }
 }
 
-/// A linear or logarithmic scale with its ticks.
+/// A scale with its ticks.
 #[derive(Clone, Debug)]
 pub(super) struct Scale {
     low: f64,
     high: f64,
-    logarithmic: bool,
+    spacing: Spacing,
     /// Values and labels of the ticks.
     ticks: Vec<(f64, String)>,
     /// Size of their letters.
@@ -67,44 +59,38 @@ pub(super) struct Scale {
 impl Scale {
     /// The scale of a range, with the ticks that fit into `room`.
     pub(super) fn new(span: &Span, room: Room) -> Self {
-        let (low, high, logarithmic) = (span.low, span.high, span.logarithmic);
         let mut scale = Self {
-            low,
-            high,
-            logarithmic,
+            low: span.low,
+            high: span.high,
+            spacing: span.spacing.clone(),
             ticks: Vec::new(),
             letters: span.letters.unwrap_or(SMALL),
         };
-        let own = match &span.ticks {
-            Ticks::Values(values) if (1..=MOST_VALUES).contains(&values.len()) => {
-                labelled(values, logarithmic).filter(|ticks| {
-                    let short = |(_, label): &(f64, String)| label.chars().count() <= 5;
-                    ticks.len() == 1 || ticks.iter().all(short)
-                })
-            }
-            Ticks::Given(ticks) => {
-                scale.ticks.clone_from(ticks);
-                return scale;
-            }
-            _ => None,
+        if let Ticks::Given(ticks) = &span.ticks {
+            scale.ticks.clone_from(ticks);
+            return scale;
+        }
+        let sets = || ticks::sets(&span.ticks, (span.low, span.high), &span.spacing);
+        let fitting = sets().find(|ticks| scale.least_length(ticks, room) <= room.length());
+        // Where none fits, the ends of the set that needs least: the page makes room for it.
+        let pair = |mut ticks: Vec<Tick>| {
+            ticks.drain(1..ticks.len().saturating_sub(1).max(1));
+            ticks
         };
-        let round = round_ticks(low, high, logarithmic).into_iter();
-        let round = round.filter_map(|values| labelled(&values, logarithmic));
-        let fitting = own
-            .into_iter()
-            .chain(round)
-            .find(|ticks| scale.fit(ticks, room));
-        scale.ticks = fitting.unwrap_or_default();
+        let shortest = || {
+            let pairs = sets().map(pair);
+            pairs.min_by(|one, other| {
+                let [one, other] = [one, other].map(|ticks| scale.least_length(ticks, room));
+                one.total_cmp(&other)
+            })
+        };
+        scale.ticks = fitting.or_else(shortest).unwrap_or_default();
         scale
     }
 
     /// Position between the ends, 0 to 1.
     pub(super) fn fraction(&self, value: f64) -> f64 {
-        if self.logarithmic {
-            libm::log(value / self.low) / libm::log(self.high / self.low)
-        } else {
-            (value - self.low) / (self.high - self.low)
-        }
+        self.spacing.fraction(value, self.low, self.high)
     }
 
     /// Values and labels of the ticks.
@@ -131,19 +117,25 @@ impl Scale {
         text::width(label, f64::from(self.letters))
     }
 
-    /// Whether no two labels touch.
-    fn fit(&self, ticks: &[(f64, String)], room: Room) -> bool {
-        ticks.windows(2).all(|pair| {
+    /// Length of an axis on which no two of these labels touch.
+    fn least_length(&self, ticks: &[Tick], room: Room) -> f64 {
+        let pairs = ticks.windows(2).map(|pair| {
             let [one, next] = [&pair[0], &pair[1]];
-            let (length, needed) = match room {
-                Room::Up(length) => (length, 1.2 * f64::from(SMALL)),
-                Room::Across(length) => {
+            let needed = match room {
+                Room::Up(_) => 1.2 * f64::from(SMALL),
+                Room::Across(_) => {
                     let labels = 0.5 * (self.width(&one.1) + self.width(&next.1));
-                    (length, labels + 0.7 * f64::from(SMALL))
+                    labels + 0.7 * f64::from(SMALL)
                 }
             };
-            (self.fraction(next.0) - self.fraction(one.0)) * f64::from(length) >= needed
-        })
+            needed / (self.fraction(next.0) - self.fraction(one.0))
+        });
+        pairs.fold(0.0, f64::max)
+    }
+
+    /// Length of an axis that its labels need (units of the canvas).
+    pub(super) fn needed_length(&self, room: Room) -> i32 {
+        self.least_length(&self.ticks, room).ceil() as i32
     }
 }
 
@@ -171,133 +163,18 @@ impl ValueFormatter<f64> for Scale {
     }
 }
 
-/// Sets of round numbers between `low` and `high`, from many to few.
-fn round_ticks(low: f64, high: f64, logarithmic: bool) -> Vec<Vec<f64>> {
-    let mut sets = Vec::new();
-    if logarithmic {
-        let decades = libm::log10(low).floor() as i32..=libm::log10(high).ceil() as i32;
-        let powers = |mantissas: &[f64], every: usize| -> Vec<f64> {
-            let powers = decades.clone().step_by(every);
-            powers
-                .flat_map(|decade| {
-                    mantissas
-                        .iter()
-                        .map(move |mantissa| mantissa * libm::exp10(f64::from(decade)))
-                })
-                .filter(|value| (low..=high).contains(value))
-                .collect()
-        };
-        sets.push(powers(&[1.0, 2.0, 5.0], 1));
-        sets.extend((1..=6).map(|every| powers(&[1.0], every)));
-        sets.retain(|set| set.len() >= 2 && set.len() <= 2 * MOST_TICKS);
-    }
-    let span = high - low;
-    let smallest = libm::log10(span / MOST_TICKS as f64).floor() as i32;
-    for decade in smallest..smallest + 3 {
-        for mantissa in [1.0, 2.0, 5.0] {
-            let step = mantissa * libm::exp10(f64::from(decade));
-            let slack = 1e-9 * span;
-            let first = ((low - slack) / step).ceil() as i64;
-            let last = ((high + slack) / step).floor() as i64;
-            if (1..=MOST_TICKS as i64).contains(&(last - first + 1)) {
-                sets.push((first..=last).map(|index| index as f64 * step).collect());
-            }
-        }
-    }
-    sets
-}
-
-/// The ticks with their labels, of equal style; `None` if they have too many digits.
-fn labelled(ticks: &[f64], logarithmic: bool) -> Option<Vec<(f64, String)>> {
-    let sizes = || {
-        ticks
-            .iter()
-            .map(|tick| tick.abs())
-            .filter(|size| *size > 0.0)
-    };
-    let (least, most) = (
-        sizes().fold(f64::INFINITY, f64::min),
-        sizes().fold(0.0, f64::max),
-    );
-    let decisive = if logarithmic { least } else { most };
-    let plain = most == 0.0 || (decisive >= 1e-3 && most < 1e5);
-    let with = |label: &dyn Fn(f64) -> String| {
-        let ticks = ticks.iter();
-        Some(ticks.map(|&tick| (tick, label(tick))).collect())
-    };
-    if !plain {
-        return with(&scientific);
-    }
-    if logarithmic {
-        return with(&number);
-    }
-    let span = ticks.last()? - ticks.first()?;
-    let tolerance = 1e-6 * if span > 0.0 { span } else { most };
-    let decimals = (0..=4).find(|&decimals| {
-        ticks.iter().all(|&tick| {
-            let written = format!("{tick:.decimals$}").parse::<f64>();
-            written.is_ok_and(|written| (written - tick).abs() <= tolerance)
-        })
-    })?;
-    with(&|tick| minus(format!("{tick:.decimals$}")))
-}
-
-/// A number for people: at most four digits, a power of ten if it is very large or very small.
-pub(super) fn number(value: f64) -> String {
-    if value != 0.0 && !(1e-3..1e5).contains(&value.abs()) {
-        return scientific(value);
-    }
-    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-    minus(rounded.to_string())
-}
-
-/// A number with so many significant digits, the rest of them zeros.
-pub(super) fn rounded(value: f64, digits: usize) -> String {
-    let rounded = format!("{value:.*e}", digits.saturating_sub(1)).parse();
-    number(rounded.unwrap_or(value))
-}
-
-fn scientific(value: f64) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-    let written = format!("{rounded:e}");
-    let (mantissa, exponent) = written.split_once('e').unwrap_or((&written, "0"));
-    let power: String = exponent.chars().map(superscript).collect();
-    match mantissa {
-        "1" => format!("10{power}"),
-        "-1" => format!("−10{power}"),
-        _ => format!("{}×10{power}", minus(mantissa.to_owned())),
-    }
-}
-
-fn superscript(digit: char) -> char {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let digit = digit.to_digit(10);
-    digit.map_or('⁻', |digit| DIGITS[digit as usize])
-}
-
-/// A typographic minus sign instead of a hyphen; no minus zero.
-fn minus(number: String) -> String {
-    match number.strip_prefix('-') {
-        Some(digits) if digits.chars().all(|digit| matches!(digit, '0' | '.')) => digits.to_owned(),
-        Some(digits) => format!("−{digits}"),
-        None => number,
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::numbers::tests::{close_values, parsed};
     use super::*;
     use proptest::prelude::*;
 
-    fn span(low: f64, high: f64, logarithmic: bool, values: &[f64]) -> Span {
+    fn span(low: f64, high: f64, spacing: Spacing, values: &[f64]) -> Span {
         let ticks = Ticks::Values(values.to_vec());
         Span {
             low,
             high,
-            logarithmic,
+            spacing,
             ticks,
             letters: None,
         }
@@ -314,19 +191,22 @@ mod tests {
     #[test]
     fn few_short_values_are_the_ticks() {
         let omega = [0.0, 2.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 40.0];
-        let scale = Scale::new(&span(-1.0, 48.0, false, &omega), Room::Up(4000));
+        let scale = Scale::new(&span(-1.0, 48.0, Spacing::Linear, &omega), Room::Up(4000));
         assert_eq!(
             labels(&scale),
             ["0", "2", "4", "6", "8", "12", "16", "24", "40"]
         );
-        let scale = Scale::new(&span(-1.0, 48.0, false, &omega), Room::Up(1000));
+        let scale = Scale::new(&span(-1.0, 48.0, Spacing::Linear, &omega), Room::Up(1000));
         assert_eq!(labels(&scale), ["0", "10", "20", "30", "40"]);
     }
 
     #[test]
     fn values_of_many_digits_give_way_to_round_numbers() {
         let ratios: Vec<f64> = (4..=12).map(|r| f64::from(r) * 5e-4 / 0.06).collect();
-        let scale = Scale::new(&span(0.029, 0.104, false, &ratios), Room::Across(5000));
+        let scale = Scale::new(
+            &span(0.029, 0.104, Spacing::Linear, &ratios),
+            Room::Across(5000),
+        );
         assert_eq!(
             labels(&scale),
             [
@@ -336,31 +216,81 @@ mod tests {
     }
 
     #[test]
-    fn logarithmic_ticks() {
-        let scale = Scale::new(&span(8e-7, 2e-2, true, &[]), Room::Across(4000));
-        assert_eq!(labels(&scale), ["10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²"]);
-        let scale = Scale::new(&span(0.9, 110.0, true, &[]), Room::Across(4000));
-        assert_eq!(labels(&scale), ["1", "2", "5", "10", "20", "50", "100"]);
+    fn close_values_have_the_digits_that_tell_them_apart() {
+        for (values, expected) in [
+            (
+                [1e5 + 1.0, 1e5 + 3.0, 1e5 + 5.0],
+                ["100001", "100002", "100003", "100004", "100005"],
+            ),
+            (
+                [1e-5, 1.5e-5, 1.8e-5],
+                ["10⁻⁵", "1.2×10⁻⁵", "1.4×10⁻⁵", "1.6×10⁻⁵", "1.8×10⁻⁵"],
+            ),
+            (
+                [-3.00004, -3.00002, -3.0],
+                ["−3.00004", "−3.00003", "−3.00002", "−3.00001", "−3.00000"],
+            ),
+        ] {
+            let spacing = Spacing::Linear;
+            let scale = Scale::new(
+                &span(values[0], values[2], spacing, &values),
+                Room::Up(1500),
+            );
+            assert_eq!(labels(&scale), expected);
+        }
+        let values = [0.0, 0.01, 0.1, 1.0, 100.0];
+        let spacing = Spacing::equal(values.to_vec());
+        let scale = Scale::new(&span(0.0, 100.0, spacing, &values), Room::Across(4000));
+        assert_eq!(labels(&scale), ["0", "0.01", "0.1", "1", "100"]);
     }
 
     #[test]
-    fn numbers_for_people() {
-        for (value, expected) in [
-            (0.0, "0"),
-            (-0.0, "0"),
-            (2500.0, "2500"),
-            (-0.25, "−0.25"),
-            (1.0 / 3.0, "0.3333"),
-            (5.657e5, "5.657×10⁵"),
-            (1e-4, "10⁻⁴"),
-            (-1e10, "−10¹⁰"),
-            (0.1 + 0.2, "0.3"),
-        ] {
-            assert_eq!(number(value), expected);
-        }
+    fn logarithmic_ticks() {
+        let scale = Scale::new(
+            &span(8e-7, 2e-2, Spacing::Logarithmic, &[]),
+            Room::Across(4000),
+        );
+        assert_eq!(labels(&scale), ["10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²"]);
+        let scale = Scale::new(
+            &span(0.9, 110.0, Spacing::Logarithmic, &[]),
+            Room::Across(4000),
+        );
+        assert_eq!(labels(&scale), ["1", "2", "5", "10", "20", "50", "100"]);
     }
 
     proptest! {
+        /// Symptom: five ticks "10⁵", an axis without a tick. Cause: labels had at most four digits or
+        /// decimals.
+        #[test]
+        fn labels_differ_are_read_back_and_are_two_at_least(
+            values in close_values(),
+            kind in 0..3,
+            length in 900..6000_i32,
+            vertical: bool,
+        ) {
+            let room = if vertical { Room::Up(length) } else { Room::Across(length) };
+            let values: Vec<f64> = match kind {
+                1 => values.into_iter().filter(|value| *value > 0.0).collect(),
+                _ => values,
+            };
+            prop_assume!(values.len() > 1);
+            let (first, last) = (values[0], values[values.len() - 1]);
+            let spacing = match kind {
+                0 => Spacing::Linear,
+                1 => Spacing::Logarithmic,
+                _ => Spacing::equal(values.clone()),
+            };
+            let scale = Scale::new(&span(first, last, spacing, &values), room);
+            prop_assert!(scale.ticks.len() >= 2, "{values:?}");
+            for pair in scale.ticks.windows(2) {
+                let half = 0.5 * (pair[1].0 - pair[0].0);
+                prop_assert_ne!(&pair[0].1, &pair[1].1);
+                for (value, label) in pair {
+                    prop_assert!((parsed(label) - value).abs() < half, "{value} {label}");
+                }
+            }
+        }
+
         #[test]
         fn ticks_lie_inside_and_never_touch(
             low in -1e3..1e3_f64,
@@ -374,7 +304,14 @@ mod tests {
             for (tick, _) in &scale.ticks {
                 prop_assert!((low - slack..=low + span + slack).contains(tick));
             }
-            prop_assert!(scale.fit(&scale.ticks, room));
+            prop_assert!(scale.ticks.len() >= 2);
+            // Two labels may need more room than there is; the page makes it.
+            let needed = scale.needed_length(room);
+            if scale.ticks.len() > 2 || vertical {
+                prop_assert!(f64::from(needed) <= room.length());
+            }
+            let there = if vertical { Room::Up(needed) } else { Room::Across(needed) };
+            prop_assert!(scale.least_length(&scale.ticks, there) <= f64::from(needed));
         }
     }
 }

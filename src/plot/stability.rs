@@ -45,7 +45,7 @@ pub fn draw(study: &Study, rows: &[Row], program: &Program) -> Result<Svg, PlotE
         legend: legend.collect(),
         bar: None,
     };
-    let (size, body) = diagram.body(
+    let body = diagram.body(
         study.title.as_deref(),
         &curves,
         Curve::entries(&curves, LIMITS),
@@ -54,7 +54,7 @@ pub fn draw(study: &Study, rows: &[Row], program: &Program) -> Result<Svg, PlotE
         title: study.title.clone(),
         ..study.scene.clone()
     };
-    Ok(Svg::of_scene(diagram.name, &scene, program, size, &body))
+    Ok(Svg::of_scene(diagram.name, &scene, program, &body))
 }
 
 fn words(label: Label) -> &'static str {
@@ -115,7 +115,7 @@ fn curves(study: &Study, integrator: Integrator, x: &GridAxis, y: &GridAxis) -> 
             x: &shown(&across, x),
             y: &shown(&up, y),
             value: &value,
-            logarithmic: [x.logarithmic(), y.logarithmic()],
+            logarithmic: [x, y].map(|axis| axis.spacing().is_logarithmic()),
         }
         .contour()
     };
@@ -134,7 +134,7 @@ fn curves(study: &Study, integrator: Integrator, x: &GridAxis, y: &GridAxis) -> 
 /// Values of an axis and its two ends, where limits are looked at.
 fn nodes(axis: &GridAxis) -> Vec<f64> {
     let mut nodes = axis.values.clone();
-    let end = |fraction| axis.along(fraction) / axis.factor;
+    let end = |fraction| axis.value(axis.along(fraction));
     nodes.insert(0, end(0.0));
     nodes.push(end(1.0));
     nodes

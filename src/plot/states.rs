@@ -7,7 +7,7 @@ use super::page::whole;
 use super::style::{Drawn, LABEL, MARGIN, SMALL, Sheet, WIDTH, frame, letters, px};
 use super::svg::{Placed, Svg};
 use super::words::{LINE, Words};
-use super::{Figure, PlotError, Source, chart, palette, scale, text};
+use super::{Figure, PlotError, Source, chart, numbers, palette, text};
 use crate::classify::{Family, Label, TANK};
 use crate::observe::Snapshot;
 use crate::record::{Outcome, RunRecord};
@@ -59,12 +59,12 @@ impl Figure for States {
             .collect::<Result<Vec<_>, PlotError>>()?;
         let title = source.sweep.title.as_deref();
         let strip = Strip::new(ends, title, &common, choice::left_out(source));
-        let (size, body) = canvas::draw((WIDTH, strip.height), |sheet| {
+        let body = canvas::draw((WIDTH, strip.height), |sheet| {
             strip.words.draw(sheet)?;
             strip.draw_length(sheet)
         })?;
         let pictures = (0..strip.ends.len()).flat_map(|index| strip.pictures(index));
-        Svg::new(self.name(), source, size, &body).with_pictures(pictures.collect())
+        Svg::new(self.name(), source, &body).with_pictures(pictures.collect())
     }
 }
 
@@ -249,7 +249,7 @@ impl Strip {
         let y = self.height - MARGIN - px(4);
         let bar = [(left, y - px(3)), (left, y), (right, y), (right, y - px(3))];
         sheet.draw(&PathElement::new(bar, frame()))?;
-        let text = format!("{} mm", scale::number(length * 1e3));
+        let text = format!("{} mm", numbers::number(length * 1e3));
         let style = letters(SMALL, HPos::Right, VPos::Bottom);
         sheet.draw_text(&text, &style, (left - px(6), y + px(3)))
     }

@@ -65,6 +65,6 @@ pub fn draw(
         y_label: format!("processor time of a step ({unit})"),
         ..Chart::default()
     };
-    let (size, body) = chart.body(scene.title.as_deref())?;
-    Ok(Svg::of_scene(chart.name, scene, program, size, &body))
+    let body = chart.body(scene.title.as_deref())?;
+    Ok(Svg::of_scene(chart.name, scene, program, &body))
 }

@@ -146,18 +146,16 @@ fn stipple(sheet: &Sheet<'_>, corners: Corners) -> Drawn {
 /// Largest cell that marks of disagreement grow with.
 pub(super) const LARGEST_CELL: i32 = px(18);
 
-/// Marks a cell in which seeds disagree: a white disc with a black rim, seen on every colour and in
+/// Marks a point at which seeds disagree: a white disc with a black rim, seen on every colour and in
 /// grey, the larger the smaller `agreement` is, the share of the seeds in the majority. `cell` is
 /// the side of the smallest cell, so that equal agreement has equal discs.
 pub(super) fn disagreement(
     sheet: &Sheet<'_>,
-    corners: Corners,
+    centre: (i32, i32),
     agreement: f64,
     cell: i32,
 ) -> Drawn {
-    let [(left, top), (right, bottom)] = corners;
     let diameter = f64::from(cell) * (0.2 + 0.8 * (1.0 - agreement).clamp(0.0, 1.0));
-    let centre = (left.midpoint(right), top.midpoint(bottom));
     let radius = (0.5 * diameter).round() as i32;
     sheet.draw(&Circle::new(centre, radius, WHITE.filled()))?;
     sheet.draw(&Circle::new(centre, radius, BLACK.stroke_width(8)))
@@ -166,11 +164,9 @@ pub(super) fn disagreement(
 /// Radius of the dot of a run.
 const MARK: i32 = px(2);
 
-/// Marks a cell in which a run was made: a dot with a white rim. One of a colour has a black ring
+/// Marks a point at which a run was made: a dot with a white rim. One of a colour has a black ring
 /// and is larger.
-pub(super) fn mark(sheet: &Sheet<'_>, corners: Corners, color: RGBColor) -> Drawn {
-    let [(left, top), (right, bottom)] = corners;
-    let centre = (left.midpoint(right), top.midpoint(bottom));
+pub(super) fn mark(sheet: &Sheet<'_>, centre: (i32, i32), color: RGBColor) -> Drawn {
     let ring = if color == BLACK { MARK } else { MARK + px(2) };
     sheet.draw(&Circle::new(centre, ring + 8, WHITE.filled()))?;
     sheet.draw(&Circle::new(centre, ring, BLACK.filled()))?;

@@ -1,6 +1,6 @@
 //! A finished figure: its SVG, its PNG, and where it comes from.
 
-use super::canvas::{self, PNG_SCALE, UNITS};
+use super::canvas::{self, Body, PNG_SCALE, UNITS};
 use super::{PlotError, Source, png, text};
 use crate::fonts;
 use crate::markup::escape;
@@ -20,6 +20,8 @@ pub struct Svg {
     metadata: Vec<(&'static str, String)>,
     /// Pictures over everything else.
     pictures: Vec<Placed>,
+    /// What a reader would miss.
+    warnings: Vec<String>,
 }
 
 /// A picture, and its upper left corner in units of the canvas. Its pixels are those of the PNG.
@@ -30,46 +32,29 @@ pub(super) struct Placed {
 }
 
 impl Svg {
-    /// The figure whose elements are `body`, on a canvas of `size` units.
-    pub(super) fn new(figure: &str, source: &Source<'_>, size: (u32, u32), body: &str) -> Self {
+    /// The figure that is drawn in `body`.
+    pub(super) fn new(figure: &str, source: &Source<'_>, body: &Body) -> Self {
         let title = source.sweep.title.clone().unwrap_or_default();
         let seeds = ranges(source.table.rows.iter().map(|row| row.seed).collect());
         let about = [("Title", title), ("Seeds", seeds)];
-        Self::about(&about, figure, source.program, size, body)
+        Self::about(&about, figure, source.program, body)
     }
 
     /// The same for a figure of a single run.
-    pub(super) fn of_record(
-        figure: &str,
-        record: &RunRecord,
-        size: (u32, u32),
-        body: &str,
-    ) -> Self {
-        Self::of_scene(figure, &record.scene, &record.program, size, body)
+    pub(super) fn of_record(figure: &str, record: &RunRecord, body: &Body) -> Self {
+        Self::of_scene(figure, &record.scene, &record.program, body)
     }
 
     /// The same for a figure of a single scene.
-    pub(super) fn of_scene(
-        figure: &str,
-        scene: &Scene,
-        program: &Program,
-        size: (u32, u32),
-        body: &str,
-    ) -> Self {
+    pub(super) fn of_scene(figure: &str, scene: &Scene, program: &Program, body: &Body) -> Self {
         let title = scene.title.clone().unwrap_or_default();
         let about = [("Title", title), ("Seeds", scene.seed.to_string())];
-        Self::about(&about, figure, program, size, body)
+        Self::about(&about, figure, program, body)
     }
 
     /// The same for a figure of what the program itself does.
-    pub(super) fn of_program(
-        figure: &str,
-        title: String,
-        program: &Program,
-        size: (u32, u32),
-        body: &str,
-    ) -> Self {
-        Self::about(&[("Title", title)], figure, program, size, body)
+    pub(super) fn of_program(figure: &str, title: String, program: &Program, body: &Body) -> Self {
+        Self::about(&[("Title", title)], figure, program, body)
     }
 
     /// The figure, `about` being what its metadata begin with: the title, and what else there is.
@@ -77,8 +62,7 @@ impl Svg {
         about: &[(&'static str, String)],
         figure: &str,
         program: &Program,
-        size: (u32, u32),
-        body: &str,
+        body: &Body,
     ) -> Self {
         let mut metadata = about.to_vec();
         metadata.extend([
@@ -93,7 +77,8 @@ impl Svg {
             .collect();
         let head = format!("<title>{title}</title>\n<metadata>\n{lines}</metadata>\n");
         Self {
-            document: canvas::document(size, &head, body),
+            document: canvas::document(&head, body),
+            warnings: warnings(&metadata[0].1, body),
             metadata,
             pictures: Vec::new(),
         }
@@ -112,6 +97,12 @@ impl Svg {
         }
         self.pictures = pictures;
         Ok(self)
+    }
+
+    /// What cannot be seen on the figure, and what would show it: letters that the font lacks, cells
+    /// without width.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// The SVG file. Its text is text; where the font is missing a browser takes another sans
@@ -150,6 +141,30 @@ impl Svg {
         let all_colors = !self.pictures.is_empty();
         png::encode(&pixels, per_metre, &self.metadata, all_colors).map_err(|e| failed(&e))
     }
+}
+
+/// What a reader of a figure with this title would miss.
+fn warnings(title: &str, body: &Body) -> Vec<String> {
+    let lack = |what: String, letters: &[char]| {
+        let letters: Vec<String> = letters.iter().map(|it| format!("`{it}`")).collect();
+        format!(
+            "{what} has letters that the built-in font lacks: {}; the PNG shows boxes for them, the \
+             SVG needs a font that has them",
+            letters.join(", ")
+        )
+    };
+    let of_title = fonts::lacking(title);
+    let mut warnings = Vec::new();
+    if !of_title.is_empty() {
+        warnings.push(lack(format!("the key `title`, \"{title}\","), &of_title));
+    }
+    for (text, letters) in &body.unwritten {
+        if letters.iter().any(|letter| !of_title.contains(letter)) {
+            warnings.push(lack(format!("the text \"{text}\""), letters));
+        }
+    }
+    warnings.extend(body.warnings.iter().cloned());
+    warnings
 }
 
 /// Puts a picture where it belongs in a figure of `scale` pixels per CSS pixel; `None` if it is

@@ -3,9 +3,10 @@
 use super::axes::Plot;
 use super::legend::{Entry, Key};
 use super::page::{Frame, Page, Plan};
-use super::scale::{Span, Ticks};
+use super::scale::Span;
 use super::style::{Drawn, Sheet, px};
 use super::svg::Svg;
+use super::ticks::Ticks;
 use super::{PlotError, palette};
 use crate::record::Program;
 use crate::scene::Integrator;
@@ -52,7 +53,7 @@ pub fn draw(errors: &[CaseError], program: &Program) -> Result<Svg, PlotError> {
         legend: entries.collect(),
         ..Plan::default()
     });
-    let (size, body) = page.draw(|sheet| {
+    let body = page.draw(|sheet| {
         let axes = page.axes(sheet, 0)?;
         draw_guides(axes.plot(), rows.len())?;
         for error in errors {
@@ -65,7 +66,6 @@ pub fn draw(errors: &[CaseError], program: &Program) -> Result<Svg, PlotError> {
         "verification",
         TITLE.to_owned(),
         program,
-        size,
         &body,
     ))
 }

@@ -251,29 +251,45 @@ fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
 }
 
 fn check_plot(sweep: &Sweep, problems: &mut Vec<Problem>) {
-    let PlotSettings { x, y, panels } = &sweep.plot;
+    let PlotSettings {
+        x,
+        y,
+        panels,
+        equal_steps,
+    } = &sweep.plot;
     let names = || sweep.axes.iter().map(|axis| axis.name.as_str());
     let mut used: Vec<&str> = Vec::new();
     for (key, name) in [("x", x), ("y", y), ("panels", panels)] {
         let Some(name) = name else { continue };
         let path = format!("plot.{key}");
         if !names().any(|known| known == name) {
-            let known = match sweep.axes.is_empty() {
-                true => "it has no axes; remove the key".to_owned(),
-                false => format!("the axes are {}", one_of(names())),
-            };
-            let help = match suggest(name, names()) {
-                Some(near) => format!("did you mean \"{near}\"? {known}"),
-                None => known,
-            };
-            let message = format!("the sweep has no axis \"{name}\"");
-            problems.push(Problem::new(path, message).help(help));
+            problems.push(no_axis(sweep, name, path));
         } else if used.contains(&name.as_str()) {
             let message = format!("the axis \"{name}\" cannot be shown twice");
             problems.push(Problem::new(path, message).help("choose another axis"));
         }
         used.push(name);
     }
+    for (index, name) in equal_steps.iter().enumerate() {
+        if !names().any(|known| known == name) {
+            let path = format!("plot.equal_steps[{index}]");
+            problems.push(no_axis(sweep, name, path));
+        }
+    }
+}
+
+/// The problem of a name that no axis has.
+fn no_axis(sweep: &Sweep, name: &str, path: String) -> Problem {
+    let names = || sweep.axes.iter().map(|axis| axis.name.as_str());
+    let known = match sweep.axes.is_empty() {
+        true => "it has no axes; remove the key".to_owned(),
+        false => format!("the axes are {}", one_of(names())),
+    };
+    let help = match suggest(name, names()) {
+        Some(near) => format!("did you mean \"{near}\"? {known}"),
+        None => known,
+    };
+    Problem::new(path, format!("the sweep has no axis \"{name}\"")).help(help)
 }
 
 fn check_grid(sweep: &Sweep, document: &Document, problems: &mut Vec<Problem>) {

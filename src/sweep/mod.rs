@@ -103,4 +103,9 @@ pub struct PlotSettings {
     pub y: Option<String>,
     /// Name of the axis of small multiples (default: the third axis, if any).
     pub panels: Option<String>,
+    /// Names of the axes whose values stand at equal distances in figures, whatever they are
+    /// (default: none; values stand at distances of their differences, or of their ratios where
+    /// these are more even).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub equal_steps: Vec<String>,
 }

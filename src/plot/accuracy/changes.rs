@@ -25,7 +25,10 @@ pub(super) fn draw(
     program: &Program,
 ) -> Result<Svg, PlotError> {
     let sweep = &comparison.settings[comparison.reference].sweep;
-    let axis = |index| GridAxis::over(index, &sweep.axes, &sweep.scene, std::iter::empty());
+    let axis = |index| {
+        let axis = GridAxis::over(index, &sweep.axes, &sweep.scene, std::iter::empty());
+        axis.with(&sweep.plot)
+    };
     let x = axis(0);
     let y = (sweep.axes.len() > 1).then(|| axis(1));
     let shown = shown(evaluation);
@@ -63,15 +66,9 @@ pub(super) fn draw(
         bar: Some(bar.clone()),
     };
     let curves = vec![Vec::new(); grid.panels.len()];
-    let (size, body) = diagram.body(study.title.as_deref(), &curves, None)?;
+    let body = diagram.body(study.title.as_deref(), &curves, None)?;
     let title = study.title.clone().unwrap_or_default();
-    Ok(Svg::of_program(
-        "label-changes",
-        title,
-        program,
-        size,
-        &body,
-    ))
+    Ok(Svg::of_program("label-changes", title, program, &body))
 }
 
 /// The settings that are shown, but for the reference, those that change most labels.

@@ -5,6 +5,7 @@ use crate::plot::axes::Plot;
 use crate::plot::legend::{Entry, Key};
 use crate::plot::page::{Frame, Page, Plan};
 use crate::plot::scale::Span;
+use crate::plot::spacing::Spacing;
 use crate::plot::style::{self, Drawn, Sheet, px};
 use crate::plot::svg::Svg;
 use crate::plot::{PlotError, palette};
@@ -68,7 +69,7 @@ pub(super) fn draw(
         notes: &notes,
         ..Plan::default()
     });
-    let (size, body) = page.draw(|sheet| {
+    let body = page.draw(|sheet| {
         let axes = page.axes(sheet, 0)?;
         let plot = axes.plot();
         if let Some(floor) = floor {
@@ -96,13 +97,7 @@ pub(super) fn draw(
         axes.draw()
     })?;
     let title = study.title.clone().unwrap_or_default();
-    Ok(Svg::of_program(
-        "work-precision",
-        title,
-        program,
-        size,
-        &body,
-    ))
+    Ok(Svg::of_program("work-precision", title, program, &body))
 }
 
 /// Settings with a cost and an error above zero. The reference has none.
@@ -167,7 +162,7 @@ fn spans(evaluation: &Evaluation, dots: &[Dot<'_>], floor: Option<Interval>) -> 
         Span {
             low: low / BEYOND,
             high: high * BEYOND,
-            logarithmic: true,
+            spacing: Spacing::Logarithmic,
             ..Span::default()
         }
     };

@@ -3,7 +3,7 @@
 use super::overlay::{self, Frame, Scale};
 use super::{Curve, Drainage, Lines, Overlay};
 use crate::compare::badness_of;
-use crate::plot::scale;
+use crate::plot::numbers;
 
 /// Overlaps against processor time: what a coarser relaxation saves.
 pub(super) static BADNESS: Overlay = Overlay {
@@ -30,7 +30,7 @@ fn lines(drainage: &Drainage<'_>) -> Lines {
         half_widths: vec![badness.half_width],
     });
     let word = curve.as_ref().map(|it| {
-        let [seconds, badness] = [it.points[0].0, it.points[0].1].map(|it| scale::rounded(it, 3));
+        let [seconds, badness] = [it.points[0].0, it.points[0].1].map(|it| numbers::rounded(it, 3));
         format!("{seconds} s, $B$ = {badness}")
     });
     Lines {

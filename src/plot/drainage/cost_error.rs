@@ -9,7 +9,8 @@ use crate::plot::chart::{self, Bar, Chart, Line, Panel};
 use crate::plot::page::columns;
 use crate::plot::style::px;
 use crate::plot::svg::Svg;
-use crate::plot::{Figure, PlotError, Source, palette, scale};
+use crate::plot::ticks::Ticks;
+use crate::plot::{Figure, PlotError, Source, numbers, palette};
 use crate::scene::Units;
 use crate::statistics::Estimate;
 use plotters::style::RGBColor;
@@ -104,7 +105,7 @@ fn shown() -> impl Iterator<Item = &'static Quantity> {
 /// The reference and each other run, by colour.
 fn legend(reference: &Measured, others: &[Measured]) -> Vec<(RGBColor, String)> {
     let first = &reference.name;
-    let time = scale::rounded(reference.cost, 2);
+    let time = numbers::rounded(reference.cost, 2);
     let head = [
         (COST, format!("cost of the reference, {time} s: {first}")),
         (palette::GUIDE, "interval of the reference".to_owned()),
@@ -116,7 +117,7 @@ fn legend(reference: &Measured, others: &[Measured]) -> Vec<(RGBColor, String)> 
             true => format!(
                 "{}, at 1 / {} of its cost",
                 run.name,
-                scale::rounded(gain, 2)
+                numbers::rounded(gain, 2)
             ),
             false => format!("{}, of unknown cost", run.name),
         };
@@ -207,7 +208,8 @@ impl Errors {
             y,
             lines,
             bars: bars.collect(),
-            logarithmic: [true; 2],
+            spacing: chart::BOTH_LOGARITHMIC,
+            ticks: Ticks::Round,
         }
     }
 }

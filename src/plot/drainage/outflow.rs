@@ -3,7 +3,7 @@
 use super::overlay::{self, Frame, Scale};
 use super::{Curve, Drainage, Lines, Overlay};
 use crate::measure::outflow_rate;
-use crate::plot::scale;
+use crate::plot::numbers;
 
 /// How many spheres have left.
 pub(super) static OUTFLOW: Overlay = Overlay {
@@ -24,7 +24,7 @@ fn lines(drainage: &Drainage<'_>) -> Lines {
     let [time, left] = drainage.left();
     let rate = outflow_rate(&time, &left, drainage.times);
     let word = rate.map(|rate| {
-        let [value, half] = [rate.value, rate.half_width].map(|it| scale::rounded(it, 3));
+        let [value, half] = [rate.value, rate.half_width].map(|it| numbers::rounded(it, 3));
         format!("{value} ± {half} per {}", drainage.units().of_time())
     });
     let points = time.into_iter().zip(left);

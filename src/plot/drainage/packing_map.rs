@@ -11,7 +11,7 @@ use crate::plot::page::{Frame, Page, Plan};
 use crate::plot::scale::Span;
 use crate::plot::style::px;
 use crate::plot::svg::{Placed, Svg};
-use crate::plot::{Figure, PlotError, Source};
+use crate::plot::{Figure, PlotError, Source, numbers};
 use crate::render::Image;
 
 /// Maps of the local packing fraction at two times.
@@ -75,11 +75,10 @@ impl Map {
         let states = drainage.states().iter();
         let nearest = states.min_by(|one, other| away(one).total_cmp(&away(other)));
         let state = nearest.unwrap_or(drainage.start());
-        head.push(format!(
-            "$t$ = {} {}",
-            crate::plot::scale::number(drainage.since_opening(state.time)),
-            drainage.units().of_time()
-        ));
+        let times = drainage.states().iter();
+        let times: Vec<f64> = times.map(|it| drainage.since_opening(it.time)).collect();
+        let shown = numbers::among(drainage.since_opening(state.time), &times);
+        head.push(format!("$t$ = {shown} {}", drainage.units().of_time()));
         let diameter = drainage.filled_box.diameter;
         let [width, depth, floor] = [
             drainage.filled_box.half_width,
@@ -172,7 +171,7 @@ fn draw(
         tall
     };
     let page = page_beside(&bar);
-    let (size, body) = page.draw(|sheet| {
+    let body = page.draw(|sheet| {
         for index in 0..maps.len() {
             page.axes(sheet, index)?.draw()?;
         }
@@ -190,5 +189,5 @@ fn draw(
             corner,
         }
     });
-    Svg::new(name, source, size, &body).with_pictures(pictures.collect())
+    Svg::new(name, source, &body).with_pictures(pictures.collect())
 }

@@ -1,15 +1,20 @@
 //! An axis of a figure over a grid: its values as shown, its cells, its label.
 
 use crate::classify::LabelTable;
-use crate::plot::scale::{Span, Ticks, number};
+use crate::plot::numbers;
+use crate::plot::scale::Span;
+use crate::plot::spacing::Spacing;
+use crate::plot::ticks::Ticks;
 use crate::scene::Scene;
-use crate::sweep::{Axis, Sweep};
+use crate::sweep::{Axis, PlotSettings, Sweep};
 
 /// An axis of a figure.
 #[derive(Clone, Debug)]
 pub(in crate::plot) struct GridAxis {
     /// Path of the key.
     pub(in crate::plot) key: String,
+    /// Name in tables and settings.
+    pub(in crate::plot) name: String,
     /// Values in the key's unit, ascending.
     pub(in crate::plot) values: Vec<f64>,
     /// Shown value over value.
@@ -21,13 +26,23 @@ pub(in crate::plot) struct GridAxis {
     pub(in crate::plot) unit: String,
     /// Its index among the sweep's axes.
     pub(in crate::plot) index: usize,
+    /// Whether its values stand at equal distances, whatever they are.
+    pub(in crate::plot) is_even: bool,
 }
 
 impl GridAxis {
     /// The axis of that index among those of the sweep.
     pub(in crate::plot) fn new(index: usize, sweep: &Sweep, table: &LabelTable) -> Self {
         let values = table.rows.iter().map(|row| row.values[index]);
-        Self::over(index, &sweep.axes, &sweep.scene, values)
+        Self::over(index, &sweep.axes, &sweep.scene, values).with(&sweep.plot)
+    }
+
+    /// The same as the settings want it.
+    #[must_use]
+    pub(in crate::plot) fn with(self, settings: &PlotSettings) -> Self {
+        let is_named = |name: &String| *name == self.name || *name == self.key;
+        let is_even = settings.equal_steps.iter().any(is_named);
+        Self { is_even, ..self }
     }
 
     /// The axis of that index among `axes` over keys of a scene, with more values than its own.
@@ -52,12 +67,14 @@ impl GridAxis {
         let other_shares = share_index(axis).map(|index| other_shares(index, scene));
         let mut shown = Self {
             key: axis.key.clone(),
+            name: axis.name.clone(),
             values,
             factor: 1.0,
             other_shares,
             symbol,
             unit,
             index,
+            is_even: false,
         };
         if let Some((scale, symbol)) = scale(&axis.key, axes, scene) {
             shown.factor = 1.0 / scale;
@@ -78,7 +95,7 @@ impl GridAxis {
 
     /// `symbol = value unit`, the head of a panel.
     pub(in crate::plot) fn at(&self, value: f64) -> String {
-        let number = number(self.show(value));
+        let number = numbers::among(self.show(value), &self.shown());
         let text = format!("{} = {number} {}", self.symbol, self.unit);
         text.trim_end().to_owned()
     }
@@ -96,8 +113,25 @@ impl GridAxis {
         }
     }
 
+    /// The value that is shown so.
+    pub(in crate::plot) fn value(&self, shown: f64) -> f64 {
+        match self.other_shares {
+            Some(others) => others * shown / (1.0 - shown),
+            None => shown / self.factor,
+        }
+    }
+
+    /// How its shown values are spaced: as the settings want it, or else as suits them.
+    pub(in crate::plot) fn spacing(&self) -> Spacing {
+        match (self.is_even, self.logarithmic()) {
+            (true, _) => Spacing::equal(self.shown()),
+            (false, true) => Spacing::Logarithmic,
+            (false, false) => Spacing::Linear,
+        }
+    }
+
     /// Whether the values are spaced by ratios rather than by differences.
-    pub(in crate::plot) fn logarithmic(&self) -> bool {
+    fn logarithmic(&self) -> bool {
         let (Some(&low), Some(&high)) = (self.values.first(), self.values.last()) else {
             return false;
         };
@@ -115,14 +149,11 @@ impl GridAxis {
         unevenness(ratios) < 0.5 * unevenness(differences)
     }
 
-    /// Edges of the cells, one more than values, as shown: midway between neighbours (in the
-    /// logarithm where the spacing is logarithmic).
+    /// Edges of the cells, one more than values, as shown: midway between neighbours on the axis.
     pub(in crate::plot) fn edges(&self) -> Vec<f64> {
-        let logarithmic = self.logarithmic();
-        let values: Vec<f64> = self.shown();
-        let forward = |value: f64| if logarithmic { libm::log(value) } else { value };
-        let back = |value: f64| if logarithmic { libm::exp(value) } else { value };
-        let places: Vec<f64> = values.iter().map(|&value| forward(value)).collect();
+        let spacing = self.spacing();
+        let places = self.shown().into_iter().map(|value| spacing.place(value));
+        let places: Vec<f64> = places.collect();
         let (Some(&first), Some(&last)) = (places.first(), places.last()) else {
             return Vec::new();
         };
@@ -137,7 +168,8 @@ impl GridAxis {
         let mut edges = vec![first - outer];
         edges.extend(places.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])));
         edges.push(last + outer);
-        edges.into_iter().map(back).collect()
+        let values = edges.into_iter().map(|place| spacing.value(place));
+        values.collect()
     }
 
     /// Its range, with ticks at its values where they fit.
@@ -146,7 +178,7 @@ impl GridAxis {
         Span {
             low: edges[0],
             high: edges[edges.len() - 1],
-            logarithmic: self.logarithmic(),
+            spacing: self.spacing(),
             ticks: Ticks::Values(self.shown()),
             letters: None,
         }
@@ -154,12 +186,10 @@ impl GridAxis {
 
     /// The value at a fraction of the axis, as shown.
     pub(in crate::plot) fn along(&self, fraction: f64) -> f64 {
-        let Span { low, high, .. } = self.span();
-        if self.logarithmic() {
-            low * libm::pow(high / low, fraction)
-        } else {
-            low + (high - low) * fraction
-        }
+        let Span {
+            low, high, spacing, ..
+        } = self.span();
+        spacing.along(fraction, low, high)
     }
 
     /// Which of the values is that of a point of the grid.
@@ -203,8 +233,9 @@ fn other_shares(index: usize, scene: &Scene) -> f64 {
 /// What an axis over the share of one of several radii is called.
 fn share_of(axis: &Axis, scene: &Scene) -> Option<String> {
     let index = share_index(axis)?;
-    let radius = scene.spheres.radius.shares().get(index)?.radius;
-    let radius = number(radius * 1e3);
+    let shares = scene.spheres.radius.shares();
+    let radii: Vec<f64> = shares.iter().map(|share| share.radius * 1e3).collect();
+    let radius = numbers::among(*radii.get(index)?, &radii);
     Some(format!("share of grains of $r$ = {radius} mm"))
 }
 
@@ -224,12 +255,14 @@ mod tests {
     fn axis(values: &[f64]) -> GridAxis {
         GridAxis {
             key: "swirl.omega".to_owned(),
+            name: "omega".to_owned(),
             values: values.to_vec(),
             factor: 1.0,
             other_shares: None,
             symbol: "$Ω$".to_owned(),
             unit: "rad/s".to_owned(),
             index: 0,
+            is_even: false,
         }
     }
 

@@ -49,7 +49,7 @@ pub fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
     };
     tracks.notable = NOTABLE_SPIN * tracks.fastest();
     let page = tracks.page();
-    let (size, body) = page.draw(|sheet| {
+    let body = page.draw(|sheet| {
         let axes = page.axes(sheet, 0)?;
         let plot = axes.plot();
         for line in &tracks.sight.outline {
@@ -61,7 +61,7 @@ pub fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
         }
         axes.draw()
     })?;
-    Ok(Svg::of_record("tracks", record, size, &body))
+    Ok(Svg::of_record("tracks", record, &body))
 }
 
 /// Frames at which circles are drawn, and the time between them (s).
@@ -211,7 +211,7 @@ impl Tracks<'_> {
             return parts.join("; ");
         }
         if count <= FEW_SPHERES {
-            let every = super::scale::number(1e3 * self.instants.1);
+            let every = super::numbers::number(1e3 * self.instants.1);
             parts.push(format!("circles every {every} ms"));
         }
         parts.push("filled: start; bold: end".to_owned());

@@ -6,3 +6,4 @@ pub(crate) mod bench;
 mod diagrams;
 mod files;
 mod panels;
+mod places;
