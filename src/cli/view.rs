@@ -13,6 +13,7 @@ use super::{folders, format};
 use moment::{Moment, evenly};
 use phase::compare::opened;
 use phase::record::RunRecord;
+use phase::render::lacking_letters;
 use phase::scene::Tank;
 use phase::store;
 use sheets::{Run, Sheets};
@@ -183,9 +184,33 @@ fn runs<'a>(
     console: &Console,
 ) -> Result<Vec<Run<'a>>, Failure> {
     let numbered = records.iter().enumerate();
-    numbered
-        .map(|(number, record)| run(number, record, arguments, console))
-        .collect()
+    let runs = numbered.map(|(number, record)| run(number, record, arguments, console));
+    let runs: Vec<Run<'_>> = runs.collect::<Result<_, _>>()?;
+    warn_of_letters(&runs, console);
+    Ok(runs)
+}
+
+/// Says which letters of titles and labels the font lacks.
+fn warn_of_letters(runs: &[Run<'_>], console: &Console) {
+    for (run, name) in runs
+        .iter()
+        .flat_map(|run| run.names().into_iter().map(move |it| (run, it)))
+    {
+        let letters = lacking_letters(&name).into_iter();
+        let letters: Vec<String> = letters.map(|letter| format!("`{letter}`")).collect();
+        if !letters.is_empty() {
+            let key = if run.label.is_some() {
+                "--label"
+            } else {
+                "the key `title`"
+            };
+            console.warning(format_args!(
+                "{key}, \"{name}\", has letters that the built-in font lacks: {}; the picture shows \
+                 boxes for them",
+                letters.join(", ")
+            ));
+        }
+    }
 }
 
 /// Which states of a record, the one of that number, the command line asks for.

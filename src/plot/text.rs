@@ -4,6 +4,7 @@
 //! subscript. A text with an odd number of `$` is taken literally.
 
 use crate::fonts;
+use crate::markup::words;
 use plotters::style::{FontDesc, FontFamily, FontStyle, register_font};
 use std::sync::OnceLock;
 
@@ -108,18 +109,23 @@ pub(super) fn width(text: &str, size: f64) -> f64 {
         * size
 }
 
-/// Breaks a text into lines of at most `limit`, at spaces outside of mathematics. A single word
-/// that is longer keeps its line to itself.
+/// Breaks a text into lines of at most `limit`, at spaces outside of mathematics, and between the
+/// letters of a word that is longer. Mathematics that is longer keeps its line to itself.
 pub(super) fn wrap(text: &str, size: f64, limit: f64) -> Vec<String> {
+    // A text whose `$` is a letter has no mathematics.
+    let may_break = |line: &str| balanced(line) || !balanced(text);
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();
-    for word in text.split_whitespace() {
+    let is_mathematics = |word: &str| balanced(text) && word.contains('$');
+    let fits = |word: &str| is_mathematics(word) || width(word, size) <= limit;
+    for word in words(text, fits) {
+        let word = word.as_str();
         let longer = if line.is_empty() {
             word.to_owned()
         } else {
             format!("{line} {word}")
         };
-        if !line.is_empty() && balanced(&line) && width(&longer, size) > limit {
+        if !line.is_empty() && may_break(&line) && width(&longer, size) > limit {
             lines.push(std::mem::replace(&mut line, word.to_owned()));
         } else {
             line = longer;
@@ -204,6 +210,30 @@ mod tests {
             items.concat().replace(' ', "")
         );
         assert!(wrap_list(&[], 12.0, 100.0).is_empty());
+    }
+
+    /// Symptom: a long title was cut at both ends of the figure. Cause: lines broke at spaces alone,
+    /// and never after a single `$`.
+    #[test]
+    fn long_words_break_between_letters() {
+        for text in [
+            "a_title_without_any_space_from_a_file_name",
+            "渦の中の粒子の状態図渦の中の粒子",
+        ] {
+            let lines = wrap(text, 10.0, 90.0);
+            assert!(lines.len() > 1 && lines.concat() == text, "{lines:?}");
+            assert!(
+                lines.iter().all(|line| width(line, 10.0) <= 90.0),
+                "{lines:?}"
+            );
+        }
+        let text = "it costs 5 $ to run this sweep on a machine that is lent by the hour";
+        let lines = wrap(text, 10.0, 90.0);
+        assert!(
+            lines.iter().all(|line| width(line, 10.0) <= 90.0),
+            "{lines:?}"
+        );
+        assert_eq!(lines.join(" "), text);
     }
 
     #[test]

@@ -82,5 +82,10 @@ pub fn picture(
     shade::render(&spheres, stage, camera, width, height)
 }
 
+/// The letters of a text that the font of pictures lacks: it shows boxes for them.
+pub fn lacking_letters(text: &str) -> Vec<char> {
+    crate::fonts::lacking(text)
+}
+
 #[cfg(test)]
 mod tests;

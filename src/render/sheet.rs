@@ -3,6 +3,7 @@
 use super::vector::{self, Anchor};
 use super::{Camera, ColorBy, Image, Scenery, Stage, panel, strip};
 use crate::color::ColorMap;
+use crate::markup::words;
 use crate::observe::Snapshot;
 use crate::scene::Units;
 
@@ -212,15 +213,15 @@ impl Words {
         }
         let mut elements = words(&label);
         let mut x = 1.5 * size + vector::width(&label, size);
-        let mut number = |x: &mut f64, value: f64| {
-            let text = number(value);
-            elements += &vector::text(&text, (*x, base), size, Anchor::Start);
-            *x += vector::width(&text, size) + 0.5 * size;
+        let mut number = |x: &mut f64, text: &str| {
+            elements += &vector::text(text, (*x, base), size, Anchor::Start);
+            *x += vector::width(text, size) + 0.5 * size;
         };
-        number(&mut x, low);
+        let [low, high] = pair(low, high);
+        number(&mut x, &low);
         let bar = x;
         x += (BAR + 0.5) * size;
-        number(&mut x, high);
+        number(&mut x, &high);
         elements + &color_bar((bar, base - 0.75 * size), (BAR * size, 0.8 * size))
     }
 
@@ -272,13 +273,13 @@ fn color_bar((left, top): (f64, f64), (width, height): (f64, f64)) -> String {
 /// Breaks a text into lines of at most `limit`, at spaces.
 fn wrap(text: &str, size: f64, limit: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
+    for word in words(text, |word| vector::width(word, size) <= limit) {
         match lines.last_mut() {
             Some(line) if vector::width(&format!("{line} {word}"), size) <= limit => {
                 line.push(' ');
-                line.push_str(word);
+                line.push_str(&word);
             }
-            _ => lines.push(word.to_owned()),
+            _ => lines.push(word),
         }
     }
     lines
@@ -286,7 +287,20 @@ fn wrap(text: &str, size: f64, limit: f64) -> Vec<String> {
 
 /// A number to three digits.
 fn number(value: f64) -> String {
-    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
+    rounded(value, 3)
+}
+
+/// Two different numbers with as many digits as tell them apart, three at least.
+fn pair(low: f64, high: f64) -> [String; 2] {
+    let with = |digits| [low, high].map(|value| rounded(value, digits));
+    let mut pairs = (3..=17).map(with);
+    let told = pairs.find(|[low, high]| low != high);
+    told.unwrap_or_else(|| with(17))
+}
+
+/// A number to so many digits.
+fn rounded(value: f64, digits: usize) -> String {
+    let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
     match rounded.abs() {
         0.0 | 1e-3..1e5 => rounded.to_string(),
         _ => format!("{rounded:e}"),
@@ -332,5 +346,14 @@ mod tests {
     fn titles_break_between_words() {
         let lines = wrap("Vortex tank, theoretical, linear drag", 10.0, 130.0);
         assert_eq!(lines, ["Vortex tank,", "theoretical, linear", "drag"]);
+        let lines = wrap("vortex_tank_theoretical_linear_drag", 10.0, 130.0);
+        assert_eq!(lines, ["vortex_tank_theoreti", "cal_linear_drag"]);
+    }
+
+    /// Symptom: a scale of colours from "3" to "3" mm. Cause: three digits, whatever the ends are.
+    #[test]
+    fn ends_of_a_scale_differ() {
+        assert_eq!(pair(3.0001, 3.0003), ["3.0001", "3.0003"]);
+        assert_eq!(pair(0.0, 2.0 / 3.0), ["0", "0.667"]);
     }
 }

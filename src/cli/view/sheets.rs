@@ -24,7 +24,7 @@ pub(super) struct Run<'a> {
 
 impl Run<'_> {
     /// What the picture calls it: its label, or title and place in a sweep.
-    fn names(&self) -> Vec<String> {
+    pub(super) fn names(&self) -> Vec<String> {
         if let Some(label) = &self.label {
             return vec![label.clone()];
         }

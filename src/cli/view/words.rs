@@ -9,8 +9,8 @@ use phase::scene::{Radii, Units};
 fn seconds(record: &RunRecord, time: f64) -> String {
     let interval = record.scene.time.frame_interval;
     let tenfold = std::iter::successors(Some(interval), |scaled| Some(10.0 * scaled));
-    let digits = tenfold.take(6).position(|scaled| scaled >= 1.0 - 1e-9);
-    format!("{time:.*}", digits.unwrap_or(6))
+    let digits = tenfold.take(18).position(|scaled| scaled >= 1.0 - 1e-9);
+    format!("{time:.*}", digits.unwrap_or(18))
 }
 
 /// The same without zeros at its end.
@@ -33,7 +33,7 @@ pub(super) fn caption(record: &RunRecord, state: &Snapshot, origin: f64) -> Stri
 pub(super) fn place(record: &RunRecord) -> String {
     let scene = &record.scene;
     let mut place = vec![format!("n = {}", record.radius.len())];
-    let millimetres = |radius: f64| rounded(1e3 * radius).to_string();
+    let millimetres = |radius: f64| clean(1e3 * radius).to_string();
     match &scene.spheres.radius {
         Radii::One(_) if scene.units() == Units::OfSpheres => {}
         Radii::One(radius) => place.push(format!("r = {} mm", millimetres(*radius))),
@@ -44,15 +44,15 @@ pub(super) fn place(record: &RunRecord) -> String {
         Radii::File { .. } | Radii::Each(_) => {}
     }
     if let Some(swirl) = &scene.dem.effects.swirl {
-        place.push(format!("Ω = {} rad/s", rounded(swirl.omega)));
+        place.push(format!("Ω = {} rad/s", clean(swirl.omega)));
     }
     place.push(format!("seed {}", scene.seed));
     place.join(", ")
 }
 
-/// A number to four digits.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
+/// A number as its file has it: without the last digits, which only calculations change.
+fn clean(value: f64) -> f64 {
+    format!("{value:.13e}").parse().unwrap_or(value)
 }
 
 /// What the metadata of a picture says.
