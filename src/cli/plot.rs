@@ -6,11 +6,11 @@ use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::folders;
 use super::runs::check_labels;
-use phase::classify::{FAMILIES, Family, LabelTable};
-use phase::plot::{self, PlotError, Svg};
+use phase::classify::LabelTable;
+use phase::plot::{self, About, PlotError, Svg};
 use phase::record::Program;
 use phase::store;
-use phase::sweep::{Folder, FolderError, Sweep, parse_point};
+use phase::sweep::{Folder, Sweep, parse_point};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -193,25 +193,13 @@ struct FitEntry {
 
 /// Prints name and description of every figure, or of those that can be drawn of what is at `dir`.
 fn list(dir: Option<&Path>, console: &Console) -> Result<Vec<Entry>, Failure> {
-    let mut is_refined = dir.is_none();
-    let (families, of_record) = match dir {
-        None => (FAMILIES.to_vec(), records::of_one()),
+    let (known, of_record) = match dir {
+        None => (plot::figures(), records::of_one()),
         Some(path) if path.is_file() => (Vec::new(), records::list(path)?),
-        Some(dir) => {
-            let folders = Folder::find(dir).map_err(Failure::refused)?.into_iter();
-            let family = |folder: Folder| {
-                let sweep = folder.read_sweep()?;
-                is_refined |= sweep.refine.is_some();
-                Ok(Family::of(&sweep.scene))
-            };
-            let families = folders.map(family).collect::<Result<_, FolderError>>();
-            (families.map_err(Failure::failed)?, Vec::new())
-        }
+        Some(dir) => (drawable(dir)?, Vec::new()),
     };
-    let mut entries: Vec<Entry> = plot::figures()
+    let mut entries: Vec<Entry> = known
         .into_iter()
-        .filter(|figure| families.iter().any(|family| figure.applies_to(family)))
-        .filter(|figure| is_refined || figure.name != REFINED)
         .map(|figure| Entry {
             name: figure.name,
             description: figure.description,
@@ -238,6 +226,43 @@ fn list(dir: Option<&Path>, console: &Console) -> Result<Vec<Entry>, Failure> {
         }
     }
     Ok(entries)
+}
+
+/// The figures that can be drawn of a results folder at `dir`: those of which a try succeeds.
+fn drawable(dir: &Path) -> Result<Vec<About>, Failure> {
+    let mut figures = plot::figures();
+    let mut found = Vec::new();
+    for folder in Folder::find(dir).map_err(Failure::refused)? {
+        let sweep = folder.read_sweep().map_err(Failure::failed)?;
+        let table = read_labels(&folder)?;
+        let is_drawn = |figure: &mut About| {
+            let of_folder = (&folder, &sweep, &table);
+            drawn(figure.name, of_folder, (&[], None)).is_ok()
+        };
+        found.extend(figures.extract_if(.., is_drawn));
+    }
+    // In the order of all figures, whichever folder they are of.
+    let names: Vec<&str> = plot::figures().iter().map(|figure| figure.name).collect();
+    found.sort_by_key(|figure| names.iter().position(|name| *name == figure.name));
+    Ok(found)
+}
+
+/// The labels of a folder.
+fn read_labels(folder: &Folder) -> Result<LabelTable, Failure> {
+    let path = folder.labels();
+    if !path.exists() {
+        return Err(Failure::refused(format_args!(
+            "{}: there are no labels yet; run `phase classify {}` first",
+            path.display(),
+            folder.root().display()
+        )));
+    }
+    store::read_labels(&path).map_err(|error| {
+        Failure::failed(format_args!(
+            "{error}; `phase classify {}` makes it anew",
+            folder.root().display()
+        ))
+    })
 }
 
 /// Draws the figures of every results folder at `dir`.
@@ -271,20 +296,7 @@ fn draw_folders(
         };
         folders::make(&place)?;
         let sweep = folder.read_sweep().map_err(Failure::failed)?;
-        let path = folder.labels();
-        if !path.exists() {
-            return Err(Failure::refused(format_args!(
-                "{}: there are no labels yet; run `phase classify {}` first",
-                path.display(),
-                folder.root().display()
-            )));
-        }
-        let table = store::read_labels(&path).map_err(|error| {
-            Failure::failed(format_args!(
-                "{error}; `phase classify {}` makes it anew",
-                folder.root().display()
-            ))
-        })?;
+        let table = read_labels(&folder)?;
         if arguments.figure.is_empty() {
             draw_default_figures(&folder, &place, &sweep, &table, console)?;
         }
@@ -381,19 +393,7 @@ pub(super) fn draw_round(
     sweep: &Sweep,
     table: &LabelTable,
 ) -> Result<(), Failure> {
-    let figure = plot::draw(
-        REFINED,
-        &plot::Source {
-            sweep,
-            table,
-            record: &|id| folder.read_record(id),
-            points: &[],
-            times: None,
-            captions: &[],
-            data: &[],
-            program: &Program::current(),
-        },
-    );
+    let figure = drawn(REFINED, (folder, sweep, table), (&[], None));
     let figure = figure.map_err(|error| refused_or_failed(folder, error))?;
     for (extension, bytes) in images(&figure)? {
         let path = folder.root().join(format!("{REFINED}.{extension}"));
@@ -412,23 +412,29 @@ fn draw(
     (points, times): (&[Point], Option<[f64; 2]>),
     console: &Console,
 ) -> Result<(), Failure> {
-    let program = Program::current();
-    let figure = plot::draw(
-        name,
-        &plot::Source {
-            sweep,
-            table,
-            record: &|id| folder.read_record(id),
-            points,
-            times,
-            captions: &[],
-            data: &[],
-            program: &program,
-        },
-    );
+    let figure = drawn(name, (folder, sweep, table), (points, times));
     let figure = figure.map_err(|error| refused_or_failed(folder, error))?;
     let file = |extension: &str| place.join(format!("{name}.{extension}"));
     write(&figure, file, console)
+}
+
+/// A figure of a folder, of points and times if they are asked for.
+fn drawn(
+    name: &str,
+    (folder, sweep, table): (&Folder, &Sweep, &LabelTable),
+    (points, times): (&[Point], Option<[f64; 2]>),
+) -> Result<Svg, PlotError> {
+    let source = plot::Source {
+        sweep,
+        table,
+        record: &|id| folder.read_record(id),
+        points,
+        times,
+        captions: &[],
+        data: &[],
+        program: &Program::current(),
+    };
+    plot::draw(name, &source)
 }
 
 /// Why a figure of a folder is not drawn.
@@ -448,7 +454,7 @@ fn images(figure: &Svg) -> Result<[(&'static str, Vec<u8>); 2], Failure> {
     ])
 }
 
-/// Writes a figure as SVG and PNG and prints their paths.
+/// Writes a figure as SVG and PNG and prints their paths, and what a reader of it would miss.
 pub(super) fn write(
     figure: &Svg,
     place: impl Fn(&str) -> PathBuf,
@@ -458,6 +464,9 @@ pub(super) fn write(
         let path = place(extension);
         store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
         console.file(&path);
+    }
+    for warning in figure.warnings() {
+        console.warning(format_args!("{}: {warning}", place("png").display()));
     }
     Ok(())
 }

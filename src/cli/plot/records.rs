@@ -56,7 +56,10 @@ fn of_runs(record: &RunRecord) -> impl Iterator<Item = About> {
 /// What can be drawn of a record.
 pub(super) fn list(path: &Path) -> Result<Vec<Entry>, Failure> {
     let record = store::read_record(path).map_err(Failure::refused)?;
-    let of_runs = of_runs(&record).map(|figure| Entry {
+    let records = std::slice::from_ref(&record);
+    let is_drawn =
+        |figure: &About| plot::draw_records(figure.name, records, None, &[], &[]).is_ok();
+    let of_runs = of_runs(&record).filter(is_drawn).map(|figure| Entry {
         name: figure.name,
         description: figure.description,
         default_runs: None,
