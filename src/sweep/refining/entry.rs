@@ -9,7 +9,7 @@ use crate::sweep::load::MOST_JOBS;
 use crate::sweep::seeds::SweepSeeds;
 use crate::sweep::spacing::MOST_VALUES;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Why border seeds and refining exclude each other.
 pub(super) const AT_BORDERS: &str = "refining gives the points at borders more seeds itself, so \
@@ -31,10 +31,9 @@ pub(in crate::sweep) struct RefineEntry {
     /// as the coarse grid has).
     #[schemars(range(min = 1))]
     budget: Option<usize>,
-    /// Into how many parts every step of each axis is cut: points between those of the axes, where
-    /// runs may be made too. 100 are the most.
-    #[schemars(range(min = 1))]
-    finer: usize,
+    /// Into how many parts every step of an axis is cut: points between those of the axes, where
+    /// runs may be made too. One number for all axes, or one for each. 100 are the most.
+    finer: Parts,
     /// Wanted mean width of the 95 % band of every border, as a share of the axis that it crosses.
     /// Refining ends when all are as narrow (default: none, so that the budget is spent).
     #[schemars(transform = unit("").above(0.0).at_most(1.0))]
@@ -59,6 +58,45 @@ pub(in crate::sweep) struct RefineEntry {
     choice: Choice,
 }
 
+/// Into how many parts steps are cut.
+#[derive(Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+enum Parts {
+    /// Those of all axes.
+    OfAll(#[schemars(range(min = 1))] usize),
+    /// Those of each axis, in the order of the axes.
+    OfEach(#[schemars(inner(range(min = 1)))] Vec<usize>),
+}
+
+impl Parts {
+    /// Into how many parts the steps of each axis are cut, with the place of the number in the
+    /// file.
+    fn of_axes(&self, axes: usize) -> Result<Vec<(usize, String)>, Problem> {
+        const PATH: &str = "refine.finer";
+        let parts: Vec<(usize, String)> = match self {
+            Self::OfAll(parts) => vec![(*parts, PATH.to_owned()); axes],
+            Self::OfEach(each) if each.len() == axes => {
+                let places = (0..axes).map(|axis| format!("{PATH}[{axis}]"));
+                each.iter().copied().zip(places).collect()
+            }
+            Self::OfEach(each) => return Err(not_one_for_each(PATH, each.len(), axes)),
+        };
+        match parts.iter().find(|(parts, _)| *parts > MOST_PARTS) {
+            None => Ok(parts),
+            Some((parts, path)) => {
+                let message = format!("{parts} parts of each step are too many");
+                Err(Problem::new(path.clone(), message).help(format!("{MOST_PARTS} are the most")))
+            }
+        }
+    }
+}
+
+/// The problem of a list that has neither one number nor one for each axis.
+fn not_one_for_each(path: &str, numbers: usize, axes: usize) -> Problem {
+    let message = format!("`{path}` has {numbers} numbers, but the sweep has {axes} axes");
+    Problem::new(path, message).help("give one number for all axes, or one for each")
+}
+
 impl Default for RefineEntry {
     fn default() -> Self {
         let Settings {
@@ -72,7 +110,7 @@ impl Default for RefineEntry {
         } = Settings::with_budget(1);
         Self {
             budget: None,
-            finer: 1,
+            finer: Parts::OfAll(1),
             width: None,
             start,
             round,
@@ -129,46 +167,38 @@ impl RefineEntry {
         let broken = |error: RefineError| Problem::new("refine", error.to_string());
         let axes = sweep.axes.len();
         if self.start.len() != 1 && self.start.len() != axes {
-            let message = format!(
-                "`refine.start` has {} numbers, but the sweep has {axes} axes",
-                self.start.len()
-            );
-            let help = "give one number for all axes, or one for each";
-            return Err(Problem::new("refine.start", message).help(help));
+            return Err(not_one_for_each("refine.start", self.start.len(), axes));
         }
-        if self.finer > MOST_PARTS {
-            let message = format!("{} parts of each step are too many", self.finer);
-            let help = format!("{MOST_PARTS} are the most");
-            return Err(Problem::new("refine.finer", message).help(help));
-        }
+        let parts_of_axes = self.finer.of_axes(axes)?;
         let of_axes = sweep.points();
-        for axis in &mut sweep.axes {
+        for (axis, (parts, path)) in sweep.axes.iter_mut().zip(&parts_of_axes) {
             axis.values.sort_by(f64::total_cmp);
-            let count = axis
-                .values
-                .len()
-                .saturating_sub(1)
-                .saturating_mul(self.finer)
-                + 1;
+            let steps = axis.values.len().saturating_sub(1);
+            let count = steps.saturating_mul(*parts) + 1;
             if count > MOST_VALUES {
                 let message = format!("the axis `{}` would have {count} values", axis.name);
                 let help = format!("{MOST_VALUES} are the most; cut its steps into fewer parts");
-                return Err(Problem::new("refine.finer", message).help(help));
+                return Err(Problem::new(path.clone(), message).help(help));
             }
-            axis.values = scale::finer(&axis.values, self.finer).map_err(|_| {
+            axis.values = scale::finer(&axis.values, *parts).map_err(|_| {
                 let message = format!(
-                    "values of the axis `{}` are too close to be cut into {} parts",
-                    axis.name, self.finer
+                    "values of the axis `{}` are too close to be cut into {parts} parts",
+                    axis.name
                 );
-                Problem::new("refine.finer", message).help("cut steps into fewer parts")
+                Problem::new(path.clone(), message).help("cut steps into fewer parts")
             })?;
         }
         let jobs_of = |points: usize| points.saturating_mul(sweep.seeds.len());
         let jobs = jobs_of(sweep.points());
         if jobs > MOST_JOBS && jobs_of(of_axes) <= MOST_JOBS {
+            let mut parts: Vec<String> = parts_of_axes
+                .iter()
+                .map(|(parts, _)| parts.to_string())
+                .collect();
+            parts.dedup();
             let message = format!(
                 "steps cut into {} parts make a grid of {jobs} jobs",
-                self.finer
+                parts.join(", ")
             );
             let help = format!("{MOST_JOBS} are the most; cut steps into fewer parts");
             return Err(Problem::new("refine.finer", message).help(help));

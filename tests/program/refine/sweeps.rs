@@ -469,6 +469,10 @@ fn finer_steps_have_points_between_those_of_the_axes() {
     let radii: BTreeSet<&str> = refined.iter().map(|row| row[1].as_str()).collect();
     let expected = ["0.003", "0.00325", "0.0035", "0.00375", "0.004"];
     assert_eq!(radii.into_iter().collect::<Vec<_>>(), expected);
+    // Each axis may have a number of its own.
+    let text = tiny(2.0, &REFINE.replace("budget", "finer = [1, 2]\nbudget"));
+    bare(&place, &text, "each", &[]);
+    assert_eq!(rows(&place, "each/refined.csv").len(), 9 * 5);
 }
 
 #[test]
