@@ -2,7 +2,7 @@
 
 use crate::dem::SAFETY_FACTOR;
 use crate::document::{Document, LoadError, Problem};
-use crate::scene::{AUTO, Change, FileKind, SCENE, Scene, in_start_file, settings};
+use crate::scene::{AUTO, Change, FileKind, SCENE, Scene, in_start_file, is_within, settings};
 use serde_json::Value;
 use std::path::Path;
 
@@ -51,6 +51,19 @@ impl Scene {
             remove: remove.to_vec(),
             ..Change::default()
         };
+        let paths = change.paths();
+        let repeated = paths.iter().enumerate().filter(|(place, path)| {
+            let others = paths.iter().enumerate();
+            let mut others = others.filter(|(other, _)| other != place);
+            let is_later = paths[..*place].contains(path);
+            is_later || others.any(|(_, other)| other != *path && is_within(path, other))
+        });
+        problems.extend(repeated.map(|(_, path)| {
+            Problem::new(
+                "",
+                format!("--set {path}: this key is set twice; set it once"),
+            )
+        }));
         if let Err(path) = change.apply(&mut tree) {
             problems.push(Problem::new("", format!("--set {path}: not in a table")));
         }

@@ -155,7 +155,7 @@ fn balls(places: &str, more: &str) -> String {
 /// Symptom: spheres that a list put deep into a wall or into each other were thrown out, and
 /// nothing said why. A warning names sphere, partner, depth and speed.
 #[test]
-fn overlaps_at_the_start_are_told() {
+fn a_warning_names_overlaps_at_the_start() {
     let place = Workplace::new();
     let apart = "{ position = [0.0, 0.0, 0.01] }, { position = [0.1, 0.0, 0.01] }";
     place.write("apart.toml", &balls(apart, ""));
@@ -237,4 +237,33 @@ fn packings_between_near_walls_are_made() {
         let answer = place.phase(&["run", "packed.toml"]);
         answer.code(0).says("completed");
     }
+}
+
+/// Symptom: of two `--set` of one key the last one counted, without a word.
+#[test]
+fn a_key_is_set_once() {
+    let place = Workplace::new();
+    place.write("scene.toml", &scene_file());
+    let check = |settings: [&str; 2]| {
+        let [one, other] = settings;
+        let arguments = [
+            "check",
+            "scene.toml",
+            "--no-trial",
+            "--set",
+            one,
+            "--set",
+            other,
+        ];
+        place.phase(&arguments)
+    };
+    for settings in [
+        ["swirl.omega=3", "swirl.omega=4"],
+        ["swirl.omega=3", "swirl={ omega = 3 }"],
+    ] {
+        check(settings)
+            .code(2)
+            .complains("--set swirl.omega: this key is set twice; set it once");
+    }
+    check(["swirl.omega=3", "time.duration=1"]).code(0);
 }
