@@ -56,17 +56,25 @@ impl Figure for MeasuresFigure {
     }
 }
 
+/// What bars are.
+const BARS: &str = "Bars: 95 % intervals of the means (Student's t, within 0 and 1 for shares; \
+                    Wilson's where all are 0 or 1).";
+
 /// What points and bars are.
 fn note(sweep: &Sweep) -> String {
     let seeds = match (sweep.seeds.len(), sweep.border_seeds.len()) {
         (1, 0) => return "Points: one run each.".to_owned(),
         (seeds, 0) => format!("{seeds} seeds"),
+        (1, more) => {
+            return format!(
+                "Points: one run each; at borders means over {} seeds, or over those that have a \
+                 value. {BARS}",
+                1 + more
+            );
+        }
         (seeds, more) => format!("{seeds} seeds, at borders {}", seeds + more),
     };
-    format!(
-        "Points: means over {seeds}, or over those that have a value. Bars: 95 % intervals of the \
-         means (Student's t, within 0 and 1 for shares; Wilson's where all are 0 or 1)."
-    )
+    format!("Points: means over {seeds}, or over those that have a value. {BARS}")
 }
 
 /// The panel of a measure; none if no run has it.
