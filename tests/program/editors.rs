@@ -115,7 +115,7 @@ fn new_files_pass_the_check() {
         (&["silo", "silo"], "silo.toml", "feed, door, outlet"),
         (&["sweep", "alone"], "alone.toml", "15 jobs"),
         (
-            &["sweep", "a/diagram", "--scene", "b/tank.toml"],
+            &["sweep", "a/diagram", "--scene", "a/b/tank.toml"],
             "a/diagram.toml",
             "15 jobs",
         ),
@@ -140,6 +140,30 @@ fn a_new_sweep_says_what_its_scene_lacks() {
             .code(0)
             .complains("does not go with its scene yet")
             .complains(lack);
+    }
+}
+
+/// Symptom: `--scene` took its path from the folder of the new file, unlike every other path of a
+/// command line.
+#[test]
+fn a_new_sweep_names_its_scene_from_its_own_folder() {
+    let place = Workplace::new();
+    for (scene, sweep, path) in [
+        ("tank", "diagram", "tank.toml"),
+        ("tank", "a/diagram", "../tank.toml"),
+        ("scenes/tank", "a/b/diagram", "../../scenes/tank.toml"),
+        ("a/tank", "a/other", "tank.toml"),
+    ] {
+        place.phase(&["new", "scene", scene, "--force"]).code(0);
+        let file = format!("{scene}.toml");
+        let new = place
+            .phase(&["new", "sweep", sweep, "--scene", &file])
+            .code(0);
+        assert!(!new.stderr.contains("does not go with"), "{new:#?}");
+        let text = place.read(&format!("{sweep}.toml"));
+        assert!(text.contains(&format!("scene = \"{path}\"")), "{text}");
+        let check = ["check", &format!("{sweep}.toml"), "--no-trial"];
+        place.phase(&check).code(0).says("15 jobs");
     }
 }
 

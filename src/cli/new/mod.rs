@@ -21,8 +21,7 @@ pub(crate) struct Arguments {
     kind: Kind,
     /// Name of the file, with or without .toml.
     name: PathBuf,
-    /// The scene file that the sweep starts from, relative to the new file [default: a scene within
-    /// the new file].
+    /// The scene file that the sweep starts from [default: a scene within the new file].
     #[arg(long, value_name = "FILE")]
     scene: Option<PathBuf>,
     /// Replace a file of that name.
@@ -55,18 +54,11 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         Some(end) if end == "toml" => arguments.name.clone(),
         _ => arguments.name.with_added_extension("toml"),
     };
-    let text = match (arguments.kind, &arguments.scene) {
-        (Kind::Scene, None) => SCENE.to_owned(),
-        (Kind::Silo, None) => SILO.to_owned(),
-        (Kind::Spot, None) => SPOT.to_owned(),
-        (Kind::Scene | Kind::Silo | Kind::Spot, Some(_)) => {
-            return Err(Failure::refused(
-                "a scene starts from no other; `--scene` goes with `phase new sweep`",
-            ));
-        }
-        (Kind::Sweep, Some(scene)) => sweep_of_file(scene),
-        (Kind::Sweep, None) => sweep_of_table(),
-    };
+    if arguments.kind != Kind::Sweep && arguments.scene.is_some() {
+        return Err(Failure::refused(
+            "a scene starts from no other; `--scene` goes with `phase new sweep`",
+        ));
+    }
     if path.exists() && !arguments.force {
         return Err(Failure::refused(format_args!(
             "{}: the file is there already; choose another name, or replace it with `--force`",
@@ -74,6 +66,13 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         )));
     }
     folders::make_for(&path)?;
+    let text = match (arguments.kind, &arguments.scene) {
+        (Kind::Scene, _) => SCENE.to_owned(),
+        (Kind::Silo, _) => SILO.to_owned(),
+        (Kind::Spot, _) => SPOT.to_owned(),
+        (Kind::Sweep, Some(scene)) => sweep_of_file(&from_folder_of(&path, scene)),
+        (Kind::Sweep, None) => sweep_of_table(),
+    };
     store::write_atomic(&path, text.as_bytes()).map_err(Failure::failed)?;
     console.file(&path);
     if arguments.scene.is_some()
@@ -92,6 +91,34 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
          as the first line of the file"
     ));
     Ok(Exit::Done)
+}
+
+/// The path of a scene as the new file must write it: relative to the folder of the new file, which
+/// is there. On the command line it is relative to the current folder.
+fn from_folder_of(file: &Path, scene: &Path) -> PathBuf {
+    let folder = file.parent().unwrap_or(Path::new(""));
+    if scene.is_absolute() || folder.as_os_str().is_empty() {
+        return scene.to_owned();
+    }
+    let (Ok(folder), Ok(scene_there)) = (std::path::absolute(folder), std::path::absolute(scene))
+    else {
+        return scene.to_owned();
+    };
+    // Where the system knows them, without links and `..`, which would lead elsewhere.
+    let known = |path: PathBuf| path.canonicalize().unwrap_or(path);
+    let folder = known(folder);
+    let name = scene_there.file_name().unwrap_or_default().to_owned();
+    let scene_folder = known(scene_there.parent().unwrap_or(Path::new("/")).to_owned());
+    let (mut up, mut down) = (
+        folder.components().peekable(),
+        scene_folder.components().peekable(),
+    );
+    while up.peek().is_some() && up.peek() == down.peek() {
+        (up.next(), down.next());
+    }
+    let mut path: PathBuf = up.map(|_| "..").collect();
+    path.extend(down);
+    path.join(name)
 }
 
 /// The starter sweep over a scene of its own file.
