@@ -244,13 +244,21 @@ fn choose_runs(sweep: &mut Sweep, arguments: &Arguments) -> Result<(), Failure> 
     Ok(())
 }
 
-/// Warns of sieves that find nothing in any run, as these are too short.
+/// Warns of sieves that find nothing in some runs, or in all, as these are too short.
 pub(super) fn warn_of_windows(sweep: &Sweep, jobs: &[Job], console: &Console) {
-    for (name, window, duration) in sweep.sieves_without_room(jobs) {
+    for sieve in sweep.sieves_without_room(jobs) {
+        let (name, window, longest) = (sieve.sieve, sieve.window, sieve.longest);
+        let which = match sieve.runs == jobs.len() {
+            true => format!("the runs, {longest} s: it finds nothing in any of them"),
+            false => format!(
+                "{} of {}, which last {longest} s at most: it finds nothing in these",
+                sieve.runs,
+                format::count(jobs.len(), "run")
+            ),
+        };
         console.warning(format_args!(
-            "the window of the sieve {name}, {window} s, is longer than the runs, {duration} s: it \
-             finds nothing in any of them; lengthen time.duration, or shorten `window` in \
-             [sieves.{name}]"
+            "the window of the sieve {name}, {window} s, is longer than {which}; lengthen \
+             time.duration, or shorten `window` in [sieves.{name}]"
         ));
     }
 }

@@ -76,6 +76,19 @@ fn label(folder: &Folder, sweep: &Sweep, job: &Job) -> Result<Option<LabelRow>, 
     }))
 }
 
+/// A sieve that finds nothing in some runs, because these are shorter than its window.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WithoutRoom {
+    /// Name of the sieve.
+    pub sieve: &'static str,
+    /// Its window (s).
+    pub window: f64,
+    /// Number of runs that are too short.
+    pub runs: usize,
+    /// Duration of the longest of them (s).
+    pub longest: f64,
+}
+
 /// What became of the labels of a results folder.
 #[derive(Clone, Debug)]
 pub struct Labelled {
@@ -223,17 +236,27 @@ impl Sweep {
             .try_for_each(|job| self.sieves.check(&job.scene))
     }
 
-    /// Sieves that find nothing in any run, because these are too short: their names and windows
-    /// (s), and the duration of the longest run (s).
-    pub fn sieves_without_room(&self, jobs: &[Job]) -> Vec<(&'static str, f64, f64)> {
-        let scenes = jobs.iter().map(|job| &job.scene);
-        let longest = scenes.max_by(|a, b| a.time.duration.total_cmp(&b.time.duration));
-        let sieves = longest.map(|scene| (scene.time.duration, self.sieves.without_room(scene)));
-        let (duration, sieves) = sieves.unwrap_or_default();
-        let sieves = sieves.into_iter();
-        sieves
-            .map(|(name, window)| (name, window, duration))
-            .collect()
+    /// Sieves that find nothing in some runs, or in all, because these are too short.
+    pub fn sieves_without_room(&self, jobs: &[Job]) -> Vec<WithoutRoom> {
+        let mut found: Vec<WithoutRoom> = Vec::new();
+        for scene in jobs.iter().map(|job| &job.scene) {
+            let duration = scene.time.duration;
+            for (sieve, window) in self.sieves.without_room(scene) {
+                match found.iter_mut().find(|known| known.sieve == sieve) {
+                    Some(known) => {
+                        known.runs += 1;
+                        known.longest = known.longest.max(duration);
+                    }
+                    None => found.push(WithoutRoom {
+                        sieve,
+                        window,
+                        runs: 1,
+                        longest: duration,
+                    }),
+                }
+            }
+        }
+        found
     }
 
     /// Keys in which the runs of this sweep differ from those of an edited one. Titles, thresholds,

@@ -28,7 +28,9 @@ pub use failures::{read_failures, write_failures};
 pub use folder::{Folder, FolderError};
 pub use job::{Job, PointError};
 pub(crate) use job::{PointScenes, grid, points};
-pub use labelling::{Labelled, Labelling, LabellingError, Since, refuse_to_lose_labels};
+pub use labelling::{
+    Labelled, Labelling, LabellingError, Since, WithoutRoom, refuse_to_lose_labels,
+};
 pub(crate) use load::{
     SWEEP, base_scene, check_axes, check_jobs, check_number_of_axes, check_points, check_steps,
     expand_axes, of_document, or_path,

@@ -252,3 +252,23 @@ fn runs_too_short_for_a_sieve_are_warned_of() {
         "{answer:#?}"
     );
 }
+
+/// Symptom: no warning where only some runs of an axis of durations are too short. Cause: the
+/// longest run stood for all.
+#[test]
+fn some_runs_too_short_for_a_sieve_are_warned_of() {
+    let place = Workplace::new();
+    let text = TinySweep::default().text();
+    let text = text.replace("\"swirl.omega\"", "\"time.duration\"");
+    place.write(
+        "tiny.toml",
+        &text.replace("[0.0, 4.0, 8.0]", "[0.4, 1.0, 3.0]"),
+    );
+    let answer = place.phase(&["check", "tiny.toml", "--no-trial"]).code(0);
+    for warning in [
+        "sieve settle, 0.5 s, is longer than 2 of 6 runs, which last 0.4 s at most",
+        "sieve fluid, 1.5 s, is longer than 4 of 6 runs, which last 1 s at most",
+    ] {
+        assert!(answer.stderr.contains(warning), "{answer:#?}");
+    }
+}
