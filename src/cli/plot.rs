@@ -10,7 +10,7 @@ use phase::classify::LabelTable;
 use phase::plot::{self, About, PlotError, Svg};
 use phase::record::Program;
 use phase::store;
-use phase::sweep::{Folder, Sweep, parse_point};
+use phase::sweep::{Folder, Selection, Sweep, parse_point};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -76,9 +76,6 @@ pub(crate) struct Arguments {
     #[arg(long)]
     pub(super) json: bool,
 }
-
-/// Values by name of an axis.
-type Point = Vec<(String, f64)>;
 
 /// The figure whose fits are printed.
 const BEVERLOO: &str = "beverloo";
@@ -284,7 +281,7 @@ fn draw_folders(
         )));
     }
     let points = arguments.points.iter().map(|point| parse_point(point));
-    let points: Vec<Point> = points.collect::<Result<_, _>>().map_err(Failure::refused)?;
+    let points: Vec<Selection> = points.collect::<Result<_, _>>().map_err(Failure::refused)?;
     let mut fits = Vec::new();
     let found = Folder::find(dir).map_err(Failure::refused)?;
     let several = found.len() > 1;
@@ -409,7 +406,7 @@ fn draw(
     folder: &Folder,
     place: &Path,
     (sweep, table): (&Sweep, &LabelTable),
-    (points, times): (&[Point], Option<[f64; 2]>),
+    (points, times): (&[Selection], Option<[f64; 2]>),
     console: &Console,
 ) -> Result<(), Failure> {
     let figure = drawn(name, (folder, sweep, table), (points, times));
@@ -422,7 +419,7 @@ fn draw(
 fn drawn(
     name: &str,
     (folder, sweep, table): (&Folder, &Sweep, &LabelTable),
-    (points, times): (&[Point], Option<[f64; 2]>),
+    (points, times): (&[Selection], Option<[f64; 2]>),
 ) -> Result<Svg, PlotError> {
     let source = plot::Source {
         sweep,

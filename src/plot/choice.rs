@@ -4,6 +4,7 @@ use super::{PlotError, Source, grid, numbers};
 use crate::classify::Label;
 use crate::classify::{LabelRow, Point};
 use crate::record::RunRecord;
+use crate::sweep::Selection;
 use std::cmp::Ordering;
 
 /// A run of the table of labels, chosen to be shown.
@@ -14,9 +15,6 @@ pub(super) struct Run<'a> {
     /// What names it, if its place in the sweep does not.
     caption: Option<&'a [String]>,
 }
-
-/// The name that stands for the seed in a point.
-const SEED: &str = "seed";
 
 /// The runs at the points asked for, or else those of `choice`, as indices of rows.
 pub(super) fn runs<'a>(
@@ -43,11 +41,13 @@ pub(super) fn runs<'a>(
 }
 
 /// The row at a point: of the seed it names, or the first.
-fn row_at(source: &Source<'_>, point: &[(String, f64)]) -> Result<usize, PlotError> {
-    let (seeds, values): (Vec<_>, Vec<_>) = point.iter().cloned().partition(|(n, _)| n == SEED);
-    let chosen = source.sweep.select(&values)?;
-    let written: Vec<String> = point.iter().map(|(n, v)| format!("{n} = {v}")).collect();
-    let written = written.join(", ");
+fn row_at(source: &Source<'_>, point: &Selection) -> Result<usize, PlotError> {
+    // The table may have seeds that the sweep has no more.
+    let chosen = source.sweep.select(&Selection {
+        seed: None,
+        ..point.clone()
+    })?;
+    let written = point.to_string();
     if let Some(open) = chosen.axes.iter().find(|axis| axis.values.len() > 1) {
         let known: Vec<String> = open.values.iter().map(f64::to_string).collect();
         return Err(PlotError::OpenAxis {
@@ -57,9 +57,8 @@ fn row_at(source: &Source<'_>, point: &[(String, f64)]) -> Result<usize, PlotErr
         });
     }
     let place: Vec<f64> = chosen.axes.iter().map(|axis| axis.values[0]).collect();
-    let is_there = |row: &LabelRow| {
-        row.values == place && seeds.iter().all(|(_, seed)| row.seed as f64 == *seed)
-    };
+    let is_there =
+        |row: &LabelRow| row.values == place && point.seed.is_none_or(|seed| row.seed == seed);
     let found = source.table.rows.iter().position(is_there);
     found.ok_or(PlotError::NoRun { point: written })
 }
@@ -202,8 +201,7 @@ impl Run<'_> {
         let mut parts: Vec<String> = axes
             .map(|(axis, &value)| quantity(self.source, &axis.key, &axis.name, value))
             .collect();
-        let mut names = self.source.points.iter().flatten();
-        if names.any(|(name, _)| name == SEED) {
+        if self.source.points.iter().any(|point| point.seed.is_some()) {
             parts.push(format!("seed {}", self.row.seed));
         }
         parts

@@ -61,7 +61,7 @@ use crate::classify::LabelTable;
 use crate::record::{Program, RunRecord};
 use crate::refine::RefineError;
 use crate::store::{DataSet, StoreError};
-use crate::sweep::{SelectError, Sweep};
+use crate::sweep::{SelectError, Selection, Sweep};
 
 /// What figures are drawn from: tables and records, never simulations.
 pub struct Source<'a> {
@@ -73,7 +73,7 @@ pub struct Source<'a> {
     pub record: &'a dyn Fn(&str) -> Result<RunRecord, StoreError>,
     /// Points to show in figures of single runs: values by name of an axis, and `seed`. None for
     /// the choice of the figure.
-    pub points: &'a [Vec<(String, f64)>],
+    pub points: &'a [Selection],
     /// First and last time (s) of the states that figures of drainages show or measure. None for
     /// the choice of the figure.
     pub times: Option<[f64; 2]>,

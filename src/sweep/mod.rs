@@ -40,7 +40,7 @@ pub use plan::{Done, ForeignRecord, Plan, Standing};
 pub use pool::{Pool, PoolError};
 pub use refining::{FAILED, Learnt, Refinement, RefinementError, Refining, Step, label_name};
 pub(crate) use seeds::{SeedsEntry, expand_seeds};
-pub use select::{SelectError, parse_point};
+pub use select::{SelectError, Selection, parse_point};
 pub use status::{Status, UnderWay};
 pub use workers::{Begin, Event, Report};
 pub(crate) use workers::{Results, Workers};

@@ -1,6 +1,23 @@
 //! Choosing points of a sweep by the values of its axes.
 
 use super::Sweep;
+use crate::scene::LARGEST_SEED;
+use std::fmt::{self, Display};
+
+/// What names a seed in a point.
+const SEED: &str = "seed";
+
+/// Most values that are all named where none of them is meant.
+const FEW: usize = 12;
+
+/// Points of a sweep, such as `radius=0.003,omega=6,seed=2`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Selection {
+    /// Values, each with the name of its axis or the path of its key.
+    pub values: Vec<(String, f64)>,
+    /// The seed, if one is meant.
+    pub seed: Option<u64>,
+}
 
 /// Why no point could be chosen.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -8,6 +25,12 @@ pub enum SelectError {
     /// The text is no list of `name=value`.
     #[error("`{0}` is not of the form `name=value`, such as `radius=0.003,omega=6`")]
     Syntax(String),
+    /// The text says something else than a seed.
+    #[error("`seed={0}`: a seed is a whole number from 0 to {LARGEST_SEED}")]
+    Seed(String),
+    /// Two values of one axis, or two seeds.
+    #[error("the point gives `{0}` twice; give each value once, and each point by itself")]
+    Repeated(String),
     /// The sweep has no such axis.
     #[error("the sweep has no axis `{name}`; it has {known}")]
     Axis {
@@ -17,75 +40,225 @@ pub enum SelectError {
         known: String,
     },
     /// The axis has no such value.
-    #[error("`{name}` is never {value}; it takes {values}")]
+    #[error("`{name}` is never {value}; {values}")]
     Value {
         /// Name of the axis.
         name: String,
         /// What was asked for.
         value: String,
-        /// The values of the axis.
+        /// The values of the axis: a part of a sentence.
         values: String,
     },
 }
 
-/// Reads the values of a point, such as `radius=0.003,omega=6`.
+/// Reads the values of a point, such as `radius=0.003,omega=6`, and its seed, if it has one.
 ///
 /// # Errors
-/// [`SelectError::Syntax`] with the part that is at fault.
-pub fn parse_point(text: &str) -> Result<Vec<(String, f64)>, SelectError> {
-    let pair = |part: &str| {
-        let (name, value) = part.split_once('=')?;
-        let value: f64 = value.trim().parse().ok()?;
-        value.is_finite().then(|| (name.trim().to_owned(), value))
-    };
-    text.split(',')
-        .map(|part| pair(part).ok_or_else(|| SelectError::Syntax(part.trim().to_owned())))
-        .collect()
+/// [`SelectError::Syntax`] or [`SelectError::Seed`] with the part that is at fault, or
+/// [`SelectError::Repeated`].
+pub fn parse_point(text: &str) -> Result<Selection, SelectError> {
+    let mut selection = Selection::default();
+    for part in text.split(',') {
+        let syntax = || SelectError::Syntax(part.trim().to_owned());
+        let (name, value) = part.split_once('=').ok_or_else(syntax)?;
+        let (name, value) = (name.trim(), value.trim());
+        let is_known = |(known, _): &(String, f64)| known == name;
+        if selection.values.iter().any(is_known) || (name == SEED && selection.seed.is_some()) {
+            return Err(SelectError::Repeated(name.to_owned()));
+        }
+        if name == SEED {
+            let seed = value.parse().ok().filter(|seed| *seed <= LARGEST_SEED);
+            let seed = seed.ok_or_else(|| SelectError::Seed(value.to_owned()))?;
+            selection.seed = Some(seed);
+        } else {
+            let value = value.parse().ok().filter(|value: &f64| value.is_finite());
+            let value = value.ok_or_else(syntax)?;
+            selection.values.push((name.to_owned(), value));
+        }
+    }
+    Ok(selection)
+}
+
+impl Display for Selection {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let values = self.values.iter();
+        let values = values.map(|(name, value)| format!("{name} = {value}"));
+        let seed = self.seed.map(|seed| format!("{SEED} = {seed}"));
+        let parts: Vec<String> = values.chain(seed).collect();
+        formatter.write_str(&parts.join(", "))
+    }
 }
 
 impl Sweep {
-    /// This sweep with only the named values left on the named axes. A name may be that of the
-    /// axis, the path of its key, or `seed`; a value is found within rounding.
+    /// This sweep with only the named values left on the named axes, and only the seed that is
+    /// named. A value is one of its axis with all its digits: a neighbour is another run.
     ///
     /// # Errors
-    /// [`SelectError::Axis`] or [`SelectError::Value`].
-    pub fn select(&self, point: &[(String, f64)]) -> Result<Self, SelectError> {
+    /// [`SelectError::Axis`], [`SelectError::Value`] or [`SelectError::Repeated`].
+    pub fn select(&self, point: &Selection) -> Result<Self, SelectError> {
         let mut chosen = self.clone();
-        for (name, value) in point {
-            if name == "seed" {
-                chosen.seeds.retain(|&seed| seed as f64 == *value);
-                chosen.border_seeds.retain(|&seed| seed as f64 == *value);
-                if chosen.seeds.is_empty() && chosen.border_seeds.is_empty() {
-                    return Err(SelectError::Value {
-                        name: name.clone(),
-                        value: value.to_string(),
-                        values: join(self.seeds.iter().chain(&self.border_seeds)),
-                    });
-                }
-                continue;
-            }
-            let named = |axis: &&mut super::Axis| axis.name == *name || axis.key == *name;
-            let Some(axis) = chosen.axes.iter_mut().find(named) else {
+        let mut named = Vec::new();
+        for (name, value) in &point.values {
+            let is_named = |axis: &super::Axis| axis.name == *name || axis.key == *name;
+            let Some(place) = self.axes.iter().position(is_named) else {
+                let known = self.axes.iter().map(|axis| axis.name.as_str());
                 return Err(SelectError::Axis {
                     name: name.clone(),
-                    known: join(self.axes.iter().map(|axis| &axis.name)),
+                    known: known.collect::<Vec<_>>().join(", "),
                 });
             };
-            let near = |&&known: &&f64| (known - value).abs() <= 1e-9 * known.abs();
-            let Some(&known) = axis.values.iter().find(near) else {
-                return Err(SelectError::Value {
-                    name: name.clone(),
-                    value: value.to_string(),
-                    values: join(&axis.values),
-                });
+            if named.contains(&place) {
+                return Err(SelectError::Repeated(name.clone()));
+            }
+            named.push(place);
+            let values = &self.axes[place].values;
+            // Not by bits: zero has two signs.
+            let Some(known) = values.iter().find(|known| **known == *value) else {
+                return Err(never(name, *value, values));
             };
-            axis.values = vec![known];
+            chosen.axes[place].values = vec![*known];
+        }
+        if let Some(seed) = point.seed {
+            chosen.seeds.retain(|known| *known == seed);
+            chosen.border_seeds.retain(|known| *known == seed);
+            if chosen.seeds.is_empty() && chosen.border_seeds.is_empty() {
+                let known = [&self.seeds[..], &self.border_seeds].concat();
+                return Err(never(SEED, seed, &known));
+            }
         }
         Ok(chosen)
     }
 }
 
-fn join<T: ToString>(items: impl IntoIterator<Item = T>) -> String {
-    let items: Vec<String> = items.into_iter().map(|item| item.to_string()).collect();
-    items.join(", ")
+/// The error of a value that is not among those of its axis: it names these, or the nearest ones if
+/// there are many.
+fn never<T: Copy + PartialOrd + Display>(name: &str, value: T, known: &[T]) -> SelectError {
+    let values = if known.len() <= FEW {
+        let known: Vec<String> = known.iter().map(T::to_string).collect();
+        format!("it takes {}", known.join(", "))
+    } else {
+        let larger = |one: T, other: T| if other > one { other } else { one };
+        let smaller = |one: T, other: T| if other < one { other } else { one };
+        let below = known.iter().copied().filter(|known| *known < value);
+        let above = known.iter().copied().filter(|known| *known > value);
+        let nearest = [below.reduce(larger), above.reduce(smaller)];
+        let nearest: Vec<String> = nearest.iter().flatten().map(T::to_string).collect();
+        let count = known.len();
+        format!("the nearest of its {count} values: {}", nearest.join(", "))
+    };
+    SelectError::Value {
+        name: name.to_owned(),
+        value: value.to_string(),
+        values,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::sweep::Axis;
+    use proptest::prelude::*;
+
+    fn sweep(values: Vec<f64>, seeds: Vec<u64>) -> Sweep {
+        let scene: Scene = toml::from_str(
+            r#"
+            spheres = { count = 1, radius = 0.004, density = 1000.0 }
+            start = { kind = "list", spheres = [{ position = [0.0, 0.0, 1.0] }] }
+            gravity = { acceleration = 9.8 }
+            time = { dt = 1e-3, duration = 0.01, frame_interval = 1e-3 }
+            "#,
+        )
+        .unwrap();
+        let axis = Axis {
+            key: "gravity.acceleration".to_owned(),
+            name: "gravity".to_owned(),
+            values,
+        };
+        Sweep {
+            axes: vec![axis],
+            seeds,
+            ..Sweep::of_scene(scene)
+        }
+    }
+
+    /// Symptom: `seed=9007199254740993` chose the seed ...992, and .3 the value
+    /// .30000000000000004 as well. Cause: a seed was read as a floating point number, and values
+    /// were compared within a tolerance.
+    #[test]
+    fn neighbours_are_other_points() {
+        let large = (1_u64 << 53) + 1;
+        let sweep = sweep(vec![0.1 + 0.2, 0.3, 0.0], vec![large - 1, large]);
+        let chosen = |text: &str| sweep.select(&parse_point(text).unwrap());
+        let one = chosen(&format!("gravity=.3,seed={large}")).unwrap();
+        assert_eq!(
+            (&one.axes[0].values[..], &one.seeds[..]),
+            (&[0.3][..], &[large][..])
+        );
+        let other = chosen("gravity.acceleration=.30000000000000004").unwrap();
+        assert_eq!(other.axes[0].values, [0.1 + 0.2]);
+        assert_eq!(chosen("gravity=-0").unwrap().axes[0].values, [0.0]);
+        let message = chosen("gravity=.30000000000000001").unwrap().axes[0].values[0];
+        assert_eq!(message.to_bits(), 0.3_f64.to_bits());
+        let message = chosen("gravity=.3000000001").unwrap_err().to_string();
+        assert_eq!(
+            message,
+            "`gravity` is never 0.3000000001; it takes 0.30000000000000004, 0.3, 0"
+        );
+        let message = chosen("seed=9007199254740994").unwrap_err().to_string();
+        assert!(
+            message.contains("9007199254740992, 9007199254740993"),
+            "{message}"
+        );
+    }
+
+    #[test]
+    fn the_nearest_of_many_values_are_named() {
+        let sweep = sweep((0..41).map(f64::from).collect(), vec![1]);
+        let never = |text: &str| sweep.select(&parse_point(text).unwrap()).unwrap_err();
+        let message = never("gravity=7.5").to_string();
+        assert_eq!(
+            message,
+            "`gravity` is never 7.5; the nearest of its 41 values: 7, 8"
+        );
+        assert!(never("gravity=50").to_string().ends_with("values: 40"));
+    }
+
+    /// Symptom: `radius=.003,radius=.002` said that the radius is never .002, and takes .003.
+    #[test]
+    fn an_axis_has_one_value_in_a_point() {
+        let repeated = |name: &str| SelectError::Repeated(name.to_owned());
+        assert_eq!(parse_point("gravity=1,gravity=2"), Err(repeated("gravity")));
+        assert_eq!(parse_point("seed=1, seed=1"), Err(repeated("seed")));
+        let point = parse_point("gravity=1,gravity.acceleration=1").unwrap();
+        let sweep = sweep(vec![1.0], vec![1]);
+        assert_eq!(sweep.select(&point), Err(repeated("gravity.acceleration")));
+        for text in ["seed=1.5", "seed=-1", "seed=9223372036854775808"] {
+            assert!(matches!(parse_point(text), Err(SelectError::Seed(_))));
+        }
+    }
+
+    proptest! {
+        /// What is printed of a point chooses it, and no neighbour of it.
+        #[test]
+        fn a_point_is_found_by_what_is_printed_of_it(
+            value in prop::num::f64::NORMAL | prop::num::f64::SUBNORMAL,
+            seed in 0..LARGEST_SEED,
+        ) {
+            let sweep = sweep(vec![value, value.next_up()], vec![seed, seed + 1]);
+            for (at, value) in sweep.axes[0].values.iter().enumerate() {
+                let text = format!("gravity={value},seed={}", sweep.seeds[at]);
+                let point = parse_point(&text).unwrap();
+                let chosen = sweep.select(&point).unwrap();
+                prop_assert_eq!(chosen.axes[0].values.len(), 1);
+                prop_assert_eq!(chosen.axes[0].values[0].to_bits(), value.to_bits());
+                prop_assert_eq!(chosen.seeds, vec![sweep.seeds[at]]);
+                let read = parse_point(&point.to_string().replace(' ', ""));
+                prop_assert_eq!(read, Ok(point));
+            }
+            let absent = Selection { seed: Some(seed + 1), ..Selection::default() };
+            let one = Sweep { seeds: vec![seed], ..sweep.clone() };
+            prop_assert!(one.select(&absent).is_err());
+        }
+    }
 }

@@ -4,7 +4,7 @@ use crate::cli::console::Console;
 use crate::cli::exit::Failure;
 use phase::record::{Program, RunRecord};
 use phase::store::{self, StoreError};
-use phase::sweep::{Axis, Folder, Job, Sweep, parse_point};
+use phase::sweep::{Axis, Folder, Job, Selection, Sweep, parse_point};
 use std::path::{Path, PathBuf};
 
 /// A job of a sweep, and where its record is.
@@ -48,7 +48,7 @@ impl Original {
         let sweep = folder.read_sweep().map_err(Failure::failed)?;
         let refuse = |reason: String| Failure::refused(format_args!("--point: {reason}"));
         let point = match point {
-            "" => Vec::new(),
+            "" => Selection::default(),
             text => parse_point(text).map_err(|error| refuse(error.to_string()))?,
         };
         let chosen = sweep

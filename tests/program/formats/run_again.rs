@@ -136,3 +136,66 @@ fn the_point_must_be_one_of_the_sweep() {
         .complains("the sweep's own record");
     place.phase(&["run"]).code(2).complains("<SCENE>");
 }
+
+/// Symptom: `--point ...,seed=9007199254740993` ran the seed ...992 and said "same bits as in the
+/// sweep"; of two neighbouring values of an axis the first was run for both. Cause: seeds were
+/// compared as floating point numbers, and values within a tolerance.
+#[test]
+fn a_point_is_the_run_of_its_seed_and_value_alone() {
+    let place = Workplace::new();
+    let seeds = [9_007_199_254_740_992, 9_007_199_254_740_993];
+    let omegas = [0.3, 0.1 + 0.2];
+    let sweep = TinySweep {
+        omegas: omegas.to_vec(),
+        seeds: seeds.to_vec(),
+        duration: 0.1,
+        ..TinySweep::default()
+    };
+    place.write("tiny.toml", &sweep.text());
+    place.phase(&["sweep", "tiny.toml", "--no-plot"]).code(0);
+    assert_eq!(place.records("results/tiny").len(), 4);
+    let labels = place.read("results/tiny/labels.csv");
+    for omega in omegas {
+        for seed in seeds {
+            assert!(labels.contains(&format!(",{omega},{seed},")), "{labels}");
+            let point = format!("omega={omega},seed={seed}");
+            let run = ["run", "--from", "results/tiny", "--point", &point, "--json"];
+            let answer = place.phase(&run).code(0);
+            let answer: serde_json::Value = serde_json::from_str(&answer.stdout).unwrap();
+            assert_eq!(
+                (&answer["seed"], &answer["same_bits"]),
+                (&seed.into(), &true.into())
+            );
+            let path = format!("results/tiny/runs/omega-{omega}_seed-{seed}.h5");
+            assert_eq!(answer["record"], path);
+            let scene = read_record(&place.path(&path)).unwrap().scene;
+            let swirl = scene.dem.effects.swirl.unwrap();
+            assert_eq!((scene.seed, swirl.omega.to_bits()), (seed, omega.to_bits()));
+        }
+    }
+    let refused = |point: &str, message: &str| {
+        let run = ["run", "--from", "results/tiny", "--point", point];
+        place.phase(&run).code(2).complains(message);
+        let plot = [
+            "plot",
+            "results/tiny",
+            "--figure",
+            "speeds",
+            "--point",
+            point,
+        ];
+        place.phase(&plot).code(2);
+    };
+    refused(
+        "omega=.3,seed=9007199254740994",
+        "`seed` is never 9007199254740994; it takes 9007199254740992, 9007199254740993",
+    );
+    refused(
+        "omega=.3000000001",
+        "`omega` is never 0.3000000001; it takes 0.3, 0.30000000000000004",
+    );
+    refused(
+        "omega=.3,omega=.30000000000000004",
+        "the point gives `omega` twice",
+    );
+}

@@ -552,7 +552,7 @@ fn failed_runs_are_a_label() {
 fn a_sweep_survives_json_with_its_runs() {
     let mut sweep = load(&tiny(2.0, REFINE));
     assert_eq!(sweep.jobs().unwrap().len(), 6);
-    let point = [("omega".to_owned(), 4.0)];
+    let point = phase::sweep::parse_point("omega=4").unwrap();
     assert_eq!(sweep.select(&point).unwrap().jobs().unwrap().len(), 2);
     let text = serde_json::to_string(&sweep).unwrap();
     assert_eq!(serde_json::from_str::<Sweep>(&text).unwrap(), sweep);
