@@ -182,6 +182,16 @@ pub enum StoreError {
 }
 
 impl StoreError {
+    /// Whether no other file can be written there either: the disk is full, or the quota is spent.
+    /// Any other reason concerns one file alone.
+    pub fn concerns_all_files(&self) -> bool {
+        use io::ErrorKind::{QuotaExceeded, StorageFull};
+        let Self::DiskFull { source, .. } = self else {
+            return false;
+        };
+        matches!(source.kind(), QuotaExceeded | StorageFull)
+    }
+
     pub(crate) fn reading(path: &Path, source: io::Error) -> Self {
         Self::Read {
             path: path.to_owned(),

@@ -119,6 +119,11 @@ impl<'a, T: Table> Rows<'a, T> {
 }
 
 impl<T: Table> Results for Rows<'_, T> {
+    fn have_own_files(&self) -> bool {
+        // They are rows of one table.
+        false
+    }
+
     fn keep(&self, job: &Job, record: &RunRecord) -> Result<(), StoreError> {
         let row = self.table.row(job, record);
         let mut state = self.lock();

@@ -45,8 +45,8 @@ pub enum PoolError {
 impl Pool<'_> {
     /// Runs what is pending in the plan, and stores each record as soon as it is there.
     ///
-    /// A job that fails does not stop the others. A file that cannot be written ends the sweep:
-    /// runs under way may end, and no more are started.
+    /// A job that fails does not stop the others; one whose record cannot be written has failed. A
+    /// full disk ends the sweep: runs under way may end, and no more are started.
     ///
     /// # Errors
     /// Before anything is run, if a record of another scene is in the way or the folder
@@ -70,11 +70,9 @@ impl Pool<'_> {
             interval: self.checkpoint_interval,
         };
         for (job, _) in plan.done() {
-            // Left by a process that was killed between record and removal.
-            records
-                .checkpoints(job)
-                .remove()
-                .map_err(FolderError::from)?;
+            // Left by a process that was killed between record and removal. One that cannot be
+            // removed does no harm: the job is done.
+            let _ = records.checkpoints(job).remove();
         }
         let pending: Vec<&Job> = plan.pending().collect();
         let workers = Workers {
@@ -96,6 +94,10 @@ struct Records<'a> {
 }
 
 impl Results for Records<'_> {
+    fn have_own_files(&self) -> bool {
+        true
+    }
+
     fn keep(&self, job: &Job, record: &RunRecord) -> Result<(), StoreError> {
         store::write_record(record, &self.folder.record(&job.id))
     }

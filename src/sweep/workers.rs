@@ -15,6 +15,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Where the results of jobs are kept.
 pub(crate) trait Results: Sync {
+    /// Whether each result has a file of its own, so that one that cannot be written concerns its
+    /// job alone.
+    fn have_own_files(&self) -> bool;
+
     /// Stores the result of a run that has ended.
     fn keep(&self, job: &Job, record: &RunRecord) -> Result<(), StoreError>;
 
@@ -74,8 +78,11 @@ pub struct Report {
     pub work: u64,
     /// Processor time of the finished runs (s).
     pub cpu_seconds: f64,
-    /// Why no more jobs were started, if a file could not be written.
+    /// Why no more jobs were started: the disk is full, or the one file of all results cannot be
+    /// written.
     pub halted: Option<StoreError>,
+    /// Why the failures could not be noted, if they could not.
+    pub unnoted: Option<StoreError>,
 }
 
 /// Makes the run of a job, at its start.
@@ -85,8 +92,8 @@ impl Workers<'_> {
     /// Runs jobs, each as `begin` makes it or from its checkpoint, and keeps each result as soon as
     /// it is there.
     ///
-    /// A job that fails does not stop the others. A file that cannot be written ends the work: runs
-    /// under way may end, and no more are started.
+    /// A job that fails does not stop the others; one whose result cannot be written has failed. A
+    /// full disk ends the work: runs under way may end, and no more are started.
     ///
     /// # Errors
     /// If the system gives no threads.
@@ -121,6 +128,7 @@ impl Workers<'_> {
             work: tally.work,
             cpu_seconds: tally.cpu_seconds,
             halted: tally.halted,
+            unnoted: tally.unnoted,
         })
     }
 
@@ -150,10 +158,15 @@ impl Workers<'_> {
                 (self.watch)(Event::Finished(job, &record, left));
                 Ending::Finished(record, resumed)
             }
-            // What does not fit into a record concerns this job alone, unlike a full disk.
-            Err(error @ StoreError::Content { .. }) => fail(error.to_string()),
-            Err(error) => Ending::NotStored(error),
+            Err(error) if self.concerns_all_jobs(&error) => Ending::NotStored(error),
+            Err(error) => fail(error.to_string()),
         }
+    }
+
+    /// Whether no other result could be stored either.
+    fn concerns_all_jobs(&self, error: &StoreError) -> bool {
+        let is_of_content = matches!(error, StoreError::Content { .. });
+        error.concerns_all_files() || !(self.results.have_own_files() || is_of_content)
     }
 
     /// The run of a job: at its checkpoint, if there is a good one and it may be used.
@@ -199,8 +212,13 @@ impl Workers<'_> {
     fn fail(&self, tally: &mut Tally, position: usize, failure: Failure) {
         tally.failures.insert(position, failure);
         let failures: Vec<_> = tally.failures.values().cloned().collect();
-        if let Err(error) = self.results.note_failures(&failures) {
-            tally.halted = Some(error);
+        tally.unnoted = self.results.note_failures(&failures).err();
+        if tally
+            .unnoted
+            .as_ref()
+            .is_some_and(StoreError::concerns_all_files)
+        {
+            tally.halted = tally.unnoted.take();
         }
     }
 }
@@ -224,6 +242,7 @@ struct Tally {
     work: u64,
     cpu_seconds: f64,
     halted: Option<StoreError>,
+    unnoted: Option<StoreError>,
 }
 
 impl Tally {
@@ -245,4 +264,118 @@ pub(crate) fn panic_message(panic: &(dyn std::any::Any + Send)) -> &str {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     text.or_else(|| panic.downcast_ref::<&str>().copied())
         .unwrap_or("panicked")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+    use crate::sweep::Sweep;
+    use std::io::{Error, ErrorKind};
+    use std::path::{Path, PathBuf};
+    use std::time::Duration;
+
+    /// Results of which that of seed 2 cannot be written, for this reason.
+    struct Faulty {
+        folder: PathBuf,
+        kind: ErrorKind,
+        have_own_files: bool,
+    }
+
+    impl Results for Faulty {
+        fn have_own_files(&self) -> bool {
+            self.have_own_files
+        }
+
+        fn keep(&self, job: &Job, _: &RunRecord) -> Result<(), StoreError> {
+            let path = self.folder.join(&job.id);
+            match (job.seed, self.kind) {
+                (2, ErrorKind::StorageFull | ErrorKind::FileTooLarge) => {
+                    let source = Error::from(self.kind);
+                    Err(StoreError::DiskFull { path, source })
+                }
+                (2, kind) => Err(StoreError::Write {
+                    path,
+                    source: kind.into(),
+                }),
+                _ => Ok(()),
+            }
+        }
+
+        fn checkpoints(&self, job: &Job) -> Checkpoints {
+            Checkpoints::beside(&self.folder.join(&job.id), Duration::from_secs(60))
+        }
+
+        fn note_failures(&self, _: &[Failure]) -> Result<(), StoreError> {
+            match self.kind {
+                ErrorKind::IsADirectory => Err(StoreError::Write {
+                    path: Path::new("failed.csv").to_owned(),
+                    source: ErrorKind::IsADirectory.into(),
+                }),
+                _ => Ok(()),
+            }
+        }
+    }
+
+    /// What became of four jobs with seeds 1 to 4, one after the other.
+    fn report(kind: ErrorKind, have_own_files: bool) -> Report {
+        let place = tempfile::tempdir().unwrap();
+        let scene: Scene = toml::from_str(
+            r#"
+            spheres = { count = 1, radius = 0.004, density = 1000.0 }
+            start = { kind = "list", spheres = [{ position = [0.0, 0.0, 1.0] }] }
+            gravity = { acceleration = 9.8 }
+            time = { dt = 1e-3, duration = 0.01, frame_interval = 1e-3 }
+            "#,
+        )
+        .unwrap();
+        let sweep = Sweep {
+            seeds: vec![1, 2, 3, 4],
+            ..Sweep::of_scene(scene)
+        };
+        let jobs = sweep.jobs().unwrap();
+        let workers = Workers {
+            results: &Faulty {
+                folder: place.path().to_owned(),
+                kind,
+                have_own_files,
+            },
+            count: 1,
+            stop: &AtomicBool::new(false),
+            resume: true,
+            watch: &|_| {},
+        };
+        let jobs: Vec<&Job> = jobs.iter().collect();
+        workers.run(&jobs, &|job| Run::new(&job.scene)).unwrap()
+    }
+
+    #[test]
+    fn a_result_that_cannot_be_written_fails_its_job() {
+        for kind in [
+            ErrorKind::PermissionDenied,
+            ErrorKind::InvalidFilename,
+            ErrorKind::FileTooLarge,
+            ErrorKind::IsADirectory,
+        ] {
+            let report = report(kind, true);
+            assert_eq!((report.finished, report.left), (3, 0), "{kind}");
+            assert_eq!(report.failures.len(), 1);
+            assert_eq!(report.failures[0].seed, 2);
+            assert!(report.halted.is_none());
+            // That the failure could not be noted stops nothing.
+            assert_eq!(report.unnoted.is_some(), kind == ErrorKind::IsADirectory);
+        }
+    }
+
+    #[test]
+    fn a_full_disk_or_one_table_of_all_ends_the_work() {
+        for (kind, have_own_files) in [
+            (ErrorKind::StorageFull, true),
+            (ErrorKind::PermissionDenied, false),
+        ] {
+            let report = report(kind, have_own_files);
+            assert_eq!((report.finished, report.left), (1, 3), "{kind}");
+            assert!(report.halted.is_some() && report.failures.is_empty());
+        }
+    }
 }

@@ -14,6 +14,7 @@ mod drainages;
 mod editors;
 mod figures;
 mod fit;
+mod folders;
 /// How the program writes numbers; its unit tests run here.
 #[path = "../../src/cli/format.rs"]
 #[allow(dead_code, reason = "the program uses all of it")]

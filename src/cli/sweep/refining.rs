@@ -5,7 +5,7 @@ use crate::cli::exit::Failure;
 use crate::cli::{format, plot, refined};
 use phase::refine::Finish;
 use phase::sweep::{
-    Folder, Job, Plan, Refinement, RefinementError, Refining, Standing, Step, Sweep, write_failures,
+    Folder, Job, Plan, Refinement, RefinementError, Refining, Standing, Step, Sweep,
 };
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
@@ -42,18 +42,13 @@ impl Rounds<'_> {
                 super::rounds::tell_of_plan(&plan, console);
             }
             let round = self.run_part(&plan, sweep, self.part(sweep, &refinement))?;
-            let is_whole = round.report.left == 0 && round.report.halted.is_none();
-            run = Some(match run {
+            let mut all = match run {
                 Some(run) => run.and(round),
                 None => round,
-            });
-            if let Some(run) = &run
-                && !run.report.failures.is_empty()
-            {
-                let failures = &run.report.failures;
-                write_failures(&sweep.axes, failures, &folder.failures())
-                    .map_err(Failure::failed)?;
-            }
+            };
+            all.note_failures(sweep, folder);
+            let is_whole = all.report.left == 0 && all.report.halted.is_none();
+            run = Some(all);
             if !is_whole {
                 break None;
             }

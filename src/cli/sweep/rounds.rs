@@ -9,9 +9,9 @@ use phase::record::{Outcome, RunRecord};
 use phase::run::model_of;
 use phase::sweep::{
     Event, Failure as JobFailure, Folder, Job, Labelling, Plan, Pool, PoolError, Report, Standing,
-    Sweep, describe,
+    Sweep, describe, write_failures,
 };
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -40,7 +40,6 @@ impl Rounds<'_> {
         tell_of_plan(&plan, self.console);
         let run = self.run_plan(&plan, sweep)?;
         let is_whole = run.report.left == 0
-            && run.report.failures.is_empty()
             && run.report.halted.is_none()
             && !self.stop.load(Ordering::Relaxed);
         if sweep.border_seeds.is_empty() || !is_whole {
@@ -48,8 +47,16 @@ impl Rounds<'_> {
         }
         let plan = self.plan_of_borders(sweep, &plan)?;
         let done_before = plan.labelled().count().saturating_sub(run.report.finished);
-        let later = self.run_plan(&plan, sweep)?;
-        let run = run.and(later);
+        // Jobs that failed are not tried again at once.
+        let failures = run.report.failures.iter();
+        let failed: HashSet<&str> = failures.map(|failure| failure.id.as_str()).collect();
+        let mut others = plan.clone();
+        others
+            .jobs
+            .retain(|(job, _)| !failed.contains(job.id.as_str()));
+        let later = self.run_plan(&others, sweep)?;
+        let mut run = run.and(later);
+        run.note_failures(sweep, self.folder);
         Ok((plan, Run { done_before, ..run }))
     }
 
@@ -194,6 +201,19 @@ impl Run {
         }
     }
 
+    /// Writes the table of the failures of all rounds: each round writes that of its own.
+    pub(super) fn note_failures(&mut self, sweep: &Sweep, folder: &Folder) {
+        let report = &mut self.report;
+        if report.failures.is_empty() {
+            return;
+        }
+        let written = write_failures(&sweep.axes, &report.failures, &folder.failures());
+        match written.err() {
+            Some(error) if error.concerns_all_files() => report.halted = Some(error),
+            other => report.unnoted = other,
+        }
+    }
+
     /// Prints what was done and names what went wrong.
     pub(super) fn print(
         &self,
@@ -250,6 +270,9 @@ impl Run {
         name_first(&names(failures), |name| {
             console.error(format_args!("failed: {name}"));
         });
+        if let Some(error) = &self.report.unnoted {
+            console.error(format_args!("the table of failed jobs is missing: {error}"));
+        }
         Ok(())
     }
 }

@@ -1,0 +1,3 @@
+//! Folders of results: several at once, and folders that hold files of other programs.
+
+mod failures;
