@@ -61,8 +61,11 @@ fn share(text: &str) -> Result<f64, String> {
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let ablation = Ablation::load(&arguments.file, arguments.seeds).map_err(Failure::refused)?;
     let options = &arguments.options;
-    let signature = ("ablation.csv", "a table of ablations", &b"without,"[..]);
-    let place = Place::open("ablation", &arguments.file, options, signature, console)?;
+    let files = (
+        &["runs.csv", "ablation.csv", "ablation.json"][..],
+        &["ablation"][..],
+    );
+    let place = Place::open("ablation", &arguments.file, options, files, console)?;
     let known = accuracy::known_runs(&ablation.comparison, options, &place)?;
     for Skipped { name, reason } in &ablation.skipped {
         console.note(format_args!("not tried: {name}: {reason}"));
@@ -208,5 +211,5 @@ struct Answer<'a> {
     tally: &'a Tally,
     #[serde(flatten)]
     kept: Kept<'a>,
-    files: Vec<PathBuf>,
+    files: Vec<String>,
 }

@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::study::{self, Options, Place, Tally};
-use super::{folders, format, plot};
+use super::{format, plot};
 use phase::plot::accuracy as figures;
 use phase::record::{Program, RunRecord};
 use phase::store;
@@ -37,8 +37,11 @@ pub(crate) struct Arguments {
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let study = accuracy::load(&arguments.file).map_err(Failure::refused)?;
     let options = &arguments.options;
-    let signature = ("accuracy.csv", "a table of accuracy", &b"setting,"[..]);
-    let place = Place::open("accuracy", &arguments.file, options, signature, console)?;
+    let files = (
+        &["runs.csv", "accuracy.csv", "accuracy.json"][..],
+        &figures::NAMES[..],
+    );
+    let place = Place::open("accuracy", &arguments.file, options, files, console)?;
     match &study.subject {
         Subject::Scene(comparison) => of_scene(&study, comparison, options, &place, console),
         Subject::Case(settings) => of_case(&study, settings.len(), options, &place, console),
@@ -109,7 +112,6 @@ pub(super) fn known_runs(
     place: &Place,
 ) -> Result<KnownRuns, Failure> {
     let table = Comparing::table(&place.folder);
-    folders::refuse_to_replace(&table, "a table of runs", b"setting,")?;
     match options.force {
         true => Ok(KnownRuns::default()),
         false => read_runs(comparison, &table).map_err(Failure::refused),
@@ -136,7 +138,7 @@ pub(super) fn run(
         format!("{}: {}", label.unwrap_or("not measured"), name(job))
     };
     let is_known = |job: &Job| ids.contains(&job.id);
-    study::warn_of_days(comparison, &is_known, options.workers(), console)?;
+    study::warn_of_days(comparison, &is_known, options.workers(), console);
     let jobs = &comparison.jobs;
     let (report, seconds) =
         study::with_progress(jobs, &is_known, &name, &ended, console, |watch| {
@@ -187,11 +189,16 @@ fn conclude(
     if options.no_plot {
         return Ok(());
     }
-    for (name, figure) in figures::draw_all(study, comparison, evaluation, &Program::current()) {
-        let figure = figure.map_err(Failure::failed)?;
-        plot::write(&figure, |end| place.file(&format!("{name}.{end}")), console)?;
+    let drawn = figures::draw_all(study, comparison, evaluation, &Program::current());
+    let mut written = Ok(());
+    for (name, figure) in drawn {
+        let figure = figure.map_err(Failure::failed);
+        let path = |end: &str| place.file(&format!("{name}.{end}"));
+        let now = figure.and_then(|figure| plot::write(&figure, path, console));
+        // One that cannot be drawn does not stop the others.
+        written = written.and(now);
     }
-    Ok(())
+    written
 }
 
 /// A line for every setting, and the sentence.
@@ -243,5 +250,5 @@ struct Answer<'a> {
     #[serde(flatten)]
     tally: Tally,
     evaluation: Option<&'a Evaluation>,
-    files: Vec<PathBuf>,
+    files: Vec<String>,
 }

@@ -5,9 +5,14 @@ mod dumps;
 
 use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
+use super::folders::{self, Entry, Undone};
 use super::format;
 use phase::classify::{ClassifyError, Label, LabelTable};
-use phase::sweep::{Folder, Job, Labelled, Labelling, LabellingError, Learnt, Since, Sweep, work};
+use phase::store::Lock;
+use phase::sweep::{
+    Folder, Job, Labelled, Labelling, LabellingError, Learnt, Since, Sweep, refuse_to_lose_labels,
+    work,
+};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -57,14 +62,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         Some(scene) => {
             let sieves = edited.map(|sweep| sweep.sieves).unwrap_or_default();
             let labelled = dumps::label(&arguments.dir, scene, &sieves, workers, console)?;
-            vec![Summary::new(&Folder::new(&arguments.dir), &labelled)]
+            let summary = Summary::new(&Folder::new(&arguments.dir), &labelled);
+            vec![Entry::Done(summary)]
         }
         None => label_folders(&arguments.dir, edited.as_ref(), workers, console)?,
     };
-    let exit = match folders.iter().all(|folder| folder.problems.is_empty()) {
-        true => Exit::Done,
-        false => Exit::Failed,
-    };
+    let exit = Entry::exit(&folders, |summary| summary.problems.is_empty());
     console.answer(&Answer {
         folders,
         files: console.files(),
@@ -78,45 +81,95 @@ fn label_folders(
     edited: Option<&Sweep>,
     workers: usize,
     console: &Console,
-) -> Result<Vec<Summary>, Failure> {
-    let mut folders = Vec::new();
-    for folder in Folder::find(dir).map_err(|error| dumps::hint(dir, &error))? {
-        let mut sweep = folder.read_sweep().map_err(Failure::failed)?;
-        // The sweep is kept with its new thresholds, so that the labels are always those it says.
-        let mut lock = None;
-        if let Some(edited) = edited {
-            let edited = refined_alike(edited, &sweep);
-            let keys = sweep.keys_of_other_runs(&edited);
-            if !keys.is_empty() {
-                return Err(Failure::refused(format_args!(
-                    "{}: the runs in this folder are not those of the edited sweep; they differ in \
-                     {}. Thresholds may change, runs may not: `phase sweep` makes new ones",
-                    folder.root().display(),
-                    keys.join(", ")
-                )));
-            }
-            lock = Some(folder.lock().map_err(Failure::refused)?);
-            // The runs at borders stay those that were run, and so do those of a refined sweep.
-            sweep = Sweep {
-                border_points: sweep.border_points,
-                refine: sweep.refine,
-                ..edited
-            };
+) -> Result<Vec<Entry<Summary>>, Failure> {
+    let found = Folder::find(dir).map_err(|error| dumps::hint(dir, &error))?;
+    let label = |ToLabel { sweep, jobs, .. }: &ToLabel, folder: &Folder| {
+        label_folder(folder, sweep, jobs, workers, console)
+    };
+    let Some(edited) = edited else {
+        return folders::go_through(dir, found, console, |folder| {
+            let sweep = sweep_with_records(folder)?;
+            let labelled = label(&ToLabel::new(sweep, None)?, folder)?;
+            Ok(Summary::new(folder, &labelled))
+        });
+    };
+    // All are checked and locked before the first is changed.
+    let mut edits = Vec::new();
+    for folder in &found {
+        edits.push(match sweep_with_records(folder) {
+            Ok(sweep) => Ok(edit(folder, sweep, edited)?),
+            Err(Undone::Failed(failure)) => return Err(failure),
+            Err(kept) => Err(kept),
+        });
+    }
+    let mut edits = edits.into_iter();
+    folders::go_through(dir, found, console, |folder| {
+        let mut edit = edits.next().expect("one for each folder")?;
+        let labelled = label(&edit, folder)?;
+        if let Ok(Some(learnt)) = Learnt::of(&edit.sweep, &labelled.table)
+            && let Some(refining) = &mut edit.sweep.refine
+        {
+            refining.widths = phase::refine::widths(&learnt.lattice, &learnt.map);
         }
+        folder.write_sweep(&edit.sweep).map_err(Failure::failed)?;
+        Ok(Summary::new(folder, &labelled))
+    })
+}
+
+/// A sweep whose runs are to be labelled.
+struct ToLabel {
+    sweep: Sweep,
+    jobs: Vec<Job>,
+    /// The right to change its folder, if the sweep has been edited.
+    _lock: Option<Lock>,
+}
+
+impl ToLabel {
+    fn new(sweep: Sweep, lock: Option<Lock>) -> Result<Self, Failure> {
         let jobs = sweep.jobs().map_err(Failure::refused)?;
         sweep.check_sieves(&jobs).map_err(cannot_label)?;
-        let labelled = label_folder(&folder, &sweep, &jobs, workers, console)?;
-        if lock.is_some() {
-            if let Ok(Some(learnt)) = Learnt::of(&sweep, &labelled.table)
-                && let Some(refining) = &mut sweep.refine
-            {
-                refining.widths = phase::refine::widths(&learnt.lattice, &learnt.map);
-            }
-            folder.write_sweep(&sweep).map_err(Failure::failed)?;
-        }
-        folders.push(Summary::new(&folder, &labelled));
+        Ok(Self {
+            sweep,
+            jobs,
+            _lock: lock,
+        })
     }
-    Ok(folders)
+}
+
+/// The sweep of a folder with the thresholds of an edited one, which it keeps, so that the labels
+/// are always those that it says. Refuses one that has other runs.
+fn edit(folder: &Folder, sweep: Sweep, edited: &Sweep) -> Result<ToLabel, Failure> {
+    let edited = refined_alike(edited, &sweep);
+    let keys = sweep.keys_of_other_runs(&edited);
+    if !keys.is_empty() {
+        return Err(Failure::refused(format_args!(
+            "{}: the runs in this folder are not those of the edited sweep; they differ in {}. \
+             Thresholds may change, runs may not: `phase sweep` makes new ones",
+            folder.root().display(),
+            keys.join(", ")
+        )));
+    }
+    let lock = folder.lock().map_err(Failure::refused)?;
+    // The runs at borders stay those that were run, and so do those of a refined sweep.
+    let sweep = Sweep {
+        border_points: sweep.border_points,
+        refine: sweep.refine,
+        ..edited
+    };
+    ToLabel::new(sweep, Some(lock))
+}
+
+/// The sweep of a folder. Refuses to label runs whose records are not there: where none of them is,
+/// as in results that were published, the labels are kept.
+fn sweep_with_records(folder: &Folder) -> Result<Sweep, Undone> {
+    let sweep = folder.read_sweep().map_err(Failure::failed)?;
+    match refuse_to_lose_labels(folder, []) {
+        Ok(()) => Ok(sweep),
+        Err(error @ LabellingError::Lost { rows, lost, .. }) if rows == lost => {
+            Err(Undone::Kept(cannot_write(error)))
+        }
+        Err(error) => Err(Undone::Failed(cannot_write(error))),
+    }
 }
 
 /// An edited sweep, refined if that of the folder was and the edited one does not say so.
@@ -147,15 +200,15 @@ pub(super) fn cannot_write(error: LabellingError) -> Failure {
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Answer {
-    folders: Vec<Summary>,
+    folders: Vec<Entry<Summary>>,
     /// The files written.
-    files: Vec<PathBuf>,
+    files: Vec<String>,
 }
 
 /// The labels of a folder in numbers.
 #[derive(Serialize)]
 pub(super) struct Summary {
-    folder: PathBuf,
+    folder: String,
     /// Runs that have a label.
     labelled: usize,
     /// Runs by label; all labels of the family are there.
@@ -189,7 +242,7 @@ impl Summary {
     pub(super) fn new(folder: &Folder, labelled: &Labelled) -> Self {
         let labels = counts(&labelled.table).into_iter();
         let mut summary = Self {
-            folder: folder.root().to_owned(),
+            folder: folder.root().display().to_string(),
             labelled: labelled.table.rows.len(),
             labels: labels.map(|(label, runs)| (label.name, runs)).collect(),
             not_run: labelled.missing,

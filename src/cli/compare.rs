@@ -217,7 +217,7 @@ struct Answer {
     records: Vec<String>,
     rows: Vec<Entry>,
     /// The files written.
-    files: Vec<PathBuf>,
+    files: Vec<String>,
 }
 
 /// A quantity of all records.

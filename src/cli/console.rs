@@ -81,9 +81,13 @@ impl Console {
         self.result(path.display());
     }
 
-    /// The files written so far.
-    pub(crate) fn files(&self) -> Vec<PathBuf> {
-        self.locked_files().clone()
+    /// The files written so far, as text: JSON has no place for names that are not UTF-8.
+    pub(crate) fn files(&self) -> Vec<String> {
+        let files = self.locked_files();
+        files
+            .iter()
+            .map(|file| file.display().to_string())
+            .collect()
     }
 
     fn locked_files(&self) -> MutexGuard<'_, Vec<PathBuf>> {
@@ -104,7 +108,7 @@ impl Console {
     pub(crate) fn answer_files(&self) {
         #[derive(Serialize)]
         struct Answer {
-            files: Vec<PathBuf>,
+            files: Vec<String>,
         }
         let files = self.files();
         self.answer(&Answer { files });

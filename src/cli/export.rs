@@ -2,10 +2,12 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
+use super::plot::ANOTHER_FOLDER;
 use super::{folders, format};
 use phase::observe::Snapshot;
 use phase::record::{RunRecord, States};
 use phase::store::{self, DumpName, StoreError};
+use serde::Serialize;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -90,6 +92,28 @@ impl Format {
         }
     }
 
+    /// Refuses to replace what is no export of this format.
+    fn check(self, target: &Path) -> Result<(), Failure> {
+        let (kind, signature) = self.signature();
+        if target.exists() && !signature.is_empty() {
+            folders::refuse_to_replace(target, kind, signature)?;
+        }
+        let names = ["observations", "fixed"];
+        let files = match self {
+            Self::Xyz => vec![target.to_owned(), self.beside(target, "fixed")],
+            Self::Csv => names.map(|name| self.beside(target, name)).to_vec(),
+            _ => Vec::new(),
+        };
+        folders::refuse_foreign(Path::new(""), files, ANOTHER_FOLDER)
+    }
+
+    /// A file beside that of the states, with this at the end of its name.
+    fn beside(self, target: &Path, name: &str) -> PathBuf {
+        let mut stem = target.file_stem().unwrap_or_default().to_owned();
+        stem.push(format!("-{name}.{}", self.extension()));
+        target.with_file_name(stem)
+    }
+
     /// Extension of the file that stands for the whole.
     fn extension(self) -> &'static str {
         match self {
@@ -109,17 +133,51 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             "a dump holds every frame, as the sieves need them: leave out --every",
         ));
     }
-    let targets = targets(arguments)?;
-    for (path, target) in arguments.records.iter().zip(&targets) {
-        let record = store::read_record(path).map_err(Failure::failed)?;
-        export(&record, path, target, arguments, console)?;
+    let mut failed = Vec::new();
+    for (path, target) in arguments.records.iter().zip(targets(arguments)?) {
+        let exported = target.and_then(|target| export(path, &target, arguments, console));
+        match exported {
+            Ok(()) => {}
+            // One record that cannot be exported does not stop the others.
+            Err(failure) if arguments.records.len() > 1 => {
+                console.error(&failure.message);
+                failed.push(FailedRecord {
+                    record: path.display().to_string(),
+                    reason: failure.message,
+                });
+            }
+            Err(failure) => return Err(failure),
+        }
     }
-    console.answer_files();
-    Ok(Exit::Done)
+    let exit = match failed.is_empty() {
+        true => Exit::Done,
+        false => Exit::Failed,
+    };
+    console.answer(&Answer {
+        failed,
+        files: console.files(),
+    });
+    Ok(exit)
 }
 
-/// Where every record goes. Refuses before anything is written what cannot go well.
-fn targets(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Answer {
+    /// Of several records those that could not be exported.
+    failed: Vec<FailedRecord>,
+    /// The files written.
+    files: Vec<String>,
+}
+
+/// A record that could not be exported, and why.
+#[derive(Serialize)]
+struct FailedRecord {
+    record: String,
+    reason: String,
+}
+
+/// Where each record goes, or why it goes nowhere. Refuses records that would go to one place.
+fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failure> {
     let extension = arguments.to.extension();
     if let Some(out) = arguments.out.as_ref().filter(|out| !out.is_dir())
         && out.extension().is_some_and(|it| it != extension)
@@ -132,8 +190,10 @@ fn targets(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
     let mut written: HashMap<PathBuf, &Path> = HashMap::new();
     let mut targets = Vec::new();
     for path in &arguments.records {
-        let target = target(arguments, path).map_err(Failure::refused)?;
-        if let Some(other) = written.insert(target.clone(), path) {
+        let target = target(arguments, path).map_err(Failure::refused);
+        if let Ok(target) = &target
+            && let Some(other) = written.insert(target.clone(), path)
+        {
             return Err(Failure::refused(format_args!(
                 "{} and {} would both be written to {}; export them one by one, each to its own \
                  --out",
@@ -142,11 +202,7 @@ fn targets(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
                 target.display()
             )));
         }
-        let (kind, signature) = arguments.to.signature();
-        if target.exists() && !signature.is_empty() {
-            folders::refuse_to_replace(&target, kind, signature)?;
-        }
-        targets.push(target);
+        targets.push(target.and_then(|target| arguments.to.check(&target).map(|()| target)));
     }
     Ok(targets)
 }
@@ -181,12 +237,12 @@ fn target(arguments: &Arguments, record_path: &Path) -> Result<PathBuf, StoreErr
 }
 
 fn export(
-    record: &RunRecord,
     path: &Path,
     target: &Path,
     arguments: &Arguments,
     console: &Console,
 ) -> Result<(), Failure> {
+    let record = &store::read_record(path).map_err(Failure::failed)?;
     let states = record.states();
     let every = arguments.every.unwrap_or(1);
     let all = match arguments.to {
@@ -254,8 +310,7 @@ fn write(
     .map_err(Failure::failed)?;
     let mut written = vec![target.to_owned()];
     for (name, write) in more(record, format) {
-        let stem = target.file_stem().unwrap_or_default().to_string_lossy();
-        let path = target.with_file_name(format!("{stem}-{name}.{}", format.extension()));
+        let path = format.beside(target, name);
         write(record, &path).map_err(Failure::failed)?;
         written.push(path);
     }

@@ -235,7 +235,7 @@ fn scene(drainage: &Drainage<'_>, fit: &SpotFit) -> String {
 struct Answer {
     parameters: Vec<Entry>,
     /// The files written.
-    files: Vec<PathBuf>,
+    files: Vec<String>,
 }
 
 /// A parameter.

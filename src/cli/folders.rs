@@ -1,10 +1,135 @@
-//! Folders for what commands write.
+//! Folders for what commands write, and folders of results that commands go through.
 
-use super::exit::Failure;
+use super::console::Console;
+use super::exit::{Exit, Failure};
 use phase::store;
+use phase::sweep::Folder;
+use serde::Serialize;
 use std::fs::File;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// What became of a results folder, as `--json` prints it.
+#[derive(Serialize)]
+#[serde(tag = "outcome", rename_all = "kebab-case")]
+pub(super) enum Entry<T> {
+    Done(T),
+    Kept(Reason),
+    Failed(Reason),
+}
+
+/// Why nothing was done with a folder.
+#[derive(Serialize)]
+pub(super) struct Reason {
+    folder: String,
+    reason: String,
+}
+
+/// Why nothing is done with a folder.
+pub(super) enum Undone {
+    /// It is to stay as it is. That is a failure only if the folder itself was named.
+    Kept(Failure),
+    Failed(Failure),
+}
+
+impl From<Failure> for Undone {
+    fn from(failure: Failure) -> Self {
+        Self::Failed(failure)
+    }
+}
+
+/// Calls `act` for the results folders found at `dir`. If `dir` holds them, one that fails is named
+/// and does not stop the others; if it is one itself, its failure is that of the command.
+pub(super) fn go_through<T>(
+    dir: &Path,
+    found: Vec<Folder>,
+    console: &Console,
+    mut act: impl FnMut(&Folder) -> Result<T, Undone>,
+) -> Result<Vec<Entry<T>>, Failure> {
+    let mut entries = Vec::new();
+    for folder in found {
+        let is_named_itself = folder.root() == dir;
+        entries.push(match act(&folder) {
+            Ok(done) => Entry::Done(done),
+            Err(Undone::Kept(failure) | Undone::Failed(failure)) if is_named_itself => {
+                return Err(failure);
+            }
+            Err(Undone::Kept(failure)) => {
+                let reason = Reason::new(&folder, &failure);
+                console.note(format_args!("kept: {}", reason.sentence()));
+                Entry::Kept(reason)
+            }
+            Err(Undone::Failed(failure)) => {
+                let reason = Reason::new(&folder, &failure);
+                console.error(reason.sentence());
+                Entry::Failed(reason)
+            }
+        });
+    }
+    Ok(entries)
+}
+
+impl<T> Entry<T> {
+    /// How the command ends after these folders; `is_whole` says of one whether nothing failed in
+    /// it.
+    pub(super) fn exit(entries: &[Self], is_whole: impl Fn(&T) -> bool) -> Exit {
+        let failed = |entry: &Self| match entry {
+            Self::Done(done) => !is_whole(done),
+            Self::Kept(_) => false,
+            Self::Failed(_) => true,
+        };
+        match entries.iter().any(failed) {
+            true => Exit::Failed,
+            false => Exit::Done,
+        }
+    }
+}
+
+impl Reason {
+    fn new(folder: &Folder, failure: &Failure) -> Self {
+        Self {
+            folder: folder.root().display().to_string(),
+            reason: failure.message.clone(),
+        }
+    }
+
+    /// The reason, which names the folder or a file of it first.
+    fn sentence(&self) -> String {
+        match self.reason.contains(&self.folder) {
+            true => self.reason.clone(),
+            false => format!("{}: {}", self.folder, self.reason),
+        }
+    }
+}
+
+/// Refuses to replace files of other programs that have these names in a folder. `remedy` says what
+/// else the user may do than move them away.
+pub(super) fn refuse_foreign(
+    folder: &Path,
+    names: impl IntoIterator<Item = impl AsRef<Path>>,
+    remedy: &str,
+) -> Result<(), Failure> {
+    let paths = names.into_iter().map(|name| folder.join(name));
+    let foreign = paths.filter(|path| !store::is_own_file(path));
+    let foreign: Vec<String> = foreign.map(|path| path.display().to_string()).collect();
+    let (this, it) = match foreign.len() {
+        0 => return Ok(()),
+        1 => ("this file", "it"),
+        _ => ("these files", "them"),
+    };
+    Err(Failure::refused(format_args!(
+        "{}: phase did not write {this} and would replace {it}; {remedy}, or move {it} away",
+        foreign.join(", ")
+    )))
+}
+
+/// The files of figures of these names: each is an SVG and a PNG.
+pub(super) fn files_of_figures(
+    names: impl IntoIterator<Item = impl AsRef<Path>>,
+) -> impl Iterator<Item = PathBuf> {
+    let files = |name: &Path| ["svg", "png"].map(|end| name.with_added_extension(end));
+    names.into_iter().flat_map(move |name| files(name.as_ref()))
+}
 
 /// Makes a folder and those above it, unless they are there.
 pub(super) fn make(folder: &Path) -> Result<(), Failure> {

@@ -1,12 +1,14 @@
 //! `phase plot`: draws the figures of a results folder or of the records of single runs.
 
+mod folder;
 mod records;
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
-use super::folders;
+use super::folders::{self, Entry};
 use super::runs::check_labels;
-use phase::classify::LabelTable;
+use folder::{FitEntry, FolderAnswer};
+use phase::classify::{Family, LabelTable};
 use phase::plot::{self, About, PlotError, Svg};
 use phase::record::Program;
 use phase::store;
@@ -77,26 +79,24 @@ pub(crate) struct Arguments {
     pub(super) json: bool,
 }
 
-/// The figure whose fits are printed.
-const BEVERLOO: &str = "beverloo";
-
 /// The figure of refined sweeps.
 const REFINED: &str = "refined";
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     arguments.check()?;
-    let (mut figures, mut fits) = (Vec::new(), Vec::new());
+    let mut answer = Answer::default();
     match &arguments.paths[..] {
-        paths if arguments.list => figures = list(paths.first().map(PathBuf::as_path), console)?,
-        [dir] if !dir.is_file() => fits = draw_folders(dir, arguments, console)?,
-        paths => records::draw(paths, arguments, console)?,
+        paths if arguments.list => answer.list(paths.first().map(PathBuf::as_path), console)?,
+        [dir] if !dir.is_file() => answer.draw_folders(dir, arguments, console)?,
+        paths => answer.problems = records::draw(paths, arguments, console)?,
     }
-    console.answer(&Answer {
-        figures,
-        fits,
-        files: console.files(),
-    });
-    Ok(Exit::Done)
+    let exit = match answer.problems[..] {
+        [] => Entry::exit(&answer.folders, |folder| folder.problems.is_empty()),
+        [_, ..] => Exit::Failed,
+    };
+    answer.files = console.files();
+    console.answer(&answer);
+    Ok(exit)
 }
 
 impl Arguments {
@@ -146,19 +146,23 @@ impl Arguments {
 }
 
 /// What `--json` prints.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 struct Answer {
     /// The figures that can be drawn, if they were asked for.
-    figures: Vec<Entry>,
+    figures: Vec<Listed>,
     /// The laws that were fitted for figures.
     fits: Vec<FitEntry>,
+    /// The results folders.
+    folders: Vec<Entry<FolderAnswer>>,
+    /// Figures of records that could not be drawn, and why.
+    problems: Vec<String>,
     /// The files written.
-    files: Vec<PathBuf>,
+    files: Vec<String>,
 }
 
 /// A figure that can be drawn.
 #[derive(Serialize)]
-struct Entry {
+struct Listed {
     name: &'static str,
     description: String,
     /// The runs that a figure of single runs shows without --point.
@@ -167,221 +171,169 @@ struct Entry {
     families: Vec<&'static str>,
 }
 
-/// A law that was fitted for a figure.
-#[derive(Serialize)]
-struct FitEntry {
-    folder: PathBuf,
-    figure: &'static str,
-    /// The line of the figure, by its values on the other axes.
-    line: String,
-    /// C and k, each with half of its 95 % interval.
-    c: f64,
-    c_half_width: f64,
-    k: f64,
-    k_half_width: f64,
-    /// Grains per area of the bed at rest (1/m2).
-    number_density: f64,
-    /// Root mean square residual (grains per second).
-    residual: f64,
-    /// Runs that were fitted, and runs without a rate.
-    runs: usize,
-    without_rate: usize,
-}
-
-/// Prints name and description of every figure, or of those that can be drawn of what is at `dir`.
-fn list(dir: Option<&Path>, console: &Console) -> Result<Vec<Entry>, Failure> {
-    let (known, of_record) = match dir {
-        None => (plot::figures(), records::of_one()),
-        Some(path) if path.is_file() => (Vec::new(), records::list(path)?),
-        Some(dir) => (drawable(dir)?, Vec::new()),
-    };
-    let mut entries: Vec<Entry> = known
-        .into_iter()
-        .map(|figure| Entry {
+impl Answer {
+    /// Prints name and description of every figure, or of those that can be drawn of what is at
+    /// `dir`.
+    fn list(&mut self, dir: Option<&Path>, console: &Console) -> Result<(), Failure> {
+        let (known, of_record) = match dir {
+            None => (plot::figures(), records::of_one()),
+            Some(path) if path.is_file() => (Vec::new(), records::list(path)?),
+            Some(dir) => (self.drawable(dir, console)?, Vec::new()),
+        };
+        let figures = known.into_iter().map(|figure| Listed {
             name: figure.name,
             description: figure.description,
             default_runs: figure.default_runs,
             families: figure.families.iter().map(|it| it.name).collect(),
-        })
-        .collect();
-    entries.extend(of_record);
-    for entry in &entries {
-        // What is listed for a folder applies to it.
-        let families = match entry.families.join(", ") {
-            names if dir.is_none() && !names.is_empty() => format!(" [{names}]"),
+        });
+        self.figures = figures.chain(of_record).collect();
+        for figure in &self.figures {
+            figure.print(dir.is_none(), console);
+        }
+        Ok(())
+    }
+
+    /// The figures that can be drawn of the results folders at `dir`: a try succeeds.
+    fn drawable(&mut self, dir: &Path, console: &Console) -> Result<Vec<About>, Failure> {
+        let mut is_drawn: Vec<(About, bool)> = plot::figures()
+            .into_iter()
+            .map(|figure| (figure, false))
+            .collect();
+        let found = Folder::find(dir).map_err(Failure::refused)?;
+        self.folders = folders::go_through(dir, found, console, |folder| {
+            let sweep = folder.read_sweep().map_err(Failure::failed)?;
+            let table = folder::read_labels(folder)?;
+            for (figure, is_drawn) in is_drawn.iter_mut().filter(|(_, is_drawn)| !is_drawn) {
+                let of_folder = (folder, &sweep, &table);
+                *is_drawn = drawn(figure.name, of_folder, (&[], None)).is_ok();
+            }
+            Ok(FolderAnswer::new(folder))
+        })?;
+        let drawn = is_drawn.into_iter().filter(|(_, is_drawn)| *is_drawn);
+        Ok(drawn.map(|(figure, _)| figure).collect())
+    }
+
+    /// Draws the figures of every results folder at `dir`.
+    fn draw_folders(
+        &mut self,
+        dir: &Path,
+        arguments: &Arguments,
+        console: &Console,
+    ) -> Result<(), Failure> {
+        let is_known = |name: &String| plot::figures().iter().any(|known| known.name == name);
+        if let Some(name) = arguments.figure.iter().find(|name| !is_known(name)) {
+            if records::OF_ONE.iter().any(|known| known.name == *name) {
+                return Err(Failure::refused(format_args!(
+                    "`{name}` is drawn from the record of one run; name its .h5 file instead of {}",
+                    dir.display()
+                )));
+            }
+            return Err(Failure::refused(format_args!(
+                "there is no figure `{name}`; `phase plot --list` names them all"
+            )));
+        }
+        let points = arguments.points.iter().map(|point| parse_point(point));
+        let points: Vec<Selection> = points.collect::<Result<_, _>>().map_err(Failure::refused)?;
+        let found = Folder::find(dir).map_err(Failure::refused)?;
+        let several = found.len() > 1;
+        self.folders = folders::go_through(dir, found, console, |folder| {
+            let place = match (&arguments.out, folder.root().file_name()) {
+                (None, _) => folder.root().to_owned(),
+                (Some(out), Some(name)) if several => out.join(name),
+                (Some(out), _) => out.clone(),
+            };
+            let chosen = (&points[..], arguments.times);
+            let fits = &mut self.fits;
+            Ok(FolderAnswer::of(
+                folder,
+                &place,
+                &arguments.figure,
+                chosen,
+                fits,
+                console,
+            )?)
+        })?;
+        Ok(())
+    }
+}
+
+impl Listed {
+    /// Prints it, with the families of scenes that it is for if these are not known.
+    fn print(&self, with_families: bool, console: &Console) {
+        let families = match self.families.join(", ") {
+            names if with_families && !names.is_empty() => format!(" [{names}]"),
             _ => String::new(),
         };
         console.result(format_args!(
             "{:<22} {}{families}",
-            entry.name, entry.description
+            self.name, self.description
         ));
-        if let Some(runs) = entry.default_runs {
+        if let Some(runs) = self.default_runs {
             console.result(format_args!(
                 "{:<22} of the runs at --point, or else {runs}",
                 ""
             ));
         }
     }
-    Ok(entries)
 }
 
-/// The figures that can be drawn of a results folder at `dir`: those of which a try succeeds.
-fn drawable(dir: &Path) -> Result<Vec<About>, Failure> {
-    let mut figures = plot::figures();
-    let mut found = Vec::new();
-    for folder in Folder::find(dir).map_err(Failure::refused)? {
-        let sweep = folder.read_sweep().map_err(Failure::failed)?;
-        let table = read_labels(&folder)?;
-        let is_drawn = |figure: &mut About| {
-            let of_folder = (&folder, &sweep, &table);
-            drawn(figure.name, of_folder, (&[], None)).is_ok()
-        };
-        found.extend(figures.extract_if(.., is_drawn));
-    }
-    // In the order of all figures, whichever folder they are of.
-    let names: Vec<&str> = plot::figures().iter().map(|figure| figure.name).collect();
-    found.sort_by_key(|figure| names.iter().position(|name| *name == figure.name));
-    Ok(found)
-}
-
-/// The labels of a folder.
-fn read_labels(folder: &Folder) -> Result<LabelTable, Failure> {
-    let path = folder.labels();
-    if !path.exists() {
-        return Err(Failure::refused(format_args!(
-            "{}: there are no labels yet; run `phase classify {}` first",
-            path.display(),
-            folder.root().display()
-        )));
-    }
-    store::read_labels(&path).map_err(|error| {
-        Failure::failed(format_args!(
-            "{error}; `phase classify {}` makes it anew",
-            folder.root().display()
-        ))
-    })
-}
-
-/// Draws the figures of every results folder at `dir`.
-fn draw_folders(
-    dir: &Path,
-    arguments: &Arguments,
+/// Names figures that could not be drawn, and why; gives the reasons. If nothing was drawn, the
+/// first of them is the failure of the whole.
+fn name_all(
+    mut failures: Vec<Failure>,
+    nothing_drawn: bool,
     console: &Console,
-) -> Result<Vec<FitEntry>, Failure> {
-    let is_known = |name: &String| plot::figures().iter().any(|known| known.name == name);
-    if let Some(name) = arguments.figure.iter().find(|name| !is_known(name)) {
-        if records::OF_ONE.iter().any(|known| known.name == *name) {
-            return Err(Failure::refused(format_args!(
-                "`{name}` is drawn from the record of one run; name its .h5 file instead of {}",
-                dir.display()
-            )));
-        }
-        return Err(Failure::refused(format_args!(
-            "there is no figure `{name}`; `phase plot --list` names them all"
-        )));
-    }
-    let points = arguments.points.iter().map(|point| parse_point(point));
-    let points: Vec<Selection> = points.collect::<Result<_, _>>().map_err(Failure::refused)?;
-    let mut fits = Vec::new();
-    let found = Folder::find(dir).map_err(Failure::refused)?;
-    let several = found.len() > 1;
-    for folder in found {
-        let place = match (&arguments.out, folder.root().file_name()) {
-            (None, _) => folder.root().to_owned(),
-            (Some(out), Some(name)) if several => out.join(name),
-            (Some(out), _) => out.clone(),
-        };
-        folders::make(&place)?;
-        let sweep = folder.read_sweep().map_err(Failure::failed)?;
-        let table = read_labels(&folder)?;
-        if arguments.figure.is_empty() {
-            draw_default_figures(&folder, &place, &sweep, &table, console)?;
-        }
-        for name in &arguments.figure {
-            draw(
-                name,
-                &folder,
-                &place,
-                (&sweep, &table),
-                (&points, arguments.times),
-                console,
-            )?;
-            if name == BEVERLOO {
-                fits.extend(print_fits(&folder, &sweep, &table, console)?);
-            }
-        }
-    }
-    Ok(fits)
+) -> Result<Vec<String>, Failure> {
+    let first = match nothing_drawn && !failures.is_empty() {
+        true => Some(failures.remove(0)),
+        false => None,
+    };
+    let reasons = failures.into_iter().map(|failure| failure.message);
+    let reasons: Vec<String> = reasons.inspect(|reason| console.error(reason)).collect();
+    first.map_or(Ok(reasons), Err)
 }
 
-/// Prints the constants of the law that the figure `beverloo` shows.
-fn print_fits(
-    folder: &Folder,
-    sweep: &Sweep,
-    table: &LabelTable,
-    console: &Console,
-) -> Result<Vec<FitEntry>, Failure> {
-    let program = Program::current();
-    let lines = plot::fitted_lines(&plot::Source {
-        sweep,
-        table,
-        record: &|id| folder.read_record(id),
-        points: &[],
-        times: None,
-        captions: &[],
-        data: &[],
-        program: &program,
-    });
-    let entries = lines
-        .map_err(|error| refused_or_failed(folder, error))?
-        .into_iter()
-        .map(|line| FitEntry {
-            folder: folder.root().to_owned(),
-            figure: BEVERLOO,
-            c: line.fit.c.value,
-            c_half_width: line.fit.c.half_width,
-            k: line.fit.k.value,
-            k_half_width: line.fit.k.half_width,
-            number_density: line.bed.number_density,
-            residual: line.fit.residual,
-            runs: line.fit.discharges,
-            without_rate: line.without_rate,
-            line: line.name,
-        });
-    let entries: Vec<FitEntry> = entries.collect();
-    for entry in &entries {
-        let line = match entry.line.as_str() {
-            "" => String::new(),
-            line => format!("{line}: "),
-        };
-        console.result(format_args!(
-            "{line}C = {:.4} +- {:.4}, k = {:.4} +- {:.4} (95 %, {}; {} without a rate)",
-            entry.c,
-            entry.c_half_width,
-            entry.k,
-            entry.k_half_width,
-            super::format::count(entry.runs, "run"),
-            entry.without_rate
-        ));
-    }
-    Ok(entries)
-}
+/// What may be done where figures of another program are in the way.
+pub(super) const ANOTHER_FOLDER: &str = "choose another folder with --out";
 
-/// Draws what is drawn if nothing else is asked for.
+/// Draws what is drawn if nothing else is asked for. Gives the figures that could not be drawn, and
+/// why.
 pub(super) fn draw_default_figures(
     folder: &Folder,
-    place: &Path,
     sweep: &Sweep,
     table: &LabelTable,
     console: &Console,
-) -> Result<(), Failure> {
+) -> Vec<String> {
+    let names = default_figures(sweep, table, console).into_iter();
+    let draw = |name| {
+        draw(
+            name,
+            folder,
+            folder.root(),
+            (sweep, table),
+            (&[], None),
+            console,
+        )
+    };
+    let problems = names.filter_map(|name| Some(draw(name).err()?.message));
+    problems.inspect(|problem| console.error(problem)).collect()
+}
+
+/// The figures that are drawn if none are asked for.
+fn default_figures(sweep: &Sweep, table: &LabelTable, console: &Console) -> Vec<&'static str> {
     if sweep.axes.is_empty() {
         console.note("a sweep without axes has no diagram: no figures");
-        return Ok(());
+        return Vec::new();
     }
-    let refined = sweep.refine.iter().map(|_| &REFINED);
-    let mut names = refined.chain(table.family.default_figures);
-    names.try_for_each(|name| draw(name, folder, place, (sweep, table), (&[], None), console))
+    figures_of_sweep(sweep, table.family)
+}
+
+/// The figures that a sweep with axes draws.
+pub(super) fn figures_of_sweep(sweep: &Sweep, family: &'static Family) -> Vec<&'static str> {
+    let refined = sweep.refine.iter().map(|_| REFINED);
+    refined
+        .chain(family.default_figures.iter().copied())
+        .collect()
 }
 
 /// Draws the figure of a refined sweep after a round, without a word.

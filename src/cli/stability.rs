@@ -37,9 +37,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let study = stability::load(&arguments.file).map_err(Failure::refused)?;
     let jobs = study.jobs().map_err(Failure::refused)?;
     let options = &arguments.options;
-    let signature = ("stability.csv", "a table of stability", &b"integrator,"[..]);
-    let place = Place::open("stability", &arguments.file, options, signature, console)?;
-    let table = place.file(signature.0);
+    let files = (
+        &["stability.csv", "stability.makers.csv"][..],
+        &["stability"][..],
+    );
+    let place = Place::open("stability", &arguments.file, options, files, console)?;
+    let table = place.file("stability.csv");
     let known = match options.force {
         true => Vec::new(),
         false => stability::read_stability(&study.axes, &table).map_err(Failure::refused)?,
@@ -90,7 +93,7 @@ struct Answer {
     #[serde(flatten)]
     tally: Tally,
     integrators: Vec<Tried>,
-    files: Vec<PathBuf>,
+    files: Vec<String>,
 }
 
 /// How an integrator did.

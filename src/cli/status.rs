@@ -2,6 +2,7 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
+use super::folders::{self, Entry};
 use super::job::{self, NamedJob};
 use super::{format, refined};
 use phase::refine::Finish;
@@ -29,12 +30,22 @@ pub(crate) struct Arguments {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
-    let mut folders = Vec::new();
-    for folder in Folder::find(&arguments.dir).map_err(Failure::refused)? {
+    let found = Folder::find(&arguments.dir).map_err(Failure::refused)?;
+    let folders = folders::go_through(&arguments.dir, found, console, |folder| {
+        Ok(FolderAnswer::of(folder, workers, console)?)
+    })?;
+    let exit = Entry::exit(&folders, |_| true);
+    console.answer(&Answer { folders });
+    Ok(exit)
+}
+
+impl FolderAnswer {
+    /// That of a folder; prints it for people.
+    fn of(folder: &Folder, workers: usize, console: &Console) -> Result<Self, Failure> {
         let sweep = folder.read_sweep().map_err(Failure::failed)?;
         let jobs = sweep.jobs().map_err(Failure::failed)?;
-        let plan = Plan::new(&folder, jobs, work::default_workers()).map_err(Failure::failed)?;
-        let status = Status::of(&folder, &plan).map_err(Failure::failed)?;
+        let plan = Plan::new(folder, jobs, work::default_workers()).map_err(Failure::failed)?;
+        let status = Status::of(folder, &plan).map_err(Failure::failed)?;
         console.result(format_args!(
             "{}: {}",
             folder.root().display(),
@@ -43,8 +54,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         for line in describe_refined(&sweep, &status, workers) {
             console.result(line);
         }
-        folders.push(FolderAnswer {
-            folder: folder.root().to_owned(),
+        Ok(Self {
+            folder: folder.root().display().to_string(),
             jobs: status.jobs,
             done: status.done,
             unstable: status.unstable,
@@ -56,10 +67,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             seconds_left: seconds_left(&status, workers),
             running: status.running,
             refined: refined::Answer::new(&sweep, status.done + status.failures.len()),
-        });
+        })
     }
-    console.answer(&Answer { folders });
-    Ok(Exit::Done)
 }
 
 /// How far a refined sweep is, and how well its borders are known.
@@ -99,13 +108,13 @@ fn describe_refined(sweep: &Sweep, status: &Status, workers: usize) -> Vec<Strin
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Answer {
-    folders: Vec<FolderAnswer>,
+    folders: Vec<Entry<FolderAnswer>>,
 }
 
 /// How far the sweep of one folder is.
 #[derive(Serialize)]
 struct FolderAnswer {
-    folder: PathBuf,
+    folder: String,
     jobs: usize,
     done: usize,
     unstable: usize,

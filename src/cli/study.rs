@@ -2,6 +2,7 @@
 
 use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
+use super::plot::ANOTHER_FOLDER;
 use super::progress::{Progress, Work};
 use super::{folders, format, interrupt, job, sweep};
 use phase::cost::{Forecast, Leaves, forecast};
@@ -52,13 +53,14 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Makes the folder for the results of a file, by default in that of the study. `table` is kept
-    /// in it, and begins with `signature`.
+    /// Makes the folder for the results of a file, by default in that of the study. Refuses one in
+    /// which other programs have files of the names that the study writes: tables and the like, and
+    /// figures.
     pub(super) fn open(
         study: &str,
         file: &Path,
         options: &Options,
-        (table, kind, signature): (&str, &str, &[u8]),
+        (tables, figures): (&[&str], &[&str]),
         console: &Console,
     ) -> Result<Self, Failure> {
         let by_default = || {
@@ -66,6 +68,10 @@ impl Place {
             Path::new("results").join(study).join(name)
         };
         let root = options.out.clone().unwrap_or_else(by_default);
+        let figures = figures.iter().filter(|_| !options.no_plot);
+        let tables = tables.iter().map(PathBuf::from);
+        let names = tables.chain(folders::files_of_figures(figures));
+        folders::refuse_foreign(&root, names, ANOTHER_FOLDER)?;
         let stop = interrupt::stop_on_signal(console)?;
         folders::make(&root)?;
         let folder = Folder::new(&root);
@@ -74,7 +80,6 @@ impl Place {
             _ => Failure::failed(error),
         })?;
         store::remove_leftovers(&root).map_err(Failure::failed)?;
-        folders::refuse_to_replace(&root.join(table), kind, signature)?;
         Ok(Self {
             folder,
             stop,
@@ -175,14 +180,17 @@ pub(super) fn warn_of_days(
     is_known: &dyn Fn(&Job) -> bool,
     workers: usize,
     console: &Console,
-) -> Result<(), Failure> {
+) {
     let jobs = comparison.jobs.iter();
     let all: u64 = comparison.jobs.iter().map(Job::work).sum();
     let left: u64 = jobs.filter(|job| !is_known(job)).map(Job::work).sum();
     if (left as f64) < LONG * SLOWEST_RATE * workers as f64 {
-        return Ok(());
+        return;
     }
-    let forecast = forecast_settings(comparison, workers, Duration::from_secs(4))?;
+    // A setting that cannot be tried fails where it is run, and does not stop the others here.
+    let Ok(forecast) = forecast_settings(comparison, workers, Duration::from_secs(4)) else {
+        return;
+    };
     let seconds = forecast.seconds * left as f64 / all.max(1) as f64;
     if seconds > LONG {
         console.warning(format_args!(
@@ -192,7 +200,6 @@ pub(super) fn warn_of_days(
             format::count(workers, "worker")
         ));
     }
-    Ok(())
 }
 
 /// What became of the runs of a study: what is printed of them, and what every `--json` has.

@@ -6,7 +6,8 @@ mod rounds;
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::job::NamedJob;
-use super::{classify, format, interrupt, overlaps, plot, refined, time_step};
+use super::{classify, folders, format, interrupt, overlaps, plot, refined, time_step};
+use phase::classify::Family;
 use phase::resume::DEFAULT_INTERVAL;
 use phase::store;
 use phase::sweep::{
@@ -110,6 +111,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         check_kept_labels(&folder, &sweep)?;
         folder = folder.keeping_labels();
     }
+    refuse_foreign(&folder, &sweep, arguments)?;
     let stop = interrupt::stop_on_signal(console)?;
 
     folder.create().map_err(Failure::failed)?;
@@ -162,15 +164,18 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         return Ok(Exit::Interrupted);
     }
     if let Some(error) = &run.report.halted {
+        console.answer(&answer);
         return Err(Failure::failed(error));
     }
     let mut failed = !run.report.failures.is_empty();
     if !arguments.no_classify {
-        let labelled = classify::label_folder(&folder, &sweep, &jobs, workers, console)?;
+        let labelled = classify::label_folder(&folder, &sweep, &jobs, workers, console);
+        let labelled = labelled.inspect_err(|_| console.answer(&answer))?;
         failed |= !labelled.problems.is_empty();
         if !arguments.no_plot {
-            let place = folder.root();
-            plot::draw_default_figures(&folder, place, &sweep, &labelled.table, console)?;
+            let problems = plot::draw_default_figures(&folder, &sweep, &labelled.table, console);
+            failed |= !problems.is_empty();
+            answer.problems = problems;
         }
         if sweep.refine.is_none() && folder.borders().exists() {
             console.note(format_args!(
@@ -206,6 +211,29 @@ fn check_kept_labels(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
             folder.sweep().display()
         ))),
     }
+}
+
+/// Refuses a folder in which files of another program are in the way. One with the sweep.json of a
+/// sweep is a results folder, whatever it holds.
+fn refuse_foreign(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Result<(), Failure> {
+    let root = folder.root();
+    if folder.sweep().exists() {
+        return folders::refuse_foreign(root, ["sweep.json"], plot::ANOTHER_FOLDER);
+    }
+    let mut names = vec![PathBuf::from("failed.csv")];
+    if !arguments.no_classify {
+        names.extend(["labels.csv", "points.csv"].map(PathBuf::from));
+        let refined = sweep
+            .refine
+            .iter()
+            .flat_map(|_| ["refined.csv", "borders.csv"]);
+        names.extend(refined.map(PathBuf::from));
+        if !arguments.no_plot && !sweep.axes.is_empty() {
+            let figures = plot::figures_of_sweep(sweep, Family::of(&sweep.scene));
+            names.extend(folders::files_of_figures(figures));
+        }
+    }
+    folders::refuse_foreign(root, names, plot::ANOTHER_FOLDER)
 }
 
 /// The jobs of the sweep that the folder keeps, if this one makes the same, and those that a
@@ -323,8 +351,10 @@ struct Answer {
     labels: Option<classify::Summary>,
     /// How well borders are known; none if the whole grid is run.
     refined: Option<refined::Answer>,
+    /// Figures that could not be drawn, and why.
+    problems: Vec<String>,
     /// The files written, but for the records.
-    files: Vec<PathBuf>,
+    files: Vec<String>,
 }
 
 impl Answer {
@@ -345,6 +375,7 @@ impl Answer {
             sphere_steps: run.report.work,
             labels: None,
             refined: None,
+            problems: Vec::new(),
             files: Vec::new(),
         }
     }

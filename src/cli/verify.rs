@@ -2,6 +2,7 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
+use super::plot::ANOTHER_FOLDER;
 use super::{folders, format, plot};
 use phase::plot::verification::{self, CaseError};
 use phase::record::Program;
@@ -67,6 +68,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         return list(&cases, console);
     }
     if let Some(folder) = &arguments.out {
+        let figure = folders::files_of_figures(["verification"]);
+        let names = figure.chain([PathBuf::from("verification.csv")]);
+        folders::refuse_foreign(folder, names, ANOTHER_FOLDER)?;
         folders::make(folder)?;
     }
     let runs: Vec<(&Case, Integrator)> = cases
@@ -117,7 +121,7 @@ struct Answer {
     runs: usize,
     failed: usize,
     checks: Vec<Row>,
-    files: Vec<PathBuf>,
+    files: Vec<String>,
 }
 
 /// What `--list --json` prints.

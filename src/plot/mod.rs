@@ -367,6 +367,9 @@ pub enum PlotError {
         /// Identity of the run.
         id: String,
     },
+    /// Several records are given for a figure that is drawn of one.
+    #[error("the figure `{0}` is of one record: give them one by one")]
+    OfOneRecord(&'static str),
     /// The record of a run does not hold what its tracks are drawn from.
     #[error(
         "the record holds no trajectory; add `trajectory = true` to [output] of the scene and run \
@@ -398,6 +401,7 @@ impl PlotError {
                 | Self::NoPoints(_)
                 | Self::NoTimes(_)
                 | Self::NoData(_)
+                | Self::OfOneRecord(_)
                 | Self::NotRefined
                 | Self::Select(_)
                 | Self::OpenAxis { .. }

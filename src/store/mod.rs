@@ -12,6 +12,7 @@ mod hashed;
 mod import;
 mod labels;
 mod lock;
+mod own;
 mod record;
 mod refined;
 mod rows;
@@ -30,6 +31,7 @@ pub use export::{
 pub use import::read_states;
 pub use labels::{read_labels, write_labels, write_points};
 pub use lock::Lock;
+pub use own::is_own_file;
 pub use record::{
     HDF5_SIGNATURE, RecordHeader, content_digest, motion_digest, read_record, read_record_header,
     write_record, write_record_and_drop_states,

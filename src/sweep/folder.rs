@@ -38,12 +38,24 @@ pub enum FolderError {
         .0.display()
     )]
     NoSweep(PathBuf),
-    /// `sweep.json` does not hold a sweep.
+    /// `sweep.json` holds a sweep of another version.
     #[error(
         "{}: not a sweep of this version of phase ({reason}); run `phase sweep` again",
         path.display()
     )]
     BadSweep {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// `sweep.json` is not of this program, or damaged.
+    #[error(
+        "{}: this is no sweep of phase ({reason}); give the results folder that `phase sweep` \
+         made, or move the file away and run `phase sweep` again",
+        path.display()
+    )]
+    NotASweep {
         /// The file.
         path: PathBuf,
         /// What is wrong.
@@ -257,7 +269,10 @@ impl Folder {
             Ok(text) => {
                 let sweep = serde_json::from_slice(&text).map_err(|error| error.to_string());
                 let sweep = sweep.and_then(|sweep: Sweep| sweep.check_refining().map(|()| sweep));
-                sweep.map_err(|reason| FolderError::BadSweep { path, reason })
+                sweep.map_err(|reason| match store::is_own_file(&path) {
+                    true => FolderError::BadSweep { path, reason },
+                    false => FolderError::NotASweep { path, reason },
+                })
             }
             Err(source) => Err(FolderError::Io { path, source }),
         }

@@ -18,10 +18,11 @@ fn labels_without_records_are_kept() {
     let place = swept();
     let labels = place.read("results/tiny/labels.csv");
     std::fs::remove_dir_all(place.path("results/tiny/records")).unwrap();
-    for command in [&["classify", "results/tiny"], &["classify", "results"]] {
+    // A folder that is named itself cannot be done; among several it is kept.
+    for (folder, code) in [("results/tiny", 2), ("results", 0)] {
         place
-            .phase(command)
-            .code(2)
+            .phase(&["classify", folder])
+            .code(code)
             .complains("the records of 6 of its 6 labels are not in results/tiny/records");
         assert_eq!(place.read("results/tiny/labels.csv"), labels);
     }

@@ -3,6 +3,7 @@
 use super::{cannot_write, tell_of_labels, tell_of_problems};
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
+use crate::cli::folders;
 use phase::classify::Sieves;
 use phase::scene::Scene;
 use phase::sweep::{Folder, FolderError, Labelled, Labelling, find_dumps};
@@ -19,6 +20,8 @@ pub(super) fn label(
     let scene = Scene::load_base(scene).map_err(Failure::refused)?;
     sieves.check(&scene).map_err(Failure::refused)?;
     let dumps = dumps_in(folder)?;
+    let tables = ["labels.csv", "points.csv"];
+    folders::refuse_foreign(folder, tables, "use a folder with the dumps alone")?;
     let labelling =
         Labelling::of_dumps(&dumps, &scene, sieves, workers).map_err(Failure::failed)?;
     tell_of_problems(&labelling, console);

@@ -1,6 +1,6 @@
 //! Figures of the records of single runs.
 
-use super::{Arguments, Entry, write};
+use super::{Arguments, Listed, name_all, write};
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
 use crate::cli::{folders, runs};
@@ -54,12 +54,12 @@ fn of_runs(record: &RunRecord) -> impl Iterator<Item = About> {
 }
 
 /// What can be drawn of a record.
-pub(super) fn list(path: &Path) -> Result<Vec<Entry>, Failure> {
+pub(super) fn list(path: &Path) -> Result<Vec<Listed>, Failure> {
     let record = store::read_record(path).map_err(Failure::refused)?;
     let records = std::slice::from_ref(&record);
     let is_drawn =
         |figure: &About| plot::draw_records(figure.name, records, None, &[], &[]).is_ok();
-    let of_runs = of_runs(&record).filter(is_drawn).map(|figure| Entry {
+    let of_runs = of_runs(&record).filter(is_drawn).map(|figure| Listed {
         name: figure.name,
         description: figure.description,
         default_runs: None,
@@ -70,13 +70,13 @@ pub(super) fn list(path: &Path) -> Result<Vec<Entry>, Failure> {
 }
 
 /// The entries of what one record alone has.
-pub(super) fn of_one() -> Vec<Entry> {
+pub(super) fn of_one() -> Vec<Listed> {
     OF_ONE.iter().map(RecordFigure::entry).collect()
 }
 
 impl RecordFigure {
-    fn entry(&self) -> Entry {
-        Entry {
+    fn entry(&self) -> Listed {
+        Listed {
             name: self.name,
             description: self.description.to_owned(),
             default_runs: None,
@@ -87,11 +87,12 @@ impl RecordFigure {
 
 /// Draws figures of one record, or of several beside each other: NAME.h5 gives NAME-tracks.svg and
 /// .png; several give tracks.svg and .png, in the folder of the first or that which is asked for.
+/// Gives the figures that could not be drawn, and why.
 pub(super) fn draw(
     paths: &[PathBuf],
     arguments: &Arguments,
     console: &Console,
-) -> Result<(), Failure> {
+) -> Result<Vec<String>, Failure> {
     if let Some(point) = arguments.points.first() {
         return Err(Failure::refused(format_args!(
             "--point {point} is for a results folder: a record is of one run"
@@ -99,7 +100,7 @@ pub(super) fn draw(
     }
     let records: Vec<RunRecord> = runs::read(paths, arguments.scene.as_deref())?;
     let (Some(first), Some(record)) = (paths.first(), records.first()) else {
-        return Ok(());
+        return Ok(Vec::new());
     };
     let data = arguments.data.iter().map(|path| store::read_data_set(path));
     let data: Vec<DataSet> = data.collect::<Result<_, _>>().map_err(Failure::refused)?;
@@ -107,56 +108,73 @@ pub(super) fn draw(
     let beside = first.parent().unwrap_or(Path::new(""));
     let folder = arguments.out.as_deref().unwrap_or(beside);
     let prefix = match (&arguments.name, &paths) {
-        (Some(name), _) => Some(OsString::from(name)),
-        (None, [path]) => path.file_stem().map(ToOwned::to_owned),
-        (None, _) => None,
+        (Some(name), _) => OsString::from(name),
+        (None, [path]) => path.file_stem().unwrap_or_default().to_owned(),
+        (None, _) => OsString::new(),
     };
+    let stem = |name: &String| {
+        let mut stem = prefix.clone();
+        stem.push(if stem.is_empty() { "" } else { "-" });
+        stem.push(name);
+        stem
+    };
+    let files = folders::files_of_figures(names.iter().map(stem));
+    folders::refuse_foreign(
+        folder,
+        files,
+        "choose another folder or name with --out or --name",
+    )?;
     let failed = |error: PlotError| {
-        let text = format_args!("{}: {error}", first.display()).to_string();
+        let text = format!("{}: {error}", first.display());
         match error.is_of_request() {
             true => Failure::refused(text),
             false => Failure::failed(text),
         }
     };
     let mut missing = None;
-    let mut drawn = 0;
+    let mut failures = Vec::new();
     for name in &names {
-        let of_one = OF_ONE.iter().find(|figure| figure.name == *name);
-        let image = match (of_one, &records[..]) {
-            (Some(figure), [_]) if arguments.times.is_some() => {
-                Err(PlotError::NoTimes(figure.name))
-            }
-            (Some(figure), [_]) if !data.is_empty() => Err(PlotError::NoData(figure.name)),
-            (Some(figure), [record]) => (figure.draw)(record),
-            (Some(figure), _) => return Err(takes_one(figure.name)),
-            (None, _) => {
-                let Arguments { times, labels, .. } = arguments;
-                plot::draw_records(name, &records, *times, labels, &data)
-            }
-        };
-        match image {
+        let written = match image(name, &records, &data, arguments) {
             Err(
                 error @ (PlotError::NoTrajectory
                 | PlotError::NoLedger
                 | PlotError::NoMeasures { .. }),
             ) if arguments.figure.is_empty() => {
                 missing.get_or_insert(error);
+                continue;
             }
-            image => {
-                let image = image.map_err(failed)?;
-                folders::make(folder)?;
-                let mut stem = prefix.clone().unwrap_or_default();
-                stem.push(if stem.is_empty() { "" } else { "-" });
-                stem.push(name);
-                let place = |extension: &str| folder.join(&stem).with_added_extension(extension);
-                write(&image, place, console)?;
-                drawn += 1;
-            }
-        }
+            Err(error) => Err(failed(error)),
+            Ok(image) => folders::make(folder).and_then(|()| {
+                let place = |end: &str| folder.join(stem(name)).with_added_extension(end);
+                write(&image, place, console)
+            }),
+        };
+        failures.extend(written.err());
     }
-    match missing {
-        Some(error) if drawn == 0 => Err(failed(error)),
-        _ => Ok(()),
+    let nothing_drawn = console.files().is_empty();
+    if nothing_drawn && failures.is_empty() {
+        failures.extend(missing.map(failed));
+    }
+    name_all(failures, nothing_drawn, console)
+}
+
+/// A figure of one record or of several.
+fn image(
+    name: &str,
+    records: &[RunRecord],
+    data: &[DataSet],
+    arguments: &Arguments,
+) -> Result<Svg, PlotError> {
+    let of_one = OF_ONE.iter().find(|figure| figure.name == name);
+    match (of_one, records) {
+        (Some(figure), [_]) if arguments.times.is_some() => Err(PlotError::NoTimes(figure.name)),
+        (Some(figure), [_]) if !data.is_empty() => Err(PlotError::NoData(figure.name)),
+        (Some(figure), [record]) => (figure.draw)(record),
+        (Some(figure), _) => Err(PlotError::OfOneRecord(figure.name)),
+        (None, _) => {
+            let Arguments { times, labels, .. } = arguments;
+            plot::draw_records(name, records, *times, labels, data)
+        }
     }
 }
 
@@ -182,10 +200,4 @@ fn names(record: &RunRecord, arguments: &Arguments) -> Result<Vec<String>, Failu
         false => OF_ONE.map(|figure| figure.name),
     };
     Ok(defaults.map(str::to_owned).into())
-}
-
-fn takes_one(name: &str) -> Failure {
-    Failure::refused(format_args!(
-        "the figure `{name}` is of one record: give them one by one"
-    ))
 }

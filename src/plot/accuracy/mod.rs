@@ -12,6 +12,9 @@ use crate::study::comparison::Comparison;
 /// A figure with its name, or why it cannot be drawn.
 pub type Named = (&'static str, Result<Svg, PlotError>);
 
+/// The names of the figures.
+pub const NAMES: [&str; 2] = ["work-precision", "label-changes"];
+
 /// All figures that a study has: error against time, and where labels change. A figure of which
 /// nothing can be drawn, as no error is above zero, is left out.
 pub fn draw_all(
@@ -20,13 +23,10 @@ pub fn draw_all(
     evaluation: &Evaluation,
     program: &Program,
 ) -> Vec<Named> {
-    let mut figures = vec![(
-        "work-precision",
-        work_precision::draw(study, evaluation, program),
-    )];
+    let mut figures = vec![(NAMES[0], work_precision::draw(study, evaluation, program))];
     if let Some(comparison) = comparison.filter(|it| !it.axes().is_empty() && it.seeds() > 1) {
         let drawn = changes::draw(study, comparison, evaluation, program);
-        figures.push(("label-changes", drawn));
+        figures.push((NAMES[1], drawn));
     }
     figures.retain(|(_, figure)| !matches!(figure, Err(PlotError::NoMeasures { .. })));
     figures

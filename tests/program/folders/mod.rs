@@ -1,3 +1,5 @@
 //! Folders of results: several at once, and folders that hold files of other programs.
 
 mod failures;
+mod foreign;
+mod several;

@@ -1,0 +1,150 @@
+//! Which files this program has written, told by their content.
+
+use serde_json::Value;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// How much of a file is read to tell what it is (bytes), unless it must be read as a whole.
+const BEGINNING: u64 = 1 << 16;
+
+/// What the figures of this program say of themselves: in SVG and in PNG.
+const STAMPS: [&[u8]; 2] = [b"\nSoftware: phase ", b"Software\0phase "];
+
+/// What a file is, as far as this program writes such files.
+enum Kind {
+    /// A figure (SVG or PNG) with a stamp.
+    Figure,
+    /// A table (CSV) whose header line has these columns beside each other.
+    Table(&'static str),
+    /// A text whose beginning holds this.
+    Text(&'static str),
+    /// A JSON object with these keys.
+    Object(&'static [&'static str]),
+}
+
+/// The kind of the files of that name; none for a name that this program does not give.
+fn kind_of(name: &str) -> Option<Kind> {
+    Some(match name {
+        "sweep.json" => Kind::Object(&["scene", "axes", "seeds"]),
+        "accuracy.json" => Kind::Object(&["outcomes", "finding"]),
+        "ablation.json" => Kind::Object(&["ablated", "finding"]),
+        "labels.csv" => Kind::Table("seed,label,code"),
+        "points.csv" => Kind::Table("label,code,agreement,seeds"),
+        "failed.csv" => Kind::Table("seed,reason"),
+        "refined.csv" => Kind::Table("label,code,p_"),
+        "borders.csv" => Kind::Table("along,below,above,low_68,high_68"),
+        "runs.csv" | "accuracy.csv" => Kind::Table("setting,"),
+        "ablation.csv" => Kind::Table("without,"),
+        "stability.csv" => Kind::Table("integrator,"),
+        "stability.makers.csv" => Kind::Table("id,version,commit"),
+        "verification.csv" => Kind::Table("family,case,integrator,quantity"),
+        name if name.ends_with("-observations.csv") => Kind::Table("time,"),
+        name if name.ends_with("-fixed.csv") => Kind::Table("kind,x,y,z,radius"),
+        name if name.ends_with(".xyz") => Kind::Text("Properties=species:S:1:pos:R:3:radius:R:1"),
+        name if name.ends_with(".svg") || name.ends_with(".png") => Kind::Figure,
+        _ => return None,
+    })
+}
+
+/// Whether a file is as this program writes files of its name, such as `labels.csv` or `phase.svg`:
+/// then it may be replaced. So may an empty one, and one that is not there.
+pub fn is_own_file(path: &Path) -> bool {
+    if !path.exists() {
+        return true;
+    }
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let Some(kind) = kind_of(&name) else {
+        return false;
+    };
+    let most = match kind {
+        Kind::Object(_) => u64::MAX,
+        _ => BEGINNING,
+    };
+    read(path, most).is_ok_and(|bytes| bytes.is_empty() || kind.is_of(&bytes))
+}
+
+/// The first bytes of a file, so many at most.
+fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(most).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+impl Kind {
+    /// Whether a file that begins with these bytes is of this kind; an object is given as a whole.
+    fn is_of(&self, bytes: &[u8]) -> bool {
+        let holds = |bytes: &[u8], text: &[u8]| bytes.windows(text.len()).any(|it| it == text);
+        match self {
+            Self::Figure => STAMPS.iter().any(|stamp| holds(bytes, stamp)),
+            Self::Text(text) => holds(bytes, text.as_bytes()),
+            Self::Table(columns) => {
+                let header = bytes.split(|byte| *byte == b'\n').next();
+                holds(header.unwrap_or_default(), columns.as_bytes())
+            }
+            Self::Object(keys) => {
+                let object: Result<Value, _> = serde_json::from_slice(bytes);
+                object.is_ok_and(|object| keys.iter().all(|key| object.get(key).is_some()))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    /// The number of files in a folder, and in those in it, that are told by their content.
+    fn told(folder: &Path) -> usize {
+        let mut count = 0;
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                count += told(&path);
+            } else if kind_of(&path.file_name().unwrap().to_string_lossy()).is_some() {
+                assert!(is_own_file(&path), "{}", path.display());
+                count += 1;
+            }
+        }
+        count
+    }
+
+    #[test]
+    fn what_is_shipped_is_ours() {
+        assert!(told(Path::new("results")) > 100);
+    }
+
+    #[test]
+    fn files_of_others_are_not_ours() {
+        let place = tempfile::tempdir().unwrap();
+        for (name, text) in [
+            ("sweep.json", "{\"learning_rate\": [1, 2]}"),
+            ("sweep.json", "[1, 2]"),
+            ("sweep.json", "not JSON"),
+            ("labels.csv", "image,label\n1.png,cat\n"),
+            ("labels.csv", "id,label\n1,cat\n"),
+            ("points.csv", "x,y\n1,2\n"),
+            ("refined.csv", "x,y\n1,2\n"),
+            ("failed.csv", "id,reason\n"),
+            (
+                "phase.svg",
+                "<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>",
+            ),
+            ("phase.png", "\u{89}PNG"),
+            ("run.xyz", "1\nsteel\nFe 0 0 0\n"),
+            ("notes.txt", "phase"),
+        ] {
+            let path = place.path().join(name);
+            fs::write(&path, text).unwrap();
+            assert!(!is_own_file(&path), "{name}: {text}");
+        }
+        let path = place.path().join("phase.svg");
+        fs::write(&path, "").unwrap();
+        assert!(is_own_file(&path));
+        fs::remove_file(&path).unwrap();
+        fs::create_dir(&path).unwrap();
+        assert!(!is_own_file(&path));
+        assert!(is_own_file(&place.path().join("absent.svg")));
+    }
+}
