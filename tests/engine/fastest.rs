@@ -118,7 +118,7 @@ fn half_the_limit_holds_for_a_sphere_that_slides_into_a_wall() {
                 gravity = {{ acceleration = 9.81, tilt = 1.4 }}
                 time.dt = 1e-7
                 time.duration = 3.0
-                time.frame_interval = 3.0",
+                time.frame_interval = 1.0",
                 -1.9 + 1.7e-3 * f64::from(start)
             );
             let mut scene = scene(&text, integrator);
@@ -161,29 +161,30 @@ fn fall(height: f64) -> f64 {
     (2.0 * 10.0 * height).sqrt()
 }
 
+const GRAVITY: &str = "gravity = { acceleration = 10.0 }\n";
+const LEANING: &str = "gravity = { acceleration = 10.0, tilt = 0.5 }\n";
+
+/// Holds the fastest speeds of scenes against those expected (m/s).
+fn expect_speeds(cases: impl IntoIterator<Item = (String, f64)>) {
+    for (text, expected) in cases {
+        let scene = load(&format!("{text}time.dt = 'auto'")).unwrap_or_else(|it| panic!("{it}"));
+        assert_eq!(unbounded_speed(&scene), None, "{text}");
+        let found = fastest_impact(&scene);
+        assert!(
+            (found / expected - 1.0).abs() < 1e-9,
+            "{found}, {expected}: {text}"
+        );
+    }
+}
+
 #[test]
-fn a_fall_ends_at_the_farthest_thing_along_gravity() {
+fn a_fall_ends_at_the_farthest_wall_along_gravity() {
     let (sine, cosine) = libm::sincos(0.5);
-    let lists = |spheres: &str, tables: &str| {
-        at("[0.0, 0.0, 1.0]", tables).replace(
-            "spheres = [{ position = [0.0, 0.0, 1.0] }]",
-            &format!("spheres = [{spheres}]"),
-        )
-    };
-    let gravity = "gravity = { acceleration = 10.0 }\n";
-    let leaning = "gravity = { acceleration = 10.0, tilt = 0.5 }\n";
-    let two = |tables: &str| {
-        lists(
-            "{ position = [0.0, 0.0, 0.0] }, { position = [0.0, 0.0, 1.0] }",
-            tables,
-        )
-        .replace("count = 1", "count = 2")
-    };
-    let cases = [
+    expect_speeds([
         (
             at(
                 "[0.0, 0.0, 1.0]",
-                &format!("{gravity}tank = {{ floor = -0.5 }}"),
+                &format!("{GRAVITY}tank = {{ floor = -0.5 }}"),
             ),
             fall(1.5),
         ),
@@ -191,14 +192,14 @@ fn a_fall_ends_at_the_farthest_thing_along_gravity() {
         (
             at(
                 "[-1.0, 0.0, 1.0]",
-                &format!("{leaning}tank = {{ width = 6.0, floor = 0.0 }}"),
+                &format!("{LEANING}tank = {{ width = 6.0, floor = 0.0 }}"),
             ),
             fall(4.0 * sine + cosine),
         ),
         (
             at(
                 "[1.0, 0.0, 1.0]",
-                &format!("{leaning}tank = {{ radius = 2.0, floor = 0.0 }}"),
+                &format!("{LEANING}tank = {{ radius = 2.0, floor = 0.0 }}"),
             ),
             fall(sine + cosine),
         ),
@@ -206,7 +207,7 @@ fn a_fall_ends_at_the_farthest_thing_along_gravity() {
         (
             at(
                 "[1.0, 0.0, 1.0]",
-                &format!("{leaning}tank = {{ radius = 2.0, floor = 0.0 }}")
+                &format!("{LEANING}tank = {{ radius = 2.0, floor = 0.0 }}")
                     .replace("tilt = 0.5", "tilt = -0.5"),
             ),
             fall(3.0 * sine + cosine),
@@ -221,7 +222,7 @@ fn a_fall_ends_at_the_farthest_thing_along_gravity() {
         ),
         (
             format!(
-                "{SPHERE}{leaning}
+                "{SPHERE}{LEANING}
                 tank = {{ width = 4.0, depth = 2.0, floor = 0.0 }}
                 start = {{ kind = 'random', z_min = 0.1, z_max = 1.0 }}
                 time.duration = 1.0
@@ -231,7 +232,7 @@ fn a_fall_ends_at_the_farthest_thing_along_gravity() {
         ),
         (
             format!(
-                "{SPHERE}{leaning}
+                "{SPHERE}{LEANING}
                 tank = {{ width = 4.0, depth = 2.0, floor = 0.0 }}
                 start = {{ kind = 'feed', position = [0.0, 0.0, 1.0], velocity = [0.0, 0.0, -3.0], \
                  interval = 0.1, spread = 0.5 }}
@@ -240,12 +241,28 @@ fn a_fall_ends_at_the_farthest_thing_along_gravity() {
             ),
             libm::hypot(fall(2.5 * sine + cosine), 3.0),
         ),
-        // Fixed spheres, and one that swings between 0.1 m above and 0.3 m below its start.
+    ]);
+}
+
+/// As [`at`], with these spheres in its list.
+fn listed(spheres: &[&str], tables: &str) -> String {
+    let count = format!("count = {}", spheres.len());
+    let list = format!("spheres = [{}]", spheres.join(", "));
+    at("[0.0, 0.0, 1.0]", tables)
+        .replace("count = 1", &count)
+        .replace("spheres = [{ position = [0.0, 0.0, 1.0] }]", &list)
+}
+
+#[test]
+fn a_fall_ends_at_the_lowest_fixed_or_driven_sphere() {
+    let moving = "{ position = [0.0, 0.0, 1.0], velocity = [3.0, 4.0, 0.0] }";
+    expect_speeds([
+        // The lower of two fixed spheres.
         (
             at(
                 "[0.0, 0.0, 1.0]",
                 &format!(
-                    "{gravity}geometry = {{ kind = 'list', walls = [
+                    "{GRAVITY}geometry = {{ kind = 'list', walls = [
                         {{ position = [0.0, 0.0, -0.5], radius = 0.1 }},
                         {{ position = [0.1, 0.0, -2.0], radius = 0.1 }},
                     ] }}"
@@ -253,51 +270,44 @@ fn a_fall_ends_at_the_farthest_thing_along_gravity() {
             ),
             fall(3.0),
         ),
+        // One that swings between 0.1 m above and 0.3 m below its start.
         (
-            two(&format!(
-                "{gravity}driven = [{{ sphere = 0, amplitude = [0.0, 0.0, 0.2], \
-                 angular_frequency = 1.0, phase = 0.5235987755982989 }}]"
-            )),
+            listed(
+                &[
+                    "{ position = [0.0, 0.0, 0.0] }",
+                    "{ position = [0.0, 0.0, 1.0] }",
+                ],
+                &format!(
+                    "{GRAVITY}driven = [{{ sphere = 0, amplitude = [0.0, 0.0, 0.2], \
+                     angular_frequency = 1.0, phase = 0.5235987755982989 }}]"
+                ),
+            ),
             fall(1.3),
         ),
         // A driven sphere does not fall, nor has it the velocity of its start.
         (
-            lists(
-                "{ position = [0.0, 0.0, 9.0], velocity = [50.0, 0.0, 0.0] }, \
-                 { position = [0.0, 0.0, 1.0] }",
+            listed(
+                &[
+                    "{ position = [0.0, 0.0, 9.0], velocity = [50.0, 0.0, 0.0] }",
+                    "{ position = [0.0, 0.0, 1.0] }",
+                ],
                 &format!(
-                    "{gravity}tank = {{ floor = 0.0 }}
+                    "{GRAVITY}tank = {{ floor = 0.0 }}
                     driven = [{{ sphere = 0, velocity = [1.0, 0.0, 0.0] }}]"
                 ),
-            )
-            .replace("count = 1", "count = 2"),
+            ),
             fall(1.0),
         ),
         // A start velocity alone, without gravity or in a fluid of the same density.
+        (listed(&[moving], ""), 5.0),
         (
-            lists(
-                "{ position = [0.0, 0.0, 1.0], velocity = [3.0, 4.0, 0.0] }",
-                "",
+            listed(
+                &[moving],
+                &format!("{GRAVITY}buoyancy = {{ density = 2500.0 }}"),
             ),
             5.0,
         ),
-        (
-            lists(
-                "{ position = [0.0, 0.0, 1.0], velocity = [3.0, 4.0, 0.0] }",
-                &format!("{gravity}buoyancy = {{ density = 2500.0 }}"),
-            ),
-            5.0,
-        ),
-    ];
-    for (text, expected) in cases {
-        let scene = load(&format!("{text}time.dt = 'auto'")).unwrap_or_else(|it| panic!("{it}"));
-        assert_eq!(unbounded_speed(&scene), None, "{text}");
-        let found = fastest_impact(&scene);
-        assert!(
-            (found / expected - 1.0).abs() < 1e-9,
-            "{found}, {expected}: {text}"
-        );
-    }
+    ]);
 }
 
 /// A packing stands on its floor, wherever that is.
@@ -322,7 +332,7 @@ fn a_packing_falls_from_its_top_to_its_floor() {
 #[test]
 fn drag_bounds_the_speed_where_nothing_stands() {
     let drag = "drag = { law = 'constant', linear = 100.0 }\n";
-    let weight = 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.05_f64.powi(3) * 10.0;
+    let weight = 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * (0.05 * 0.05 * 0.05) * 10.0;
     let gravity = "gravity = { acceleration = 10.0 }\n";
     let water = "gravity = { acceleration = 10.0 }\nbuoyancy = { density = 5000.0 }
         added_mass = { density = 5000.0 }\n";
@@ -350,16 +360,11 @@ fn drag_bounds_the_speed_where_nothing_stands() {
             slow,
         ),
     ];
-    for (tables, expected) in cases {
-        let text = at("[0.0, 0.0, 1.0]", &format!("{drag}{tables}"));
-        let scene = load(&format!("{text}time.dt = 'auto'")).unwrap_or_else(|it| panic!("{it}"));
-        assert_eq!(unbounded_speed(&scene), None, "{text}");
-        let found = fastest_impact(&scene);
-        assert!(
-            (found / expected - 1.0).abs() < 1e-9,
-            "{found}, {expected}: {text}"
-        );
-    }
+    expect_speeds(
+        cases.map(|(tables, expected)| {
+            (at("[0.0, 0.0, 1.0]", &format!("{drag}{tables}")), expected)
+        }),
+    );
 }
 
 /// Where nothing bounds the speed, "auto" asks for a number, and takes it.
