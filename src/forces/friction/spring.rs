@@ -34,9 +34,12 @@ impl Spring {
         }
     }
 
-    /// Its energy f^2 / (2 k) (J) at a stiffness k (N/m).
+    /// Its energy f^2 / (2 k) (J) at a stiffness k (N/m), which is zero where partners just touch.
     pub(super) fn energy(&self, stiffness: f64) -> f64 {
-        0.5 * self.force.norm_squared() / stiffness
+        match stiffness > 0.0 {
+            true => 0.5 * self.force.norm_squared() / stiffness,
+            false => 0.0,
+        }
     }
 
     /// The spring turned into the plane across `normal`: it turns with the pair, and keeps its
