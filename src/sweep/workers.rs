@@ -303,7 +303,7 @@ mod tests {
         }
 
         fn checkpoints(&self, job: &Job) -> Checkpoints {
-            Checkpoints::beside(&self.folder.join(&job.id), Duration::from_secs(60))
+            Checkpoints::beside(&self.folder.join(&job.id), Duration::from_mins(1))
         }
 
         fn note_failures(&self, _: &[Failure]) -> Result<(), StoreError> {

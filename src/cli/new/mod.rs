@@ -114,7 +114,8 @@ fn from_folder_of(file: &Path, scene: &Path) -> PathBuf {
         scene_folder.components().peekable(),
     );
     while up.peek().is_some() && up.peek() == down.peek() {
-        (up.next(), down.next());
+        up.next();
+        down.next();
     }
     let mut path: PathBuf = up.map(|_| "..").collect();
     path.extend(down);
