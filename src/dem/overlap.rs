@@ -65,10 +65,12 @@ pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
     let mut particles = start::fixed(scene);
     particles.append(spheres);
     for path in &scene.dem.driven {
-        let driven = particles
+        if let Some(driven) = particles
             .inverse_mass
-            .get_mut(particles.fixed + path.sphere);
-        driven.into_iter().for_each(|inverse| *inverse = 0.0);
+            .get_mut(particles.fixed + path.sphere)
+        {
+            *driven = 0.0;
+        }
     }
     let fixed = particles.fixed;
     let Particles {

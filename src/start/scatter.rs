@@ -68,7 +68,9 @@ pub(super) fn scatter(
     let mut grid = Grid::new(&all, room);
     let mut placed = fixed.position.clone();
     placed.reserve(radii.len());
-    placed.iter().for_each(|&centre| grid.add(centre));
+    for &centre in &placed {
+        grid.add(centre);
+    }
     for (i, &radius) in radii.iter().enumerate() {
         let free = |p: Vector| {
             grid.near(p).all(|j| {
