@@ -153,7 +153,7 @@ pub(super) mod tests {
         let offset = prop_oneof![Just(0.0), -1.0..1.0_f64];
         let exponents = (-12..12_i32, -14..3_i32);
         let steps = prop::collection::vec(-50..50_i32, 2..9);
-        (offset, exponents, steps).prop_map(|(offset, (size, step), steps)| {
+        let values = (offset, exponents, steps).prop_map(|(offset, (size, step), steps)| {
             let offset = offset * libm::exp10(f64::from(size));
             let step = libm::exp10(f64::from(size + step));
             let values = steps.iter().map(|count| offset + f64::from(*count) * step);
@@ -161,7 +161,8 @@ pub(super) mod tests {
             values.sort_by(f64::total_cmp);
             values.dedup();
             values
-        })
+        });
+        values.prop_filter("two values at least", |values| values.len() > 1)
     }
 
     proptest! {

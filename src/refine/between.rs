@@ -92,9 +92,10 @@ mod tests {
                 let all = (0..from.len()).map(|label| at(change.share, label));
                 prop_assert!(all.fold(f64::NEG_INFINITY, f64::max) < one + 1e-9);
             }
-            prop_assert!(found.windows(2).all(|pair| {
-                pair[0].labels[1] == pair[1].labels[0] && pair[0].share <= pair[1].share
-            }));
+            for pair in found.windows(2) {
+                prop_assert_eq!(pair[0].labels[1], pair[1].labels[0]);
+                prop_assert!(pair[0].share <= pair[1].share);
+            }
         }
     }
 }

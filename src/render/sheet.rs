@@ -290,12 +290,12 @@ fn number(value: f64) -> String {
     rounded(value, 3)
 }
 
-/// Two different numbers with as many digits as tell them apart, three at least.
+/// Two different numbers with as many digits as tell them apart, three at least; of close ones the
+/// second as what it exceeds the first by.
 fn pair(low: f64, high: f64) -> [String; 2] {
-    let with = |digits| [low, high].map(|value| rounded(value, digits));
-    let mut pairs = (3..=17).map(with);
+    let mut pairs = (3..=5).map(|digits| [low, high].map(|value| rounded(value, digits)));
     let told = pairs.find(|[low, high]| low != high);
-    told.unwrap_or_else(|| with(17))
+    told.unwrap_or_else(|| [number(low), format!("+{}", number(high - low))])
 }
 
 /// A number to so many digits.
@@ -355,5 +355,6 @@ mod tests {
     fn ends_of_a_scale_differ() {
         assert_eq!(pair(3.0001, 3.0003), ["3.0001", "3.0003"]);
         assert_eq!(pair(0.0, 2.0 / 3.0), ["0", "0.667"]);
+        assert_eq!(pair(0.2, 0.200_000_3), ["0.2", "+3e-7"]);
     }
 }
