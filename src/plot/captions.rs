@@ -39,7 +39,7 @@ pub(super) fn of(scenes: &[&Scene]) -> Vec<Vec<String>> {
         !tables.iter().any(is_in)
     };
     keys.retain(is_outermost);
-    let trees = scenes.iter().map(|scene| serde_json::to_value(scene));
+    let trees = scenes.iter().map(serde_json::to_value);
     let trees: Vec<Value> = trees.map(Result::unwrap_or_default).collect();
     let name = |(scene, tree): (&&Scene, &Value)| {
         let parts = keys.iter().map(|key| part(scene, tree, &trees, key));
