@@ -12,6 +12,17 @@ const SAFETY_FACTOR_KEY: &str = "time.safety_factor";
 /// What list entries of a vector may be.
 static COMPONENT: Kind = Kind::Number(Range::ANY);
 
+/// Whether the key at `path` of a scene may hold a number, whatever the others hold.
+pub(crate) fn may_hold(path: &str, number: f64) -> bool {
+    let mut problems = Vec::new();
+    SCENE.kind.visit("", &mut |own, key| {
+        if own == path {
+            key.kind.check(&Value::from(number), path, &mut problems);
+        }
+    });
+    problems.is_empty()
+}
+
 /// A key that a sweep may vary.
 pub(super) struct NumericKey {
     pub(super) path: String,

@@ -40,7 +40,7 @@ pub use dem::{
 pub use file_kind::FileKind;
 pub(crate) use files::in_start_file;
 pub use keys::Notation;
-pub(crate) use keys::leaf;
+pub(crate) use keys::{leaf, may_hold};
 pub use output::Output;
 pub use radius::{Radii, RadiusShare};
 pub use spheres::{Shape, Spheres};

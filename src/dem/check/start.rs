@@ -2,7 +2,7 @@
 
 use crate::dem::overlap::{self, Overlap, Partner};
 use crate::document::{Problem, accepted, at_least, number};
-use crate::scene::{Scene, Start, Tank, plural, rounded};
+use crate::scene::{Scene, Start, Tank, may_hold, plural, rounded};
 use crate::start;
 
 /// Largest share of the space open to the spheres that a random start may fill. Random placement
@@ -71,7 +71,9 @@ impl Scene {
             .into_iter()
             .find_map(|limit| {
                 let z_max = z_min + 1.01 * (height_for(limit) - 2.0 * radii.mean());
-                let z_max = accepted(z_max, |it| fraction_up_to(it) <= limit)?;
+                let z_max = accepted(z_max, |it| {
+                    fraction_up_to(it) <= limit && may_hold("start.z_max", it)
+                })?;
                 let is_enough = z_max.parse().is_ok_and(finds_room);
                 is_enough.then_some(z_max)
             });

@@ -2,7 +2,7 @@
 
 use crate::dem::timestep;
 use crate::document::{Problem, accepted, number};
-use crate::scene::{Scene, multiple};
+use crate::scene::{Scene, may_hold, multiple};
 
 /// Default of `time.safety_factor`: the step divided by the smallest limit.
 ///
@@ -47,11 +47,14 @@ impl Scene {
         let steps = parts * round_up(2.0 * frame / (limit.seconds * parts));
         let intervals = self.intervals_of_steps();
         let divides = |dt: f64| intervals.iter().all(|(_, time)| multiple(*time, dt));
-        let help = match accepted(frame / steps, |dt| dt <= limit.seconds && divides(dt)) {
+        let fits = |dt: f64| dt <= limit.seconds && divides(dt) && may_hold("time.dt", dt);
+        let help = match accepted(frame / steps, fits) {
             Some(dt) => {
                 format!("use `dt = {dt}` or less: {steps} steps per frame, at most half the limit")
             }
-            None => "use a smaller one, such as half the limit".to_owned(),
+            None => "use half the limit; where no step may be so short, softer contacts or larger \
+                     spheres"
+                .to_owned(),
         };
         problems.push(Problem::new("time.dt", message).help(help));
     }

@@ -1,7 +1,7 @@
 //! Checks whether the output of a scene fits into memory.
 
 use super::rounded;
-use super::time::multiple;
+use super::time::{MOST_FRAMES, multiple};
 use crate::document::{Problem, accepted, number};
 use crate::scene::Scene;
 
@@ -18,6 +18,10 @@ impl Scene {
     pub(super) fn check_output(&self, problems: &mut Vec<Problem>) {
         self.check_states(problems);
         let frames = self.time.duration / self.time.frame_interval;
+        if frames > MOST_FRAMES {
+            // Refused whatever is observed of them.
+            return;
+        }
         let most = libm::floor(MOST_NUMBERS / frames);
         let tank = self.tank.as_ref().and_then(|tank| tank.radius);
         if let Some(radius) = tank {
@@ -32,8 +36,7 @@ impl Scene {
                     rounded(bins),
                     rounded(frames)
                 );
-                let most = most.max(1.0) as u64;
-                let help = format!("use `profile_bins = {most}` or less in [output]");
+                let help = format!("use `profile_bins = {}` or less in [output]", most as u64);
                 problems.push(Problem::new("output.profile_bins", message).help(help));
             }
         }

@@ -2,7 +2,9 @@
 
 use super::rounded;
 use crate::document::{Problem, accepted, at_most, number};
-use crate::scene::{Friction, Geometry, Hopper, MOST_HOPPER_SPHERES, Scene, Shape, Start, Tank};
+use crate::scene::{
+    Friction, Geometry, Hopper, MOST_HOPPER_SPHERES, Scene, Shape, Start, Tank, may_hold,
+};
 
 /// Shortest `rest.hold` (s): the spheres are looked at twice in this time.
 const LEAST_HOLD: f64 = 0.02;
@@ -254,7 +256,10 @@ fn check_hopper(hopper: &Hopper, problems: &mut Vec<Problem>) {
             "an opening of {} m is as wide as the silo",
             number(hopper.opening)
         );
-        let help = format!("use less than {}", at_most(widest));
+        let help = match may_hold("geometry.opening", widest) {
+            true => format!("use less than {}", at_most(widest)),
+            false => "make the silo wider, or the spheres of its walls smaller".to_owned(),
+        };
         problems.push(Problem::new("geometry.opening", message).help(help));
     }
     let count = hopper.count();

@@ -2,13 +2,13 @@
 
 use super::rounded;
 use crate::document::{Problem, accepted, number};
-use crate::scene::{Integrator, Output, Scene, Start, leaf};
+use crate::scene::{Integrator, Output, Scene, Start, leaf, may_hold};
 
 /// Two times count as commensurate if their ratio is a whole number within this.
 const ROUNDING: f64 = 1e-6;
 
 /// Largest number of frames: their observables are held in memory.
-const MOST_FRAMES: f64 = 1e7;
+pub(super) const MOST_FRAMES: f64 = 1e7;
 
 impl Scene {
     pub(super) fn check_times(&self, problems: &mut Vec<Problem>) {
@@ -89,11 +89,18 @@ pub(super) fn not_multiple(path: &str, time: f64, unit_path: &str, unit: f64) ->
     );
     let below = libm::floor(time / unit);
     let key = leaf(path);
+    let near = |whole: f64| {
+        let is_it = |it: f64| multiple(it, unit) && libm::round(it / unit) == whole;
+        accepted(whole * unit, |it| is_it(it) && may_hold(path, it))
+    };
     let multiples = [below, below + 1.0]
         .into_iter()
         .filter(|whole| *whole >= 1.0)
-        .filter_map(|whole| accepted(whole * unit, |it| multiple(it, unit)))
+        .filter_map(near)
         .map(|time| format!("`{key} = {time}`"))
         .collect::<Vec<_>>();
-    Problem::new(path, message).help(format!("use {}", multiples.join(" or ")))
+    Problem::new(path, message).help(match multiples.is_empty() {
+        true => format!("choose another `{key}` or another `{}`", leaf(unit_path)),
+        false => format!("use {}", multiples.join(" or ")),
+    })
 }
