@@ -262,31 +262,48 @@ fn check_hopper(hopper: &Hopper, problems: &mut Vec<Problem>) {
         };
         problems.push(Problem::new("geometry.opening", message).help(help));
     }
+    check_spacing(hopper, problems);
+}
+
+/// Whether the spheres of the walls leave no gaps, and are not too many.
+fn check_spacing(hopper: &Hopper, problems: &mut Vec<Problem>) {
+    let fits = |spacing: f64| {
+        let hopper = Hopper {
+            spacing,
+            ..hopper.clone()
+        };
+        hopper.count() <= MOST_HOPPER_SPHERES
+    };
+    let widest = 2.0 * hopper.radius;
+    // Within the last digit that is typed.
+    let may_be_closed = fits(widest * (1.0 - 1e-5));
+    let mut refuse = |message: String, help: String| {
+        let help = match may_be_closed {
+            true => help,
+            false => "use a larger `radius` in [geometry], or shorter walls".to_owned(),
+        };
+        problems.push(Problem::new("geometry.spacing", message).help(help));
+    };
     let count = hopper.count();
     if count > MOST_HOPPER_SPHERES {
         let message = format!("the spacing makes walls of {} spheres", rounded(count));
-        let fits = |spacing: f64| {
-            let hopper = Hopper {
-                spacing,
-                ..hopper.clone()
-            };
-            hopper.count() <= MOST_HOPPER_SPHERES
-        };
         // Each part of the walls is cut into a whole number of spacings.
         let least = 1.001 * hopper.spacing * count / MOST_HOPPER_SPHERES;
-        let advice = match accepted(least, fits) {
+        let advice = match accepted(least.min(widest), |it| it <= widest && fits(it)) {
             Some(least) => format!("use `spacing = {least}` or more, or shorter walls"),
             None => "use a wider one, or shorter walls".to_owned(),
         };
-        let help = format!("{} are the most: {advice}", number(MOST_HOPPER_SPHERES));
-        problems.push(Problem::new("geometry.spacing", message).help(help));
-    } else if hopper.spacing > 2.0 * hopper.radius {
+        let most = number(MOST_HOPPER_SPHERES);
+        refuse(message, format!("{most} are the most: {advice}"));
+    } else if hopper.spacing > widest {
         let message = format!(
             "walls of spheres of radius {} m, {} m apart, have gaps",
             number(hopper.radius),
             number(hopper.spacing)
         );
-        let help = format!("use `spacing = {}` or less", at_most(2.0 * hopper.radius));
-        problems.push(Problem::new("geometry.spacing", message).help(help));
+        refuse(
+            message,
+            format!("use `spacing = {}` or less", at_most(widest)),
+        );
     }
 }
