@@ -1,5 +1,5 @@
-//! Programs that the tests start inherit nothing from whoever started the tests: no ignored signals,
-//! environment, mask of permissions or standard input.
+//! Programs that the tests start inherit nothing from whoever started the tests: no ignored
+//! signals, environment, mask of permissions or standard input.
 
 use std::process::{Command, Stdio};
 use std::sync::Once;

@@ -169,8 +169,8 @@ mod tests {
         }
     }
 
-    /// Symptom: intervals of no width where a setting changed all labels of some points. Cause: only
-    /// what was never seen had a bound.
+    /// Symptom: intervals of no width where a setting changed all labels of some points. Cause:
+    /// only what was never seen had a bound.
     #[test]
     fn an_interval_has_a_width_on_both_sides() {
         let of = |value: f64, least: f64| {
