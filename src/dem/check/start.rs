@@ -156,7 +156,7 @@ impl Scene {
             Partner::Wall(_) => partner.to_string(),
             Partner::Sphere(_) | Partner::Fixed(_) => "the other centre".to_owned(),
         };
-        let help = format!("keep its centre at least {apart} m from {other}");
+        let help = format!("move its centre to {apart} m or farther from {other}");
         let path = format!("start.spheres[{sphere}].position");
         problems.push(Problem::new(path, message).help(help));
     }
