@@ -205,8 +205,8 @@ fn warn_of_letters(runs: &[Run<'_>], console: &Console) {
                 "the key `title`"
             };
             console.warning(format_args!(
-                "{key}, \"{name}\", has letters that the built-in font lacks: {}; the picture shows \
-                 boxes for them",
+                "{key}, \"{name}\", has letters that the built-in font lacks: {}; the picture \
+                 shows boxes for them",
                 letters.join(", ")
             ));
         }

@@ -7,7 +7,7 @@ use crate::particles::Particles;
 use crate::scene::{Scene, Start};
 use crate::start;
 
-/// Overlaps below this share of the radius are those of rounded positions.
+/// Overlaps below this share of the radius come from rounded positions.
 const NEGLIGIBLE: f64 = 1e-6;
 
 /// What a sphere overlaps.

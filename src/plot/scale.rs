@@ -256,8 +256,8 @@ mod tests {
     }
 
     proptest! {
-        /// Symptom: five ticks "10⁵", an axis without a tick. Cause: labels had at most four digits or
-        /// decimals.
+        /// Symptom: five ticks "10⁵", an axis without a tick. Cause: labels had at most four
+        /// digits or decimals.
         #[test]
         fn labels_differ_are_read_back_and_are_two_at_least(
             values in close_values(),

@@ -146,9 +146,9 @@ fn stipple(sheet: &Sheet<'_>, corners: Corners) -> Drawn {
 /// Largest cell that marks of disagreement grow with.
 pub(super) const LARGEST_CELL: i32 = px(18);
 
-/// Marks a point at which seeds disagree: a white disc with a black rim, seen on every colour and in
-/// grey, the larger the smaller `agreement` is, the share of the seeds in the majority. `cell` is
-/// the side of the smallest cell, so that equal agreement has equal discs.
+/// Marks a point at which seeds disagree: a white disc with a black rim, seen on every colour and
+/// in grey, the larger the smaller `agreement` is, the share of the seeds in the majority. `cell`
+/// is the side of the smallest cell, so that equal agreement has equal discs.
 pub(super) fn disagreement(
     sheet: &Sheet<'_>,
     centre: (i32, i32),

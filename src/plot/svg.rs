@@ -99,8 +99,8 @@ impl Svg {
         Ok(self)
     }
 
-    /// What cannot be seen on the figure, and what would show it: letters that the font lacks, cells
-    /// without width.
+    /// What cannot be seen on the figure, and what would show it: letters that the font lacks,
+    /// cells without width.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }
@@ -148,8 +148,8 @@ fn warnings(title: &str, body: &Body) -> Vec<String> {
     let lack = |what: String, letters: &[char]| {
         let letters: Vec<String> = letters.iter().map(|it| format!("`{it}`")).collect();
         format!(
-            "{what} has letters that the built-in font lacks: {}; the PNG shows boxes for them, the \
-             SVG needs a font that has them",
+            "{what} has letters that the built-in font lacks: {}; the PNG shows boxes for them, \
+             the SVG needs a font that has them",
             letters.join(", ")
         )
     };

@@ -212,8 +212,8 @@ mod tests {
         assert!(wrap_list(&[], 12.0, 100.0).is_empty());
     }
 
-    /// Symptom: a long title was cut at both ends of the figure. Cause: lines broke at spaces alone,
-    /// and never after a single `$`.
+    /// Symptom: a long title was cut at both ends of the figure. Cause: lines broke at spaces
+    /// alone, and never after a single `$`.
     #[test]
     fn long_words_break_between_letters() {
         for text in [

@@ -95,7 +95,7 @@ mod tests {
     use super::*;
     use std::fs;
 
-    /// The number of files in a folder, and in those in it, that are told by their content.
+    /// The number of files in a folder and its subfolders that are recognised by their content.
     fn told(folder: &Path) -> usize {
         let mut count = 0;
         for entry in fs::read_dir(folder).unwrap() {

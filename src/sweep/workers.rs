@@ -275,7 +275,7 @@ mod tests {
     use std::path::{Path, PathBuf};
     use std::time::Duration;
 
-    /// Results of which that of seed 2 cannot be written, for this reason.
+    /// Results of which seed 2 cannot be written, for this reason.
     struct Faulty {
         folder: PathBuf,
         kind: ErrorKind,

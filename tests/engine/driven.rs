@@ -263,7 +263,7 @@ fn a_driven_sphere_follows_when_others_leave() {
     let start = format!("{{ kind = 'list', spheres = [{}] }}", spheres.join(", "));
     let scene = bed(&tables, &start, 4, &[2]);
     let problems = scene.problems();
-    // The outlet is to be below all starts but that of a driven sphere.
+    // The outlet is to be below the starts of all spheres but the driven one.
     assert_eq!(problems, []);
     for (integrator, simulation) in to_the_end(&scene) {
         assert_eq!(

@@ -26,7 +26,7 @@ const SPHERE: &str = "spheres = { count = 1, radius = 0.05, density = 2500.0 }
     contact = { law = 'hertz', young_modulus = 1e8, poisson_ratio = 0.3, restitution = 0.8 }\n";
 
 /// Symptom: with adaptive Verlet the run with `dt = \"auto\"` was ended by the displacement guard at
-/// 0.198 of its limit. Cause: the fastest speed was that of a fall straight down to the floor.
+/// 0.198 of its limit. Cause: the fastest speed assumed a fall straight down to the floor.
 #[test]
 fn a_sphere_reaches_the_far_wall_down_an_incline() {
     let text = format!(
@@ -57,8 +57,8 @@ fn a_sphere_reaches_the_far_wall_down_an_incline() {
 }
 
 /// Symptom: with `dt = \"auto\"` one integrator was ended by the displacement guard, and the others
-/// gave 0.057, 0.439 and 0.366 m/s. Cause: without a floor no speed was expected, so that the limit
-/// of the drag was that of a sphere at rest.
+/// gave 0.057, 0.439 and 0.366 m/s. Cause: without a floor no speed was expected, so the drag
+/// was limited as for a sphere at rest.
 #[test]
 fn a_bead_settles_at_its_terminal_speed() {
     // 0.6358 m/s with all integrators and a step of 0.02 s.
@@ -104,7 +104,7 @@ fn a_bead_settles_at_its_terminal_speed() {
 }
 
 /// Symptom: with steps below half the stated limit a sphere left the wall with 0.946 to 1.082 of
-/// its speed. Cause: the limit was that of a fall straight down.
+/// its speed. Cause: the limit assumed a fall straight down.
 #[test]
 fn half_the_limit_holds_for_a_sphere_that_slides_into_a_wall() {
     for integrator in Integrator::ALL {

@@ -10,7 +10,7 @@ use crate::scenes::INTEGRATORS;
 use phase::observe::Observations;
 use phase::scene::{Integrator, Scene};
 
-/// Twice the frequency of the tangential swing is that of the breathing: 3.5 k_t = 1.5 k_n / 4.
+/// The sphere breathes at twice the frequency of the tangential swing: 3.5 k_t = 1.5 k_n / 4.
 fn breathing(friction: &str, integrator: Integrator) -> Observations {
     let contact = match friction.contains("silbert") {
         true => r#"{ law = "silbert", stiffness = 1e6, damping = 0.0 }"#,

@@ -120,8 +120,8 @@ fn a_feed_in_a_wall_is_refused_however_deep_it_is() {
     }
 }
 
-/// A list may go on from a former state, in which contacts are deep. What that state cannot have
-/// come to by itself is told.
+/// A list may go on from a former state, in which contacts are deep. A warning
+/// names what that state cannot have come to by itself.
 #[test]
 fn a_list_in_a_wall_is_refused_beyond_it_and_told_of_before() {
     for (name, tables, place) in walls() {
@@ -139,7 +139,7 @@ fn a_list_in_a_wall_is_refused_beyond_it_and_told_of_before() {
     }
 }
 
-/// The speed that is told is that of the run: without losses the sphere reaches it.
+/// The warning names the speed of the run: without losses the sphere reaches it.
 #[test]
 fn the_speed_that_is_told_is_reached() {
     for (name, tables, place) in walls() {
@@ -198,7 +198,7 @@ fn a_driven_sphere_in_a_wall_releases_nothing() {
     assert_eq!(Release::of_scene(&scene).unwrap().fastest.sphere, 1);
 }
 
-/// Contacts of a bed that came to rest are none that are told of.
+/// No warning names contacts of a bed that came to rest.
 #[test]
 fn a_bed_goes_on_from_its_own_state_without_a_word() {
     let mut scene = scene(ROUND, feed([0.0, 0.0, 0.4], 0.05));
@@ -308,7 +308,7 @@ proptest! {
         }
     }
 
-    /// The overlap that a list is told of is that of the nearest point.
+    /// The warning of a list names the overlap at the nearest point.
     #[test]
     fn a_list_is_told_of_the_nearest_point(
         kind in 0..5_usize,

@@ -201,7 +201,7 @@ impl Run {
         }
     }
 
-    /// Writes the table of the failures of all rounds: each round writes that of its own.
+    /// Writes the table of the failures of all rounds: each round writes its own.
     pub(super) fn note_failures(&mut self, sweep: &Sweep, folder: &Folder) {
         let report = &mut self.report;
         if report.failures.is_empty() {

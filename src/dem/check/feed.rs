@@ -6,7 +6,7 @@ use crate::dem::walls::Wall;
 use crate::document::{Problem, at_most, number, rounded_down, rounded_up};
 use crate::scene::{Geometry, Scene, Start, Tank, rounded};
 
-/// Overlaps with walls below this share of the radius are those of rounded positions.
+/// Overlaps with walls below this share of the radius come from rounded positions.
 const ROUNDING: f64 = 1e-9;
 
 /// Where the largest sphere of a feed may come in: anywhere within `spread` (m) of a position along

@@ -117,8 +117,8 @@ impl Scene {
     /// Refuses listed spheres that overlap so much that the run would end at once, or that have
     /// their centre inside a fixed sphere. The deepest overlap is named.
     ///
-    /// Other overlaps are allowed: those of soft contacts, with which a run goes on from a former
-    /// state, may be as deep as a radius. [`Release`](crate::dem::Release) finds those that no
+    /// Other overlaps are allowed: soft contacts, with which a run goes on from a former state, may
+    /// be as deep as a radius. [`Release`](crate::dem::Release) finds those that no
     /// motion of this scene explains, and commands warn of them.
     pub(super) fn check_overlaps(&self, problems: &mut Vec<Problem>) {
         let limit = self.dem.guards.overlap;

@@ -52,8 +52,8 @@ struct Door {
     step: Option<u64>,
 }
 
-/// Which spheres move freely. Driven ones keep to their paths: they leave no scene, pass walls as
-/// they are told, and are never at rest.
+/// Which spheres move freely. Driven ones keep to their paths: they never leave the scene, may
+/// pass walls, and are never at rest.
 pub(super) struct Free {
     /// Numbers of the driven spheres, in order.
     driven: Vec<u32>,

@@ -9,7 +9,7 @@ pub(super) struct Fastest {
     pub(super) impact: f64,
     /// Of a sphere, wherever it is: on its way to the outlet too.
     pub(super) motion: f64,
-    /// Where nothing bounds these speeds; they then are those of what is known.
+    /// Where nothing bounds these speeds; they then follow from what is known.
     pub(super) open: Option<Open>,
 }
 

@@ -1,11 +1,11 @@
 //! Random dense packings to start from.
 //!
 //! Spheres at random places under a lid are pushed apart until none overlap: the energy of a soft
-//! repulsion is minimised. Between near walls they may find no room; the lid is raised then, and
-//! they begin at other places. The lid is then lowered in small steps, each with a minimisation, until
-//! the packing fraction in the middle of the box is that of random close packing, or until the
-//! spheres jam: the procedure of O'Hern, Silbert, Liu and Nagel, Physical Review E 68 (2003)
-//! 011306. There is no gravity. The lid is then taken away, which leaves the top free.
+//! repulsion is minimised. Between near walls they may find no room; the lid is raised then,
+//! and they begin at other places. The lid is then lowered in small steps, each with a
+//! minimisation, until the middle of the box has the packing fraction of random close packing, or
+//! until the spheres jam: the procedure of O'Hern, Silbert, Liu and Nagel, Physical Review E 68
+//! (2003) 011306. There is no gravity. The lid is then taken away, which leaves the top free.
 
 mod fire;
 mod fraction;
@@ -31,7 +31,7 @@ const FIRST_FRACTION: f64 = 0.57;
 /// The lid is raised by this factor if spheres find no room below it.
 const RAISE: f64 = 1.2;
 
-/// Greatest height of the lid, in that of all spheres on top of each other: each has room then.
+/// Greatest height of the lid, over the height of all spheres stacked: each has room then.
 const HIGHEST: f64 = 4.0;
 
 /// Share of the height by which the lid is lowered at once.

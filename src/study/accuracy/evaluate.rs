@@ -69,7 +69,7 @@ pub struct MethodOrder {
 struct OrderRow {
     method: String,
     key: String,
-    /// Negative if errors fall; none where only a bound is known.
+    /// Negative if errors fall; `None` if only a bound is known.
     order: Option<f64>,
     /// The bound, where it is all that is known.
     bound: Option<f64>,

@@ -26,7 +26,7 @@ impl Order {
         }
     }
 
-    /// The power; none where only a bound of it is known.
+    /// The power; `None` if only a bound of it is known.
     pub fn power(self) -> Option<f64> {
         match self {
             Self::Power(power) => Some(power),

@@ -81,7 +81,7 @@ fn marks_of_disagreement_stand_at_their_values() {
     let ticks = tick_heights(&svg);
     let discs = svg.lines().filter(|line| line.starts_with("<circle"));
     let discs = discs.filter(|line| line.contains("fill=\"#ffffff\""));
-    // The last one is that of the legend.
+    // The last one belongs to the legend.
     let mut heights: Vec<f64> = discs.map(|line| number(line, "cy")).collect();
     heights.pop();
     assert!(heights.len() > 8);
