@@ -6,7 +6,7 @@ use phase::dem::{Overlap, Release};
 use phase::scene::Scene;
 use phase::sweep::{Axis, Job, describe};
 
-/// Warns of overlaps that push spheres apart faster than any impact of the scene.
+/// Warns of overlaps that are deep or push spheres apart faster than any impact of the scene.
 pub(super) fn warn_of_scene(scene: &Scene, console: &Console) {
     if let Some(release) = Release::of_scene(scene) {
         warn(&release, "", console);
@@ -47,9 +47,12 @@ fn warn(release: &Release, at: &str, console: &Console) {
         0 => String::new(),
         _ => format!("; {} more like this", format::count(*others, "overlap")),
     };
+    let faster = match speed > impact {
+        true => format!(", faster than any impact that the scene lets expect ({impact:.3} m/s)"),
+        false => String::new(),
+    };
     console.warning(format_args!(
         "sphere {sphere} starts {depth:.3e} m ({depth_in_radii:.3} radii) deep in {partner}{at}: \
-         the contact pushes them apart at up to {speed:.3} m/s, faster than any impact that the \
-         scene lets expect ({impact:.3} m/s){others}"
+         the contact pushes them apart at up to {speed:.3} m/s{faster}{others}"
     ));
 }

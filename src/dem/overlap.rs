@@ -10,6 +10,10 @@ use crate::start;
 /// Overlaps below this share of the radius come from rounded positions.
 const NEGLIGIBLE: f64 = 1e-6;
 
+/// Overlaps beyond this share of the radius are named whatever the speeds of the scene are: few
+/// contacts are as soft.
+const DEEP: f64 = 0.5;
+
 /// What a sphere overlaps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Partner {
@@ -136,8 +140,8 @@ pub(super) fn deepest_at_start(scene: &Scene) -> f64 {
     deepest
 }
 
-/// Overlaps at the start that push spheres apart faster than any impact that a scene lets expect.
-/// Contacts of a former state of the scene hardly ever do: such impacts have made them, or weights
+/// Overlaps at the start that are deeper than half a radius, or push spheres apart faster than any
+/// impact that a scene lets expect. Contacts of a former state of the scene hardly ever do: such impacts have made them, or weights
 /// that stand lower than they could have fallen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Release {
@@ -155,7 +159,8 @@ impl Release {
         let impact = fastest_impact(scene);
         let mut found: Option<Self> = None;
         visit(scene, |overlap| {
-            if overlap.depth_in_radii < NEGLIGIBLE || overlap.speed <= impact {
+            let is_deep = overlap.depth_in_radii > DEEP;
+            if overlap.depth_in_radii < NEGLIGIBLE || (overlap.speed <= impact && !is_deep) {
                 return;
             }
             found = Some(match found {

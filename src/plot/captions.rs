@@ -8,6 +8,9 @@ use serde_json::Value;
 /// Keys and tables that name no run: what is kept of it, and for how long it went on.
 const UNNAMED: [&str; 3] = ["output", "title", "time.duration"];
 
+/// A whole number that may have more digits than a real number holds.
+const SEED: &str = "seed";
+
 /// What names each run, with markup: its values of the keys in which the scenes differ, or the
 /// titles where all scenes have different ones. Nothing where they do not differ.
 pub(super) fn of(scenes: &[&Scene]) -> Vec<Vec<String>> {
@@ -69,7 +72,10 @@ fn part(scene: &Scene, tree: &Value, trees: &[Value], key: &str) -> String {
         Some(Value::Number(number)) => {
             let others = trees.iter().filter_map(|tree| at(tree, key)?.as_f64());
             let others: Vec<f64> = others.collect();
-            let value = numbers::among(number.as_f64().unwrap_or(f64::NAN), &others);
+            let value = match number.as_u64() {
+                Some(whole) if key == SEED => whole.to_string(),
+                _ => numbers::among(number.as_f64().unwrap_or(f64::NAN), &others),
+            };
             match scene.notation(key) {
                 Some(it) => format!("${}$ = {value} {}", it.symbol, it.unit)
                     .trim_end()

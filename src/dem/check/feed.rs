@@ -6,7 +6,7 @@ use crate::dem::walls::Wall;
 use crate::document::{Problem, at_most, number, rounded_down, rounded_up};
 use crate::scene::{Geometry, Scene, Start, Tank, rounded};
 
-/// Overlaps with walls below this share of the radius come from rounded positions.
+/// Overlaps below this share of the radius come from rounded positions.
 const ROUNDING: f64 = 1e-9;
 
 /// Where the largest sphere of a feed may come in: anywhere within `spread` (m) of a position along
@@ -55,7 +55,7 @@ impl Scene {
         let in_the_way = fixed.walls.iter().chain(&fixed.door).find(|sphere| {
             let [x, y, z] = std::array::from_fn(|axis| sphere.position[axis] - position[axis]);
             let aside = (x.abs() - spread).max(0.0);
-            let reach = radius + sphere.radius;
+            let reach = (radius + sphere.radius) * (1.0 - ROUNDING);
             aside * aside + y * y + z * z < reach * reach
         });
         if let Some(sphere) = in_the_way {

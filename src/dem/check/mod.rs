@@ -1,5 +1,6 @@
 //! Problems of a scene that only the engine can find: the time step and the start.
 
+mod bounds;
 mod feed;
 mod start;
 mod step;
@@ -46,6 +47,7 @@ impl Scene {
         self.check_relations(problems);
         self.check_room(problems);
         self.check_feed_place(problems);
+        self.check_bounds(problems);
         self.check_packing_beside_fixed(problems);
         if problems.is_empty() {
             self.check_overlaps(problems);

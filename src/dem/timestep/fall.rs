@@ -58,7 +58,10 @@ impl Fall {
         let speed = |height: f64| (2.0 * acceleration * height).sqrt();
         let way = Way::of(scene, &gravity);
         let highest = way.highest(scene);
-        let end = match (way.lowest_sphere(scene), way.end(way.floor)) {
+        // A sphere that is not below every start holds none that start beside or below it.
+        let lowest_start = way.lowest(scene);
+        let sphere = way.lowest_sphere(scene).filter(|it| *it < lowest_start);
+        let end = match (sphere, way.end(way.floor)) {
             (Some(sphere), end) => Ok(end.map_or(sphere, |wall| wall.min(sphere))),
             (None, end) => end,
         };
@@ -180,22 +183,42 @@ impl Way {
         }
     }
 
+    /// The least height (m) of a centre at the start.
+    fn lowest(&self, scene: &Scene) -> f64 {
+        let upward = self.upward.map(|part| -part);
+        -Self { upward, ..*self }.highest(scene)
+    }
+
     /// The least height (m) of a centre of what holds spheres: of fixed spheres, and of driven ones
-    /// on their paths. A driven sphere that moves on and on counts where it starts, as seen from it
-    /// the fall is the same.
+    /// on their paths. Without an outlet, spheres of a door do not count, as it opens. A driven
+    /// sphere that moves on and on along gravity counts where it starts, as seen from it the fall is
+    /// the same; one that moves away sideways does not count.
     fn lowest_sphere(&self, scene: &Scene) -> Option<f64> {
+        let has_door = scene.dem.door.is_none() || scene.outlet_height().is_some();
         let fixed = scene.dem.geometry.as_ref().map(|it| it.spheres());
-        let fixed = fixed.iter().flat_map(|it| it.walls.iter().chain(&it.door));
+        let fixed = fixed.iter().flat_map(|it| {
+            let door = it.door.iter().filter(|_| has_door);
+            it.walls.iter().chain(door)
+        });
         let fixed = fixed.map(|it| self.height(it.position[0], it.position[2]));
         let listed: &[StartSphere] = match &scene.start {
             Start::List { spheres } => spheres,
             _ => &[],
         };
-        let driven = scene.dem.driven.iter().filter_map(|path| {
+        let staying = scene.dem.driven.iter().filter(|path| self.stays(path));
+        let driven = staying.filter_map(|path| {
             let [x, _, z] = listed.get(path.sphere)?.position;
             Some(self.height(x, z) + self.lowest_swing(path))
         });
         fixed.chain(driven).reduce(f64::min)
+    }
+
+    /// Whether a driven sphere moves along gravity alone, but for its swing.
+    fn stays(&self, path: &Driven) -> bool {
+        let [x, y, z] = path.velocity;
+        let across = self.upward[1] * x - self.upward[0] * z;
+        let fastest = x.abs().max(z.abs());
+        y == 0.0 && across.abs() <= ROUNDED_TILT * fastest
     }
 
     /// The least height (m) of a path above its start.
