@@ -138,7 +138,8 @@ impl TangentialLoop {
         for _ in 0..CYCLES * self.steps {
             bench.advance(&mut simulation, 1)?;
             let now = moment(&simulation);
-            let normal = now.0 * (1.0 / now.0.norm());
+            let offset = now.0 + before.0;
+            let normal = offset * (1.0 / offset.norm());
             let mean = (now.1 + before.1) * 0.5;
             given += mean
                 .perpendicular_to(normal)

@@ -157,21 +157,19 @@ impl<H: History> ContactBlock<H> {
                 self.contact_radius[k] = laws.contact_radius(&state, self.inverse_distance[k]);
             }
         }
-        match EARLIER {
-            true => self.turn_springs_by(
-                #[inline(always)]
-                |block, k| {
-                    let state = block.contact_state::<T, EARLIER>(k, block.properties[1].at(k));
-                    let turn = laws.turn_of_pair(&state, block.inverse_distance[k]);
-                    (block.normal(k), turn)
-                },
-            ),
-            false => self.turn_springs(Self::normal),
-        }
-        self.change_springs(
+        self.bring_springs(
             laws.tangential.keeps(),
             #[inline(always)]
             |block, k| block.contact_radius[k],
+            #[inline(always)]
+            |block, k, spring, change| match EARLIER {
+                true => {
+                    let state = block.contact_state::<T, EARLIER>(k, block.properties[1].at(k));
+                    let turn = laws.turn_of_pair(&state, block.inverse_distance[k]);
+                    spring.turned_by(block.normal(k), turn, change)
+                }
+                false => spring.turned_to(block.normal(k), change),
+            },
         );
         for k in 0..BLOCK {
             let state = self.contact_state::<T, EARLIER>(k, self.properties[1].at(k));

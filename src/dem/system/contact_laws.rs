@@ -8,7 +8,8 @@ use super::contact_state::ContactState;
 use crate::dem::walls::Wall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{
-    History, LoadedSpring, Spring, TangentialLaw, Touch, Traction, Turning, sliding_velocity,
+    Change, History, LoadedSpring, Spring, TangentialLaw, Touch, Traction, Turning,
+    sliding_velocity,
 };
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
@@ -141,25 +142,24 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         if !Self::HAS_HISTORY {
             return history;
         }
-        let turned = |force: Vector| {
+        let turned = |force: Vector, change: Change| {
             let spring = Spring { force };
             match geometry.loading {
-                Some(earlier) => spring.turned_by(geometry.normal, earlier.turn),
-                None => spring.turned(geometry.normal),
+                Some(earlier) => spring.turned_by(geometry.normal, earlier.turn, change),
+                None => spring.turned_to(geometry.normal, change),
             }
         };
-        let mut spring = turned(history.spring().force);
-        if T::History::HAS_RADIUS {
-            let keeps = self.tangential.keeps();
-            spring.force = spring.force * keeps.factor(history.radius(), geometry.contact_radius);
-        }
-        let now = T::History::of_spring(spring);
+        let change = match T::History::HAS_RADIUS {
+            true => (self.tangential.keeps()).change(history.radius(), geometry.contact_radius),
+            false => Change::NONE,
+        };
+        let now = T::History::of_spring(turned(history.spring().force, change));
         if !T::History::TURNS {
             return now;
         }
         let turning = history.turning();
         now.with_turning(Turning {
-            force: turned(turning.force).force,
+            force: turned(turning.force, Change::NONE).force,
             ..turning
         })
     }

@@ -21,15 +21,20 @@ pub enum Keeps {
 }
 
 impl Keeps {
-    /// The factor by which the force of a spring changes with the contact radius (m). A new contact
-    /// has a radius of zero before and no force.
+    /// How the force of a spring changes with the contact radius (m). A new contact has a radius of
+    /// zero before and no force.
     #[inline(always)]
-    pub(crate) fn factor(self, before: f64, now: f64) -> f64 {
-        let ratio = if before > 0.0 { now / before } else { 0.0 };
+    pub(crate) fn change(self, before: f64, now: f64) -> Change {
         match self {
-            Self::Force => 1.0,
-            Self::Displacement => ratio,
-            Self::Lesser => lesser(ratio, 1.0),
+            Self::Force => Change::NONE,
+            Self::Displacement => Change {
+                from: before,
+                to: now,
+            },
+            Self::Lesser => Change {
+                from: before,
+                to: lesser(now, before),
+            },
         }
     }
 
@@ -42,6 +47,27 @@ impl Keeps {
             Self::Force => touch.loading_radius,
             Self::Displacement => touch.contact_radius,
             Self::Lesser => lesser(touch.loading_radius, touch.contact_radius),
+        }
+    }
+}
+
+/// A change of a spring's force by the factor `to` / `from`; of a force of zero if `from` is zero.
+/// The quotient is a part of the root by which a spring [turns](Spring::turned_to), and so takes no
+/// time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Change {
+    pub(super) from: f64,
+    pub(super) to: f64,
+}
+
+impl Change {
+    /// No change.
+    pub(crate) const NONE: Self = Self { from: 1.0, to: 1.0 };
+
+    fn factor(self) -> f64 {
+        match self.from > 0.0 {
+            true => self.to / self.from,
+            false => 0.0,
         }
     }
 }
@@ -62,7 +88,7 @@ pub struct SpringAtRadius {
 impl SpringAtRadius {
     /// Its energy (J), for a stiffness of `modulus` (Pa) times the contact radius (m).
     pub(super) fn energy(&self, keeps: Keeps, modulus: f64, contact_radius: f64) -> f64 {
-        let factor = keeps.factor(self.radius(), contact_radius);
+        let factor = keeps.change(self.radius(), contact_radius).factor();
         self.spring().energy(modulus * contact_radius) * factor * factor
     }
 }
@@ -149,10 +175,8 @@ mod tests {
             for step in 0..STEPS {
                 let radius = line[0][1] + wider * f64::from(step + 1);
                 let touch = touch(radius, radius - 0.5 * wider, way);
-                let factor = law.keeps().factor(history.radius(), radius);
-                let spring = Spring {
-                    force: history.spring().force * factor,
-                };
+                let change = law.keeps().change(history.radius(), radius);
+                let spring = history.spring().turned_to(touch.normal, change);
                 let loaded = law.load(&touch, spring);
                 let squared = loaded.squared();
                 let (force, left) = loaded.capped(squared, inverse_square_root(squared));

@@ -13,6 +13,7 @@ mod spring;
 
 pub use coulomb::{Coulomb, CoulombLaw};
 pub use cundall_strack::{CundallStrack, CundallStrackLaw};
+pub(crate) use keeps::Change;
 pub use keeps::{Keeps, SpringAtRadius};
 pub use keys::Friction;
 pub(crate) use keys::{FrictionKeys, with_pairs_of_laws};

@@ -1,6 +1,6 @@
 //! The loaded spring of a contact that sticks.
 
-use super::{Touch, Traction};
+use super::{Change, Touch, Traction};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
 use serde::{Deserialize, Serialize};
@@ -46,7 +46,13 @@ impl Spring {
     /// length.
     #[inline(always)]
     pub fn turned(&self, normal: Vector) -> Self {
-        self.lengthened(self.force.perpendicular_to(normal))
+        self.turned_to(normal, Change::NONE)
+    }
+
+    /// The same with a change of its force.
+    #[inline(always)]
+    pub(crate) fn turned_to(&self, normal: Vector, change: Change) -> Self {
+        self.lengthened(self.force.perpendicular_to(normal), change)
     }
 
     /// The same where it is known how much the normal changed since the spring was in its plane,
@@ -56,18 +62,18 @@ impl Spring {
     /// / (1 + n' n). A projection has n in place of (n' + n) / 2: each step then misses an angle
     /// of second order, and the motion is of first order.
     #[inline(always)]
-    pub(crate) fn turned_by(&self, normal: Vector, change: Vector) -> Self {
-        let half = change.perpendicular_to(normal) * (0.5 * self.force.dot(normal));
-        self.lengthened(self.force.perpendicular_to(normal) + half)
+    pub(crate) fn turned_by(&self, normal: Vector, turn: Vector, change: Change) -> Self {
+        let half = turn.perpendicular_to(normal) * (0.5 * self.force.dot(normal));
+        self.lengthened(self.force.perpendicular_to(normal) + half, change)
     }
 
-    /// The spring in the direction of `turned`, with its length.
+    /// The spring in the direction of `turned`, with its length but for the change.
     #[inline(always)]
-    fn lengthened(&self, turned: Vector) -> Self {
+    fn lengthened(&self, turned: Vector, change: Change) -> Self {
         let (before, after) = (self.force.norm_squared(), turned.norm_squared());
-        // One root for |before| / |after|. Forces too small for it are set to zero.
-        let product = before * after;
-        let scale = before * inverse_square_root(product);
+        // One root for |before| / |after| and the change. Forces too small for it are set to zero.
+        let product = before * after * (change.from * change.from);
+        let scale = before * change.to * inverse_square_root(product);
         let force = select(product > LEAST_PRODUCT, turned * scale, Vector::ZERO);
         Self { force }
     }
@@ -212,7 +218,7 @@ mod tests {
             for step in 1..=steps {
                 let now = normal(step);
                 spring = match second_order {
-                    true => spring.turned_by(now, now - normal(step - 1)),
+                    true => spring.turned_by(now, now - normal(step - 1), Change::NONE),
                     false => spring.turned(now),
                 };
             }

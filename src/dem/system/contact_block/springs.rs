@@ -2,7 +2,9 @@
 
 use super::{ContactBlock, NOT_DEEP, if_touching, store};
 use crate::dem::system::contact_laws::LoadedContact;
-use crate::forces::friction::{History, Keeps, LoadedSpring, Spring, TangentialLaw, Turning, arm};
+use crate::forces::friction::{
+    Change, History, Keeps, LoadedSpring, Spring, TangentialLaw, Turning, arm,
+};
 use crate::particles::block::{BLOCK, ROWS};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
@@ -86,56 +88,35 @@ impl<H: History> ContactBlock<H> {
         self.lever[k] = loaded.lever;
     }
 
-    /// Turns springs into the planes across the normals, in a loop of its own like that of the
-    /// roots.
+    /// Turns springs and turning points into the planes across the normals, by `turned`, and
+    /// changes the forces of springs with the contact radius (m), in a loop of its own like that of
+    /// the roots.
     #[inline(always)]
-    pub(super) fn turn_springs(&mut self, normal: impl Fn(&Self, usize) -> Vector) {
-        if Self::HAS_HISTORY {
-            for k in 0..BLOCK {
-                let force = self.spring(k).turned(normal(self, k)).force;
-                self.spring.set(k, force);
-            }
-            self.turn_turning_points(|block, k, spring| spring.turned(normal(block, k)));
-        }
-    }
-
-    /// The same with the [turn](Spring::turned_by) of each normal since the springs were loaded.
-    #[inline(always)]
-    pub(super) fn turn_springs_by(
+    pub(super) fn bring_springs(
         &mut self,
-        normal_and_turn: impl Fn(&Self, usize) -> (Vector, Vector),
+        keeps: Keeps,
+        radius: impl Fn(&Self, usize) -> f64,
+        turned: impl Fn(&Self, usize, Spring, Change) -> Spring,
     ) {
-        if Self::HAS_HISTORY {
-            for k in 0..BLOCK {
-                let (normal, turn) = normal_and_turn(self, k);
-                let force = self.spring(k).turned_by(normal, turn).force;
-                self.spring.set(k, force);
-            }
-            self.turn_turning_points(|block, k, spring| {
-                let (normal, turn) = normal_and_turn(block, k);
-                spring.turned_by(normal, turn)
-            });
+        if !Self::HAS_HISTORY {
+            return;
         }
-    }
-
-    /// Changes the forces of springs with the contact radius (m), in a loop of its own because of
-    /// the quotient.
-    #[inline(always)]
-    pub(super) fn change_springs(&mut self, keeps: Keeps, radius: impl Fn(&Self, usize) -> f64) {
         if H::HAS_RADIUS && keeps != Keeps::Force {
             for k in 0..BLOCK {
-                let factor = keeps.factor(self.spring_radius[k], radius(self, k));
-                self.spring.set(k, self.spring.vector(k) * factor);
+                let change = keeps.change(self.spring_radius[k], radius(self, k));
+                let force = turned(self, k, self.spring(k), change).force;
+                self.spring.set(k, force);
+            }
+        } else {
+            for k in 0..BLOCK {
+                let force = turned(self, k, self.spring(k), Change::NONE).force;
+                self.spring.set(k, force);
             }
         }
-    }
-
-    #[inline(always)]
-    fn turn_turning_points(&mut self, turned: impl Fn(&Self, usize, Spring) -> Spring) {
         if H::TURNS {
             for k in 0..BLOCK {
                 let force = self.turning_force.vector(k);
-                let force = turned(self, k, Spring { force }).force;
+                let force = turned(self, k, Spring { force }, Change::NONE).force;
                 self.turning_force.set(k, force);
             }
         }

@@ -55,26 +55,23 @@ impl<H: History> ContactBlock<H> {
         &mut self,
         laws: &Laws<N, T>,
     ) {
-        match EARLIER {
-            true => self.turn_springs_by(
-                #[inline(always)]
-                |block, k| {
-                    let normal = block.wall_contact.at(k).normal;
-                    let earlier = block.earlier_wall_contact.at(k).normal;
-                    (normal, laws.turn_at_wall(normal, earlier))
-                },
-            ),
-            false => self.turn_springs(
-                #[inline(always)]
-                |block, k| block.wall_contact.at(k).normal,
-            ),
-        }
-        self.change_springs(
+        self.bring_springs(
             laws.tangential.keeps(),
             #[inline(always)]
             |block, k| {
                 let overlap = block.wall_contact.at(k).overlap;
                 contact_radius(overlap, block.properties[0].radius[k])
+            },
+            #[inline(always)]
+            |block, k, spring, change| {
+                let normal = block.wall_contact.at(k).normal;
+                match EARLIER {
+                    true => {
+                        let earlier = block.earlier_wall_contact.at(k).normal;
+                        spring.turned_by(normal, laws.turn_at_wall(normal, earlier), change)
+                    }
+                    false => spring.turned_to(normal, change),
+                }
             },
         );
         for k in 0..BLOCK {
