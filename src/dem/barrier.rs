@@ -105,5 +105,5 @@ fn speed_to(scene: &Scene, radius: f64, place: [f64; 3], fixed: &[FixedSphere]) 
 
 fn elastic_energy(scene: &Scene, overlap: f64, effective_radius: f64) -> f64 {
     let contact = scene.dem.contact.as_ref();
-    contact.map_or(0.0, |it| it.elastic_energy(overlap, effective_radius))
+    contact.map_or(0.0, |it| it.elastic_energy()(overlap, effective_radius))
 }

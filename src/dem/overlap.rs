@@ -83,8 +83,9 @@ pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
         inverse_mass,
         ..
     } = &particles;
+    let elastic_energy = contact.elastic_energy();
     let speed = |depth: f64, effective_radius: f64, inverse_mass: f64| {
-        (2.0 * contact.elastic_energy(depth, effective_radius) * inverse_mass).sqrt()
+        (2.0 * elastic_energy(depth, effective_radius) * inverse_mass).sqrt()
     };
     visit_pairs(&particles, |i, j| {
         let distance = (position[i] - position[j]).norm();

@@ -121,10 +121,14 @@ impl Contact {
         with_keys!(self, keys => name(keys))
     }
 
-    /// As [`NormalLaw::elastic_energy`].
-    pub(crate) fn elastic_energy(&self, overlap: f64, effective_radius: f64) -> f64 {
+    /// [`NormalLaw::elastic_energy`] for many contacts: the law is built once, which takes an
+    /// integration where the keys give a restitution.
+    pub(crate) fn elastic_energy(&self) -> Box<dyn Fn(f64, f64) -> f64> {
         // The mean sphere is for the dissipation, on which the elastic energy does not depend.
-        with_keys!(self, keys => keys.law(1.0, 1.0).elastic_energy(overlap, effective_radius))
+        with_keys!(self, keys => {
+            let law = keys.law(1.0, 1.0);
+            Box::new(move |overlap, effective_radius| law.elastic_energy(overlap, effective_radius))
+        })
     }
 
     /// As [`ContactKeys::collisions`].
