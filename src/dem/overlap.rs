@@ -142,8 +142,8 @@ pub(super) fn deepest_at_start(scene: &Scene) -> f64 {
 }
 
 /// Overlaps at the start that are deeper than half a radius, or push spheres apart faster than any
-/// impact that a scene lets expect. Contacts of a former state of the scene hardly ever do: such impacts have made them, or weights
-/// that stand lower than they could have fallen.
+/// impact that a scene lets expect. Contacts of a former state of the scene are hardly ever faster:
+/// such impacts have made them, or weights that stand lower than they could have fallen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Release {
     /// The overlap with the greatest speed.

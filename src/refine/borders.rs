@@ -55,8 +55,8 @@ impl Borders {
     /// the label of the upper side is probable (2.5 % for the band of 95 %), and as far up as the
     /// label of the lower side is: for a single border these are the quantiles of the place where
     /// the label of one seed changes. So it holds both what the model does not know and
-    /// what seeds change. Nothing is known between the two places: if both are sure of their labels,
-    /// the border is anywhere between them, and the band of 95 % takes 95 % of the way.
+    /// what seeds change. Nothing is known between the two places: if both are sure of their
+    /// labels, the border is anywhere between them, and the band of 95 % takes 95 % of the way.
     ///
     /// # Errors
     /// If the lattice has no such axis.
