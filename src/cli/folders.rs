@@ -39,7 +39,7 @@ impl From<Failure> for Undone {
 }
 
 /// Calls `act` for the results folders found at `dir`. If `dir` holds them, one that fails is named
-/// and does not stop the others; if it is one itself, its failure is that of the command.
+/// and does not stop the others; if it is one itself, its failure fails the command.
 pub(super) fn go_through<T>(
     dir: &Path,
     found: Vec<Folder>,

@@ -130,7 +130,7 @@ impl Sweep {
     }
 }
 
-/// The error of a value that is not among those of its axis: it names these, or the nearest ones if
+/// The error of a value that its axis does not have: it names these, or the nearest ones if
 /// there are many.
 fn never<T: Copy + PartialOrd + Display>(name: &str, value: T, known: &[T]) -> SelectError {
     let values = if known.len() <= FEW {

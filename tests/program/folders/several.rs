@@ -17,7 +17,7 @@ fn copy_files(from: &Path, to: &Path) {
     }
 }
 
-/// A workplace with the published results, and beside them those of a tiny sweep. Gives the number
+/// A workplace with the published results, and beside them a tiny sweep. Gives the number
 /// of published sweeps.
 fn published() -> (Workplace, usize) {
     let place = Workplace::new();
