@@ -237,8 +237,8 @@ impl Effects {
     }
 
     /// The speed (m/s) through the air at which drag holds a sphere of that radius (m), mass (kg)
-    /// and density (kg/m3) against gravity, wherever it is. None if there is no such drag: the drag of
-    /// an updraught acts along z only, fades or grows with height, and fades below other spheres,
+    /// and density (kg/m3) against gravity, wherever it is. None if there is no such drag: an
+    /// updraught acts along z only, fades or grows with height, and fades below other spheres,
     /// unless the sphere is `alone`.
     pub(crate) fn terminal_speed(
         &self,
