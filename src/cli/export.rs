@@ -86,7 +86,10 @@ impl Format {
         match self {
             Self::Xyz | Self::Npy | Self::Svg => ("", b""),
             Self::Page => ("a page of a run", store::PAGE_SIGNATURE),
-            Self::Vtk => ("a ParaView series", b"<?xml"),
+            Self::Vtk => (
+                "a ParaView series of this command",
+                store::VTK_SIGNATURE.as_bytes(),
+            ),
             Self::Csv => ("a table of spheres", store::SPHERES_SIGNATURE),
             Self::Dump => ("a dump", b"\x93NUMPY"),
         }
@@ -104,7 +107,11 @@ impl Format {
             Self::Csv => names.map(|name| self.beside(target, name)).to_vec(),
             _ => Vec::new(),
         };
-        folders::refuse_foreign(Path::new(""), files, ANOTHER_FOLDER)
+        folders::refuse_foreign(Path::new(""), files, ANOTHER_FOLDER)?;
+        match self {
+            Self::Npy => refuse_foreign_arrays(target),
+            _ => Ok(()),
+        }
     }
 
     /// A file beside that of the states, with this at the end of its name.
@@ -124,6 +131,22 @@ impl Format {
             Self::Npy | Self::Svg => "",
             Self::Dump => "npy",
         }
+    }
+}
+
+/// Refuses to replace arrays in a folder that holds some of the arrays of a run and not all: an
+/// array does not say what wrote it.
+fn refuse_foreign_arrays(folder: &Path) -> Result<(), Failure> {
+    let is_there = |name: &&str| folder.join(name).exists();
+    match store::ARRAYS.into_iter().find(is_there) {
+        Some(name) if !store::ARRAYS.iter().all(|name| is_there(&name)) => {
+            Err(Failure::refused(format_args!(
+                "{}: this array is not of an export, which would replace it; {ANOTHER_FOLDER}, or \
+                 move it away",
+                folder.join(name).display()
+            )))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -297,7 +320,11 @@ fn write(
 ) -> Result<Vec<PathBuf>, Failure> {
     match format {
         Format::Xyz => store::write_xyz(record, states, target),
-        Format::Vtk => store::write_vtk(record, states, target),
+        Format::Vtk => {
+            let names = store::vtk_names(states.len());
+            folders::refuse_foreign(&target.with_extension(""), names, ANOTHER_FOLDER)?;
+            store::write_vtk(record, states, target)
+        }
         Format::Npy => store::write_arrays(record, states, target),
         Format::Csv => store::write_spheres(record, states, target),
         Format::Svg => {

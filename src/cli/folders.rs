@@ -186,13 +186,15 @@ pub(super) fn make_for(file: &Path) -> Result<(), Failure> {
     make(file.parent().unwrap_or(Path::new("")))
 }
 
-/// Refuses a folder that holds frames which `count` new ones would not replace: what they are of
-/// could not be told any more.
+/// Refuses a folder that holds frames of another program, or frames which `count` new ones would
+/// not replace: what they are of could not be told any more.
 pub(super) fn refuse_other_frames(
     folder: &Path,
     count: usize,
     extension: &str,
 ) -> Result<(), Failure> {
+    let names = (0..count).map(|frame| store::frame_name(frame, extension));
+    refuse_foreign(folder, names, "choose another folder")?;
     let beyond = folder.join(store::frame_name(count, extension));
     if beyond.exists() {
         return Err(Failure::refused(format_args!(

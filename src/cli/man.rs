@@ -3,6 +3,7 @@
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::folders;
+use super::plot::ANOTHER_FOLDER;
 use clap::CommandFactory;
 use std::path::PathBuf;
 
@@ -27,11 +28,16 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.result(String::from_utf8_lossy(&page).trim_end());
         return Ok(Exit::Done);
     };
-    folders::make(folder)?;
     let subcommands: Vec<_> = command.get_subcommands().cloned().collect();
-    for command in std::iter::once(command).chain(subcommands) {
+    let named = std::iter::once(command).chain(subcommands).map(|command| {
         let name = command.get_display_name().unwrap_or(command.get_name());
-        let path = folder.join(format!("{name}.1"));
+        (format!("{name}.1"), command)
+    });
+    let named: Vec<_> = named.collect();
+    folders::refuse_foreign(folder, named.iter().map(|(name, _)| name), ANOTHER_FOLDER)?;
+    folders::make(folder)?;
+    for (name, command) in named {
+        let path = folder.join(name);
         phase::store::write_atomic(&path, &page(command)?).map_err(Failure::failed)?;
         console.file(&path);
     }

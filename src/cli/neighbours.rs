@@ -2,6 +2,7 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
+use super::plot::ANOTHER_FOLDER;
 use super::{folders, plot};
 use phase::cost::neighbours::{Cost, Moment, StudyError};
 use phase::plot::step_time::{self, Against, StepTimes};
@@ -87,6 +88,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             error => Failure::failed(error),
         });
         moments.push(moment?);
+    }
+    if let Some(folder) = &arguments.out {
+        let figures = ["count", "length"].map(|against| format!("step-time-{against}"));
+        let tables = figures.clone().map(|name| PathBuf::from(name + ".csv"));
+        let names = folders::files_of_figures(figures).chain(tables);
+        folders::refuse_foreign(folder, names, ANOTHER_FOLDER)?;
     }
     let mut study = Study::default();
     console.result(format_args!(

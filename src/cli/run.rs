@@ -15,7 +15,7 @@ use phase::record::{Milestone, MilestoneKind, Outcome, RunRecord};
 use phase::resume::{Checkpoints, DEFAULT_INTERVAL};
 use phase::run::{frame_of_state, model_of};
 use phase::scene::{Scene, Start};
-use phase::store::{self, Lock};
+use phase::store::{self, Lock, StoreError};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -146,6 +146,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         original.refuse_to_replace(&path)?;
     }
     folders::refuse_to_replace(&path, "a record", store::HDF5_SIGNATURE)?;
+    if let Err(StoreError::NotARecord { .. }) = store::read_record_header(&path) {
+        folders::refuse_foreign(Path::new(""), [&path], "choose another name with --out")?;
+    }
     let table = scene.has_flow().then(|| beside(&path));
     if let Some(table) = &table {
         // The first columns of what is observed; spots have no energies.

@@ -18,6 +18,8 @@ struct Motion<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     friction: &'a Option<Friction>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    friction_form: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     rolling: &'a Option<Rolling>,
     #[serde(skip_serializing_if = "Option::is_none")]
     tank: &'a Option<Tank>,
@@ -60,7 +62,7 @@ impl Motion<'_> {
 
 impl Scene {
     /// Sixteen hexadecimal digits that stand for everything which determines the motion: all keys
-    /// but `title`, `neighbours` and `output`. Runs of equal identity have equal bits, and every
+    /// but `title`, `neighbours` and `output`, and the [form](Friction::form) of the laws. Runs of equal identity have equal bits, and every
     /// random number of a run derives from it.
     pub fn identity(&self) -> String {
         self.motion().identity()
@@ -98,6 +100,7 @@ impl Scene {
             spheres,
             contact,
             friction,
+            friction_form: friction.as_ref().and_then(Friction::form),
             rolling,
             tank,
             geometry,
@@ -129,12 +132,14 @@ impl Scene {
 
     /// The random stream of this run that serves one `purpose`. Streams of different
     /// purposes or of different runs are independent. `steady` ends a run and does not change it:
-    /// without that table it goes on with the same bits.
+    /// without that table it goes on with the same bits. Nor does the form of a law change them, so
+    /// that a run starts as it did with the earlier form.
     pub fn random_stream(&self, purpose: &str) -> rand_pcg::Pcg64 {
         use rand::SeedableRng;
         let mut hasher = blake3::Hasher::new();
         let without_end = Motion {
             steady: None,
+            friction_form: None,
             ..self.motion()
         };
         hasher.update(without_end.identity().as_bytes());

@@ -25,8 +25,9 @@ pub use checkpoint::{
 pub use data_set::{DataSet, read_data_set};
 pub use dump::{DumpName, read_dump, write_dump};
 pub use export::{
-    PAGE_SIGNATURE, SPHERES_SIGNATURE, frame_name, write_arrays, write_fixed, write_fixed_xyz,
-    write_observations, write_page, write_spheres, write_svg, write_vtk, write_xyz,
+    ARRAYS, PAGE_SIGNATURE, SPHERES_SIGNATURE, VTK_SIGNATURE, frame_name, vtk_names, write_arrays,
+    write_fixed, write_fixed_xyz, write_observations, write_page, write_spheres, write_svg,
+    write_vtk, write_xyz,
 };
 pub use import::read_states;
 pub use labels::{read_labels, write_labels, write_points};

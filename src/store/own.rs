@@ -1,5 +1,6 @@
 //! Which files this program has written, told by their content.
 
+use super::export::VTK_SIGNATURE;
 use serde_json::Value;
 use std::fs::File;
 use std::io::{self, Read};
@@ -8,13 +9,26 @@ use std::path::Path;
 /// How much of a file is read to tell what it is (bytes), unless it must be read as a whole.
 const BEGINNING: u64 = 1 << 16;
 
-/// What the figures of this program say of themselves: in SVG and in PNG.
-const STAMPS: [&[u8]; 2] = [b"\nSoftware: phase ", b"Software\0phase "];
+/// What the pictures of this program say of themselves: figures in SVG, states of spheres in SVG,
+/// and PNG.
+const STAMPS: [&[u8]; 3] = [
+    b"\nSoftware: phase ",
+    b"lengths in metres, up is up</desc>",
+    b"Software\0phase ",
+];
+
+/// How the names of pictures end.
+const PICTURES: [&str; 3] = [".svg", ".png", ".apng"];
+
+/// Whether a name ends like that, in small or capital letters.
+fn ends(name: &str, end: &str) -> bool {
+    name.to_ascii_lowercase().ends_with(end)
+}
 
 /// What a file is, as far as this program writes such files.
 enum Kind {
-    /// A figure (SVG or PNG) with a stamp.
-    Figure,
+    /// A picture (SVG or PNG) with a stamp.
+    Picture,
     /// A table (CSV) whose header line has these columns beside each other.
     Table(&'static str),
     /// A text whose beginning holds this.
@@ -37,12 +51,15 @@ fn kind_of(name: &str) -> Option<Kind> {
         "runs.csv" | "accuracy.csv" => Kind::Table("setting,"),
         "ablation.csv" => Kind::Table("without,"),
         "stability.csv" => Kind::Table("integrator,"),
+        "step-time-count.csv" | "step-time-length.csv" => Kind::Table("search,length,spheres"),
         "stability.makers.csv" => Kind::Table("id,version,commit"),
         "verification.csv" => Kind::Table("family,case,integrator,quantity"),
         name if name.ends_with("-observations.csv") => Kind::Table("time,"),
         name if name.ends_with("-fixed.csv") => Kind::Table("kind,x,y,z,radius"),
         name if name.ends_with(".xyz") => Kind::Text("Properties=species:S:1:pos:R:3:radius:R:1"),
-        name if name.ends_with(".svg") || name.ends_with(".png") => Kind::Figure,
+        name if name.ends_with(".vtp") || name.ends_with(".pvd") => Kind::Text(VTK_SIGNATURE),
+        name if name.ends_with(".1") => Kind::Text(".TH phase"),
+        name if PICTURES.iter().any(|end| ends(name, end)) => Kind::Picture,
         _ => return None,
     })
 }
@@ -76,7 +93,7 @@ impl Kind {
     fn is_of(&self, bytes: &[u8]) -> bool {
         let holds = |bytes: &[u8], text: &[u8]| bytes.windows(text.len()).any(|it| it == text);
         match self {
-            Self::Figure => STAMPS.iter().any(|stamp| holds(bytes, stamp)),
+            Self::Picture => STAMPS.iter().any(|stamp| holds(bytes, stamp)),
             Self::Text(text) => holds(bytes, text.as_bytes()),
             Self::Table(columns) => {
                 let header = bytes.split(|byte| *byte == b'\n').next();
@@ -100,6 +117,10 @@ mod tests {
         let mut count = 0;
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
+            if path.ends_with("quick") {
+                // Not shipped: the commands of the documentation write there.
+                continue;
+            }
             if path.is_dir() {
                 count += told(&path);
             } else if kind_of(&path.file_name().unwrap().to_string_lossy()).is_some() {
@@ -133,6 +154,9 @@ mod tests {
             ),
             ("phase.png", "\u{89}PNG"),
             ("run.xyz", "1\nsteel\nFe 0 0 0\n"),
+            ("walls.vtp", "<?xml version=\"1.0\"?>\n<VTKFile>"),
+            ("phase.1", ".TH moon 1\n"),
+            ("step-time-count.csv", "spheres,seconds\n"),
             ("notes.txt", "phase"),
         ] {
             let path = place.path().join(name);

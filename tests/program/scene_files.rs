@@ -400,6 +400,17 @@ fn title_and_output_are_no_part_of_the_identity() {
     assert_eq!(changed.identity(), scene.identity());
 }
 
+/// Symptom: a folder of runs whose silbert spring kept its force was resumed with runs whose spring
+/// keeps its displacement. Cause: the formula had changed and the keys had not.
+#[test]
+fn a_law_that_has_changed_makes_other_runs() {
+    let before = "c42498a2ada1cbb2";
+    assert_ne!(
+        first_job(load_sweep("sweeps/beverloo-orifice.toml")),
+        before
+    );
+}
+
 #[test]
 fn points_are_chosen_by_name_and_value() {
     let sweep = load_sweep("tests/good/sweep-of-file.toml");

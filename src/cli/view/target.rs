@@ -3,7 +3,7 @@
 use super::Arguments;
 use crate::cli::exit::Failure;
 use crate::cli::folders;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A kind of file.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -67,7 +67,8 @@ impl Target {
         Ok(Self { path, kind })
     }
 
-    /// Refuses to write over a record, or over anything but a picture of the same kind.
+    /// Refuses to write over a record, or over anything but a picture of the same kind, of this
+    /// program.
     pub(super) fn check(&self, records: &[PathBuf]) -> Result<(), Failure> {
         let refused = |why: &str| {
             let path = self.path.display();
@@ -81,6 +82,14 @@ impl Target {
         if self.path.is_dir() {
             return refused("this is a folder; name a file in it");
         }
-        folders::refuse_to_replace(&self.path, self.kind.name(), self.kind.signature())
+        folders::refuse_to_replace(&self.path, self.kind.name(), self.kind.signature())?;
+        match self.kind {
+            Kind::Png => {
+                let remedy = "choose another name with --out";
+                folders::refuse_foreign(Path::new(""), [&self.path], remedy)
+            }
+            // A GIF says nothing of what made it.
+            Kind::Gif => Ok(()),
+        }
     }
 }

@@ -88,6 +88,15 @@ impl Friction {
         }
     }
 
+    /// The form of a law whose formula has changed while its keys have not, none of one that is as
+    /// it was. Runs of different forms differ.
+    pub(crate) fn form(&self) -> Option<&'static str> {
+        match self {
+            Self::SilbertFriction(_) => Some("keeps its displacement"),
+            _ => None,
+        }
+    }
+
     /// Coefficient mu of a law that can hold spheres against a force; none of one that only slows
     /// their spins.
     pub fn holding_coefficient(&self) -> Option<f64> {

@@ -8,12 +8,12 @@ mod vtk;
 mod xyz;
 
 pub(in crate::store) use npy::write_array;
-pub use npy::write_arrays;
+pub use npy::{ARRAYS, write_arrays};
 pub use page::PAGE_SIGNATURE;
 pub use page::write_page;
 pub use svg::write_svg;
 pub use table::{SPHERES_SIGNATURE, write_fixed, write_observations, write_spheres};
-pub use vtk::write_vtk;
+pub use vtk::{VTK_SIGNATURE, vtk_names, write_vtk};
 pub use xyz::{write_fixed_xyz, write_xyz};
 
 use super::StoreError;

@@ -11,6 +11,15 @@ use ndarray_npy::{WriteNpyError, WriteNpyExt};
 use std::io;
 use std::path::Path;
 
+/// Names of the arrays that every folder of them holds.
+pub const ARRAYS: [&str; 5] = [
+    "time.npy",
+    "position.npy",
+    "velocity.npy",
+    "radius.npy",
+    "mass.npy",
+];
+
 /// Writes these states of a record into `folder` as arrays of 64-bit floating point numbers: `time`
 /// (s; states), `position` (m), `velocity` (m/s) and, of spheres that rotate, `spin` (rad/s; all
 /// states x n x 3), `radius` (m; n), `mass` (kg; n). Where spheres come and go, one that is not in

@@ -64,16 +64,25 @@ pub fn write_vtk(
         }
     }
     let text = format!(
-        "<?xml version=\"1.0\"?>\n\
+        "{VTK_SIGNATURE}\n\
          <VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  \
          <Collection>\n{collection}  </Collection>\n</VTKFile>\n"
     );
     write_atomic(series, text.as_bytes())
 }
 
+/// What the files of a series begin with.
+pub const VTK_SIGNATURE: &str = "<?xml version=\"1.0\"?>\n<!-- phase: spheres -->";
+
 /// Names of the files of fixed spheres.
 const WALLS: &str = "walls.vtp";
 const DOOR: &str = "door.vtp";
+
+/// Names of the files of a series of that many states: frames and fixed spheres.
+pub fn vtk_names(states: usize) -> impl Iterator<Item = String> {
+    let frames = (0..states).map(|frame| frame_name(frame, "vtp"));
+    frames.chain([WALLS, DOOR].map(str::to_owned))
+}
 
 /// The VTP file of a state.
 fn state_file(record: &RunRecord, state: &Snapshot, spins: bool) -> Vec<u8> {
@@ -114,7 +123,7 @@ fn points(mut arrays: Appended, count: usize, position: &str, data: &str) -> Vec
     let connectivity = arrays.integers("connectivity", 0..count as i64);
     let offsets = arrays.integers("offsets", 1..=count as i64);
     let mut file = format!(
-        "<?xml version=\"1.0\"?>\n\
+        "{VTK_SIGNATURE}\n\
          <VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" \
          header_type=\"UInt64\">\n  \
          <PolyData>\n    \

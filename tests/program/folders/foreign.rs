@@ -139,6 +139,75 @@ fn figures_and_tables_elsewhere_are_not_replaced() {
     }
 }
 
+/// Symptom: exports, pictures, pages of the manual and a run replaced files of other programs that
+/// begin with the same bytes, and files in the folder of an export.
+#[test]
+fn files_of_the_same_format_are_not_replaced() {
+    let place = Workplace::new();
+    place.write("scene.toml", &scene_file());
+    let run = ["run", "scene.toml", "--snapshot-interval", "0.01"];
+    place
+        .phase(&[&run[..], &["--out", "run.h5"]].concat())
+        .code(0);
+    let commands: [(&[&str], &str, &[u8]); 9] = [
+        (
+            &["run", "scene.toml", "--out", "other.h5"],
+            "other.h5",
+            b"\x89HDF\r\n\x1a\n theirs",
+        ),
+        (
+            &["export", "run.h5", "--to", "vtk"],
+            "run/frame_00000.vtp",
+            b"<?xml version=\"1.0\"?>",
+        ),
+        (
+            &["export", "run.h5", "--to", "vtk"],
+            "run.pvd",
+            b"<?xml version=\"1.0\"?>\n<VTKFile>",
+        ),
+        (
+            &["export", "run.h5", "--to", "svg"],
+            "run/frame_00000.svg",
+            b"<svg></svg>",
+        ),
+        (
+            &["export", "run.h5", "--to", "npy"],
+            "run/mass.npy",
+            b"\x93NUMPY",
+        ),
+        (
+            &["view", "run.h5", "--each", "pictures"],
+            "pictures/frame_00000.png",
+            b"\x89PNG",
+        ),
+        (&["view", "run.h5"], "run.png", b"\x89PNG\r\n\x1a\n"),
+        (
+            &["man", "--out", "pages"],
+            "pages/phase-view.1",
+            b".TH view 1\n",
+        ),
+        (
+            &["neighbours", "scene.toml", "--out", "times"],
+            "times/step-time-length.csv",
+            b"a,b\n",
+        ),
+    ];
+    for (command, file, theirs) in commands {
+        let path = place.path(file);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(&path, theirs).unwrap();
+        place.phase(command).code(2).complains(file);
+        assert_eq!(fs::read(&path).unwrap(), theirs, "{file}");
+        fs::remove_file(&path).unwrap();
+        if command[0] != "neighbours" {
+            for _ in 0..2 {
+                // What this program wrote may be written again.
+                place.phase(command).code(0);
+            }
+        }
+    }
+}
+
 #[test]
 fn studies_replace_no_file_of_another_program() {
     let place = Workplace::new();
