@@ -145,7 +145,7 @@ fn figures_and_tables_elsewhere_are_not_replaced() {
 fn files_of_the_same_format_are_not_replaced() {
     let place = Workplace::new();
     place.write("scene.toml", &scene_file());
-    let run = ["run", "scene.toml", "--snapshot-interval", "0.01"];
+    let run = ["run", "scene.toml", "--snapshot-interval", "0.5"];
     place
         .phase(&[&run[..], &["--out", "run.h5"]].concat())
         .code(0);
