@@ -2,58 +2,15 @@
 
 use super::lattice::square_distance;
 use super::{Lattice, Observations, ProbabilityMap, Run, Settings};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
-/// Where runs are made next.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Choice {
-    /// Where the two most probable labels are closest.
-    #[default]
-    Margin,
-    /// Where the entropy of the label is largest.
-    Entropy,
-    /// Where a label tells most of the latent functions of the model, so that noise does not
-    /// count (Houlsby et al., arXiv:1112.5745 (2011)). With `votes` and `nearest` all places are
-    /// equal.
-    Information,
-    /// Farthest from all runs, whatever the labels: for comparison.
-    Spread,
-}
-
-impl Choice {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Margin, Self::Entropy, Self::Information, Self::Spread];
-
-    /// Its name, as in a sweep file.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Margin => "margin",
-            Self::Entropy => "entropy",
-            Self::Information => "information",
-            Self::Spread => "spread",
-        }
-    }
-
-    /// How much a run at a place is wanted, 0 or more.
-    fn score(self, map: &ProbabilityMap, place: usize) -> f64 {
-        let at = map.at(place);
-        match self {
-            Self::Margin => {
-                let best = map.best(place);
-                let others = (0..at.len()).filter(|label| *label != best);
-                let second = others.map(|label| at[label]).fold(0.0, f64::max);
-                1.0 - (at[best] - second)
-            }
-            Self::Entropy => {
-                let terms = at.iter().filter(|p| **p > 0.0).map(|p| -p * libm::log(*p));
-                terms.sum()
-            }
-            Self::Information => map.information(place),
-            Self::Spread => 0.0,
-        }
-    }
+/// How much a run at a place is wanted: the less the two most probable labels differ, the more, from
+/// 0 to 1.
+fn score(map: &ProbabilityMap, place: usize) -> f64 {
+    let at = map.at(place);
+    let best = map.best(place);
+    let others = (0..at.len()).filter(|label| *label != best);
+    let second = others.map(|label| at[label]).fold(0.0, f64::max);
+    1.0 - (at[best] - second)
 }
 
 /// What is known of each place while a round is chosen.
@@ -83,9 +40,7 @@ impl<'a> Candidates<'a> {
         let mut candidates = Self {
             lattice,
             settings,
-            scores: (0..count)
-                .map(|place| settings.choice.score(map, place))
-                .collect(),
+            scores: (0..count).map(|place| score(map, place)).collect(),
             gaps: vec![f64::INFINITY; count],
             seeds: vec![Vec::new(); count],
             separation: 0.25 * spacing * spacing,

@@ -1,8 +1,6 @@
-//! What can be wrong with axes, settings, observations and maps.
+//! What can be wrong with axes, settings and observations.
 
-use std::path::PathBuf;
-
-/// Why a diagram cannot be refined or a map cannot be read.
+/// Why a diagram cannot be refined.
 #[derive(Debug, thiserror::Error)]
 pub enum RefineError {
     /// An axis has no usable values.
@@ -48,30 +46,4 @@ pub enum RefineError {
          them"
     )]
     NoRuns,
-    /// A map has no column of this name.
-    #[error("{}: no column `{column}`", path.display())]
-    Column {
-        /// The file.
-        path: PathBuf,
-        /// The name that is missing.
-        column: &'static str,
-    },
-    /// A cell of a map is not a number.
-    #[error("{}: row {row}: `{text}` is not a number", path.display())]
-    Number {
-        /// The file.
-        path: PathBuf,
-        /// Row, from 1, without the header.
-        row: usize,
-        /// What the cell holds.
-        text: String,
-    },
-    /// A file cannot be read as a table.
-    #[error("{}: {source}", path.display())]
-    Table {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: csv::Error,
-    },
 }

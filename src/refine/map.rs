@@ -7,27 +7,22 @@ use super::{Code, Lattice};
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProbabilityMap {
     codes: Vec<Code>,
+    places: usize,
     probabilities: Vec<f64>,
-    information: Vec<f64>,
 }
 
 impl ProbabilityMap {
     /// What a fitted model says of all places. `codes` are the labels that it has learnt, as in
     /// [`Training::codes`](super::Training::codes).
     pub fn new(lattice: &Lattice, codes: &[Code], fitted: &dyn Fitted) -> Self {
-        let mut map = Self {
-            codes: codes.to_vec(),
-            probabilities: Vec::with_capacity(lattice.places() * codes.len()),
-            information: Vec::with_capacity(lattice.places()),
-        };
         let units: Vec<&[f64]> = (0..lattice.places())
             .map(|place| lattice.unit(place))
             .collect();
-        for prediction in fitted.predict(&units) {
-            map.probabilities.extend(prediction.probabilities);
-            map.information.push(prediction.information);
+        Self {
+            codes: codes.to_vec(),
+            places: lattice.places(),
+            probabilities: fitted.predict(&units).concat(),
         }
-        map
     }
 
     /// The codes of the labels, ascending.
@@ -37,7 +32,7 @@ impl ProbabilityMap {
 
     /// Number of places.
     pub fn places(&self) -> usize {
-        self.information.len()
+        self.places
     }
 
     /// Probability of each label at a place, in the order of [`codes`](Self::codes).
@@ -50,11 +45,6 @@ impl ProbabilityMap {
     pub(super) fn logs(&self, place: usize) -> Vec<f64> {
         let logs = self.at(place).iter().map(|p| libm::log(p.max(1e-300)));
         logs.collect()
-    }
-
-    /// What one more run at a place would tell, in bits.
-    pub fn information(&self, place: usize) -> f64 {
-        self.information[place]
     }
 
     /// The most probable label of a place, as an index into the codes; the first of equals.
@@ -90,8 +80,8 @@ impl ProbabilityMap {
         }
         Self {
             codes,
+            places: self.places,
             probabilities,
-            information: self.information.clone(),
         }
     }
 }

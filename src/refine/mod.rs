@@ -10,9 +10,7 @@
 //! the same on all machines.
 //!
 //! ```
-//! use phase::refine::{
-//!     Axis, Borders, Lattice, Observations, Scale, Settings, next_round, probabilities,
-//! };
+//! use phase::refine::{Axis, Borders, Lattice, Round, Rounds, Scale, Settings};
 //!
 //! // The label is 3 above a line, and 1 below it.
 //! let label = |values: &[f64]| if values[1] > 2.0 + 0.3 * values[0] { 3 } else { 1 };
@@ -21,21 +19,15 @@
 //!     Axis::new("radius", values.clone(), Scale::Linear)?,
 //!     Axis::new("omega", values, Scale::Linear)?,
 //! ])?;
-//! let settings = Settings::with_budget(60);
-//! let mut runs = Observations::new();
-//! loop {
-//!     let round = next_round(&lattice, &runs, &settings)?;
-//!     if round.is_empty() {
-//!         break;
-//!     }
-//!     for run in round {
+//! let mut rounds = Rounds::new(lattice.clone(), Settings::with_budget(60))?;
+//! while let Round::Runs(runs) = rounds.next_round()? {
+//!     for run in runs {
 //!         let label = label(&run.values);
-//!         runs.add(run, label)?;
+//!         rounds.learn(run, label)?;
 //!     }
 //! }
-//! assert_eq!(runs.len(), 60);
-//! let map = probabilities(&lattice, &runs, &settings)?;
-//! let borders = Borders::new(&lattice, &map, 1)?;
+//! assert_eq!(rounds.runs().len(), 60);
+//! let borders = Borders::new(&lattice, rounds.map()?, 1)?;
 //! for crossing in &borders.crossings {
 //!     let border = 2.0 + 0.3 * crossing.values[0];
 //!     assert!(crossing.band95[0] <= border && border <= crossing.band95[1]);
@@ -55,21 +47,18 @@ mod map;
 pub mod model;
 mod normal;
 mod observations;
-pub mod oracle;
-mod round;
+mod rounds;
 mod settings;
 
 pub use borders::{Borders, Crossing, Width, widths};
-pub use choice::Choice;
 pub use curves::{Curve, Panel};
 pub use error::RefineError;
 pub use gap::Gap;
 pub use lattice::{Axis, Lattice, Scale};
 pub use map::ProbabilityMap;
 pub use observations::{Observations, Run, Training};
-pub use round::{
-    Finish, finished, is_narrow, missing, next_round, probabilities, resume, round_of, start,
-};
+pub(crate) use rounds::start;
+pub use rounds::{Finish, Round, Rounds, probabilities};
 pub use settings::{ModelKind, Settings};
 
 /// Code of a label; equal codes are equal labels. Runs that fail and runs that are unstable have

@@ -1,8 +1,7 @@
 //! How a sweep is refined.
 
 use super::RefineError;
-use super::choice::Choice;
-use super::model::{Model, Nearest, Propagation, Regression, Votes};
+use super::model::{Model, Propagation, Regression};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -39,19 +38,12 @@ pub struct Settings {
     /// How probabilities of labels are learnt from runs (default `propagation`).
     #[serde(default)]
     pub model: ModelKind,
-    /// Where runs are made next (default `margin`).
-    #[serde(default)]
-    pub choice: Choice,
 }
 
 /// How probabilities of labels are learnt from runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ModelKind {
-    /// Inverse distance weighting.
-    Votes,
-    /// The nearest run of each label.
-    Nearest,
     /// Gaussian process regression.
     Regression,
     /// Gaussian process classification by expectation propagation.
@@ -61,18 +53,11 @@ pub enum ModelKind {
 
 impl ModelKind {
     /// All of them.
-    pub const ALL: [Self; 4] = [
-        Self::Votes,
-        Self::Nearest,
-        Self::Regression,
-        Self::Propagation,
-    ];
+    pub const ALL: [Self; 2] = [Self::Regression, Self::Propagation];
 
     /// Its name, as in a sweep file.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Votes => "votes",
-            Self::Nearest => "nearest",
             Self::Regression => "regression",
             Self::Propagation => "propagation",
         }
@@ -81,8 +66,6 @@ impl ModelKind {
     /// The model.
     pub fn model(self) -> &'static dyn Model {
         match self {
-            Self::Votes => &Votes,
-            Self::Nearest => &Nearest,
             Self::Regression => &Regression,
             Self::Propagation => &Propagation,
         }
@@ -121,7 +104,6 @@ impl Settings {
             first_seed: default_first_seed(),
             exploring: default_exploring(),
             model: ModelKind::default(),
-            choice: Choice::default(),
         }
     }
 

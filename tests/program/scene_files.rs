@@ -2,7 +2,7 @@
 //! the message that stands beside it. `BLESS=1` writes these messages anew; read the difference.
 
 use phase::document::LoadError;
-use phase::refine::{Choice, ModelKind, Settings};
+use phase::refine::{ModelKind, Settings};
 use phase::scene::{self, Radii, Scene, Start};
 use phase::study::{accuracy, stability};
 use phase::sweep::{self, Sweep};
@@ -259,7 +259,6 @@ fn a_table_of_refining_says_how() {
         first_seed: 3,
         exploring: 0.25,
         model: ModelKind::Regression,
-        choice: Choice::Entropy,
     };
     assert_eq!(refining.settings, expected);
     // The coarse grid.

@@ -2,11 +2,10 @@
 
 use super::ep::{Posterior, Sites};
 use super::kernel::{Kernel, Setting, ascend};
-use super::{Fitted, Model, Prediction, normalised};
+use super::{Fitted, Model, normalised};
 use crate::refine::cholesky::{LANES, Lanes, Matrix};
 use crate::refine::normal;
 use crate::refine::observations::Training;
-use std::f64::consts::{LN_2, PI};
 
 /// Each label has a latent Gaussian process f with a Matérn covariance; a run shows the label with
 /// probability Φ(f), independently of other labels, but exactly one label is shown. So the
@@ -97,7 +96,7 @@ fn temperature(runs: &Training, labels: &[Posterior]) -> f64 {
 }
 
 impl Fitted for Classifier {
-    fn predict(&self, units: &[&[f64]]) -> Vec<Prediction> {
+    fn predict(&self, units: &[&[f64]]) -> Vec<Vec<f64>> {
         let mut buffer = Vec::with_capacity(self.runs.runs());
         let blocks = units.chunks(LANES);
         blocks
@@ -108,44 +107,22 @@ impl Fitted for Classifier {
 
 impl Classifier {
     /// Predictions for at most as many places as there are lanes.
-    fn predict_block(&self, units: &[&[f64]], buffer: &mut Vec<Lanes>) -> Vec<Prediction> {
+    fn predict_block(&self, units: &[&[f64]], buffer: &mut Vec<Lanes>) -> Vec<Vec<f64>> {
         let mut covariances = vec![[0.0; LANES]; self.runs.runs()];
         for (run, of_run) in covariances.iter_mut().enumerate() {
             for (covariance, unit) in of_run.iter_mut().zip(units) {
                 *covariance = self.kernel.covariance(self.runs.unit(run), unit);
             }
         }
-        let none = Prediction {
-            probabilities: Vec::with_capacity(self.labels.len()),
-            information: 0.0,
-        };
-        let mut predictions = vec![none; units.len()];
+        let mut odds = vec![Vec::with_capacity(self.labels.len()); units.len()];
         for label in &self.labels {
             let means = label.means(&covariances);
             let variances = label.variances(&covariances, self.kernel.variance, buffer);
-            for (prediction, (mean, variance)) in
-                predictions.iter_mut().zip(means.into_iter().zip(variances))
-            {
+            for (odds, (mean, variance)) in odds.iter_mut().zip(means.into_iter().zip(variances)) {
                 let z = mean / (1.0 + variance).sqrt();
-                let odds = normal::odds_below(z / self.temperature);
-                prediction.probabilities.push(odds);
-                prediction.information += bits(z, mean, variance);
+                odds.push(normal::odds_below(z / self.temperature));
             }
         }
-        for prediction in &mut predictions {
-            let odds = std::mem::take(&mut prediction.probabilities);
-            prediction.probabilities = normalised(odds);
-        }
-        predictions
+        odds.into_iter().map(normalised).collect()
     }
-}
-
-/// What one run tells of the latent function, in bits: Houlsby et al., arXiv:1112.5745 (2011),
-/// equation 3.
-fn bits(z: f64, mean: f64, variance: f64) -> f64 {
-    let entropy = |p: f64| if p > 0.0 { -p * libm::log2(p) } else { 0.0 };
-    let square = 0.5 * PI * LN_2;
-    let wide = variance + square;
-    let noise = (square / wide).sqrt() * libm::exp(-0.5 * mean * mean / wide);
-    (entropy(normal::below(z)) + entropy(normal::below(-z)) - noise).max(0.0)
 }

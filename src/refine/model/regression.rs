@@ -1,7 +1,7 @@
 //! Gaussian process regression of the labels.
 
 use super::kernel::{Kernel, Setting, ascend};
-use super::{Fitted, Model, Prediction, normalised};
+use super::{Fitted, Model, normalised};
 use crate::refine::cholesky::{Cholesky, dot};
 use crate::refine::normal;
 use crate::refine::observations::Training;
@@ -75,13 +75,13 @@ fn fit(runs: &Training, setting: &Setting, noise: f64) -> (Regressed, f64) {
 }
 
 impl Fitted for Regressed {
-    fn predict(&self, units: &[&[f64]]) -> Vec<Prediction> {
+    fn predict(&self, units: &[&[f64]]) -> Vec<Vec<f64>> {
         units.iter().map(|unit| self.at(unit)).collect()
     }
 }
 
 impl Regressed {
-    fn at(&self, unit: &[f64]) -> Prediction {
+    fn at(&self, unit: &[f64]) -> Vec<f64> {
         let mut column = self.kernel.column(&self.runs, unit);
         for covariance in &mut column {
             *covariance /= self.kernel.variance;
@@ -91,9 +91,6 @@ impl Regressed {
         let rest = (1.0 - dot(&column, &column)).max(0.0) + self.noise;
         let spread = (self.kernel.variance * rest).sqrt();
         let weights = means.iter().map(|mean| normal::odds_below(mean / spread));
-        Prediction {
-            probabilities: normalised(weights.collect()),
-            information: 0.5 * libm::log2(rest / self.noise),
-        }
+        normalised(weights.collect())
     }
 }

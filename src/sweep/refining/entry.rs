@@ -2,7 +2,7 @@
 
 use super::scale;
 use crate::document::{Problem, unit};
-use crate::refine::{Choice, ModelKind, RefineError, Settings, start};
+use crate::refine::{ModelKind, RefineError, Settings, start};
 use crate::scene::LARGEST_SEED;
 use crate::sweep::Sweep;
 use crate::sweep::load::MOST_JOBS;
@@ -54,8 +54,6 @@ pub(in crate::sweep) struct RefineEntry {
     exploring: f64,
     /// How probabilities of labels are learnt from runs.
     model: ModelKind,
-    /// Where runs are made next.
-    choice: Choice,
 }
 
 /// Into how many parts steps are cut.
@@ -105,7 +103,6 @@ impl Default for RefineEntry {
             replicates,
             exploring,
             model,
-            choice,
             ..
         } = Settings::with_budget(1);
         Self {
@@ -117,7 +114,6 @@ impl Default for RefineEntry {
             replicates,
             exploring,
             model,
-            choice,
         }
     }
 }
@@ -216,7 +212,6 @@ impl RefineEntry {
             first_seed: sweep.seeds.first().copied().unwrap_or(1),
             exploring: self.exploring,
             model: self.model,
-            choice: self.choice,
         };
         let coarse = start(&sweep.lattice().map_err(broken)?, &settings).len();
         if let Some(budget) = self.budget.filter(|budget| *budget < coarse) {

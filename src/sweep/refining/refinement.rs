@@ -3,10 +3,7 @@
 use super::Refining;
 use super::learnt::{FAILED, Learnt};
 use crate::classify::{Family, LabelTable};
-use crate::refine::{
-    Finish, Gap, Lattice, Observations, ProbabilityMap, RefineError, Run, Settings, is_narrow,
-    missing, probabilities, round_of, widths,
-};
+use crate::refine::{Finish, Gap, Observations, RefineError, Round, Rounds, Run, Settings, widths};
 use crate::sweep::{Folder, Job, Labelling, Plan, PointError, Sweep};
 use std::collections::HashSet;
 
@@ -16,16 +13,20 @@ use std::collections::HashSet;
 /// have to be made: so the same runs are chosen whatever the number of workers, interrupted or not.
 #[derive(Clone, Debug)]
 pub struct Refinement {
-    lattice: Lattice,
     refining: Refining,
-    /// Labels of the runs that are in the folder.
-    known: Observations,
-    /// The runs that are learnt from.
+    /// The runs that are in the folder.
+    known: Known,
+    /// What is chosen and learnt from.
+    rounds: Rounds,
+    /// Number of rounds so far.
+    count: usize,
+}
+
+/// Runs of a folder that have labels.
+#[derive(Clone, Debug)]
+struct Known {
     runs: Observations,
-    /// What is learnt from them, if that has been asked for.
-    map: Option<ProbabilityMap>,
     table: LabelTable,
-    rounds: usize,
 }
 
 /// What is done next.
@@ -74,67 +75,145 @@ impl Refinement {
         let Some(refining) = &sweep.refine else {
             return Err(RefinementError::NotRefined);
         };
-        let mut refinement = Self {
-            lattice: sweep.lattice()?,
-            refining: refining.without_runs(),
-            known: Observations::new(),
+        let mut refining = refining.without_runs();
+        let mut known = Known::none(sweep);
+        let mut given = Vec::new();
+        if !afresh {
+            let jobs = jobs_with_records(folder, sweep)?;
+            let plan = Plan::new(folder, jobs, workers)?;
+            let done: Vec<Job> = plan.labelled().cloned().collect();
+            known.label(folder, sweep, &done, workers)?;
+            (refining.seeds_there, given) = known.given(folder, sweep);
+        }
+        let settings = Settings {
+            replicates: refining.seeds_there.unwrap_or(refining.settings.replicates),
+            ..refining.settings.clone()
+        };
+        let mut rounds = Rounds::new(sweep.lattice()?, settings)?;
+        for run in given {
+            if let Some(label) = known.runs.label(&run) {
+                rounds.learn(run.clone(), label)?;
+                refining.given.push(run);
+            }
+        }
+        Ok(Self {
+            refining,
+            known,
+            rounds,
+            count: 0,
+        })
+    }
+
+    /// Chooses the next round of which runs are missing. Call it when those of the round before
+    /// have been [learnt](Self::learn).
+    ///
+    /// # Errors
+    /// If a point cannot be run.
+    pub fn next_step(&mut self, sweep: &mut Sweep) -> Result<Step, RefinementError> {
+        let round = match self.rounds.next_round()? {
+            Round::Runs(round) => round,
+            Round::Finished(finish) => {
+                self.note_widths()?;
+                self.refining.end = Some(finish);
+                sweep.refine = Some(self.refining.clone());
+                return Ok(Step::Finished(finish));
+            }
+        };
+        self.count += 1;
+        let mut open = Vec::new();
+        for run in round {
+            match self.known.runs.label(&run) {
+                Some(label) => self.rounds.learn(run.clone(), label)?,
+                None => open.push(run.clone()),
+            }
+            self.refining.chosen.push(run);
+        }
+        if open.is_empty() {
+            return Ok(Step::Known);
+        }
+        sweep.refine = Some(self.refining.clone());
+        Ok(Step::Run(sweep.jobs_of_runs(&open)?))
+    }
+
+    /// Learns from jobs that have run, all of a step: those without a record have failed.
+    ///
+    /// # Errors
+    /// If the system gives no threads.
+    pub fn learn(
+        &mut self,
+        folder: &Folder,
+        sweep: &mut Sweep,
+        jobs: &[Job],
+        workers: usize,
+    ) -> Result<(), RefinementError> {
+        for run in self.known.label(folder, sweep, jobs, workers)? {
+            self.known.runs.add(run.clone(), FAILED)?;
+            self.refining.failed.push(run);
+        }
+        for job in jobs {
+            let run = run_of(job);
+            if let Some(label) = self.known.runs.label(&run) {
+                self.rounds.learn(run, label)?;
+            }
+        }
+        self.note_widths()?;
+        sweep.refine = Some(self.refining.clone());
+        Ok(())
+    }
+
+    /// Notes how wide the borders are by now.
+    fn note_widths(&mut self) -> Result<(), RefineError> {
+        let lattice = self.rounds.lattice().clone();
+        self.refining.widths = widths(&lattice, self.rounds.map()?);
+        Ok(())
+    }
+
+    /// What has been learnt; nothing before the first run.
+    ///
+    /// # Errors
+    /// If the grid cannot be refined.
+    pub fn learnt(&mut self) -> Result<Option<Learnt>, RefinementError> {
+        if self.rounds.runs().is_empty() {
+            return Ok(None);
+        }
+        Ok(Some(Learnt {
+            map: self.rounds.map()?.clone(),
+            lattice: self.rounds.lattice().clone(),
+            runs: self.rounds.runs().clone(),
+        }))
+    }
+
+    /// The largest gap between the runs.
+    pub fn gap(&self) -> Option<Gap> {
+        Gap::new(self.rounds.lattice(), self.rounds.runs()).ok()
+    }
+
+    /// Labels of the runs so far.
+    pub fn table(&self) -> &LabelTable {
+        &self.known.table
+    }
+
+    /// Number of rounds so far, the coarse grid among them.
+    pub fn rounds(&self) -> usize {
+        self.count
+    }
+
+    /// Number of runs that have been learnt from.
+    pub fn runs(&self) -> usize {
+        self.rounds.runs().len()
+    }
+}
+
+impl Known {
+    /// Nothing of a sweep.
+    fn none(sweep: &Sweep) -> Self {
+        Self {
             runs: Observations::new(),
-            map: None,
             table: LabelTable {
                 family: Family::of(&sweep.scene),
                 axes: sweep.axes.iter().map(|axis| axis.name.clone()).collect(),
                 rows: Vec::new(),
             },
-            rounds: 0,
-        };
-        if !afresh {
-            refinement.read(folder, sweep, workers)?;
-        }
-        Ok(refinement)
-    }
-
-    /// Reads the labels of the runs that are there.
-    fn read(
-        &mut self,
-        folder: &Folder,
-        sweep: &Sweep,
-        workers: usize,
-    ) -> Result<(), RefinementError> {
-        let jobs = jobs_with_records(folder, sweep)?;
-        let plan = Plan::new(folder, jobs, workers)?;
-        let done: Vec<Job> = plan.labelled().cloned().collect();
-        self.label(folder, sweep, &done, workers)?;
-        let stored = folder.read_sweep().ok();
-        let goes_on = stored.filter(|stored| stored.is_refined_like(sweep));
-        let goes_on = goes_on.and_then(|stored| stored.refine);
-        let given = match goes_on.filter(|stored| stored.seeds_there.is_none()) {
-            Some(stored) => stored.given,
-            // With another budget the runs of a whole grid may be given after all.
-            None => {
-                let seeds: Vec<u64> = self.known.iter().map(|(run, _)| run.seed).collect();
-                self.refining.seeds_there = sweep.seeds_of_whole_grid(&seeds);
-                match self.refining.seeds_there {
-                    Some(_) => Vec::new(),
-                    None => self.known.iter().map(|(run, _)| run.clone()).collect(),
-                }
-            }
-        };
-        for run in given {
-            if let Some(label) = self.known.label(&run) {
-                self.runs.add(run.clone(), label)?;
-                self.refining.given.push(run);
-            }
-        }
-        Ok(())
-    }
-
-    /// The settings by which runs are chosen.
-    fn settings(&self) -> Settings {
-        let settings = self.refining.settings.clone();
-        let replicates = self.refining.seeds_there.unwrap_or(settings.replicates);
-        Settings {
-            replicates,
-            ..settings
         }
     }
 
@@ -151,148 +230,37 @@ impl Refinement {
                 values: row.values.clone(),
                 seed: row.seed,
             };
-            self.known.add(run, row.verdict.label.code)?;
+            self.runs.add(run, row.verdict.label.code)?;
             self.table.rows.push(row);
         }
-        let runs = jobs.iter().map(|job| Run {
-            values: job.values.clone(),
-            seed: job.seed,
-        });
-        Ok(runs.filter(|run| self.known.label(run).is_none()).collect())
+        let runs = jobs.iter().map(run_of);
+        Ok(runs.filter(|run| self.runs.label(run).is_none()).collect())
     }
 
-    /// Chooses the next round of which runs are missing. Call it when those of the round before
-    /// have been [learnt](Self::learn).
-    ///
-    /// # Errors
-    /// If a point cannot be run.
-    pub fn next_step(&mut self, sweep: &mut Sweep) -> Result<Step, RefinementError> {
-        let round = match self.round()? {
-            Ok(round) => round,
-            Err(finish) => {
-                self.map()?;
-                self.refining.end = Some(finish);
-                sweep.refine = Some(self.refining.clone());
-                return Ok(Step::Finished(finish));
-            }
-        };
-        self.rounds += 1;
-        let mut open = Vec::new();
-        for run in round {
-            match self.known.label(&run) {
-                Some(label) => {
-                    self.runs.add(run.clone(), label)?;
-                    self.map = None;
-                }
-                None => open.push(run.clone()),
-            }
-            self.refining.chosen.push(run);
+    /// The runs that are given when refining begins: those that it began with if it goes on, or
+    /// else all that are there. Of a whole grid of more runs than the budget none are given: the
+    /// number of seeds of its points comes first then, and refining chooses among them.
+    fn given(&self, folder: &Folder, sweep: &Sweep) -> (Option<u64>, Vec<Run>) {
+        let stored = folder.read_sweep().ok();
+        let goes_on = stored.filter(|stored| stored.is_refined_like(sweep));
+        let goes_on = goes_on.and_then(|stored| stored.refine);
+        if let Some(stored) = goes_on.filter(|stored| stored.seeds_there.is_none()) {
+            return (None, stored.given);
         }
-        if open.is_empty() {
-            return Ok(Step::Known);
+        // With another budget the runs of a whole grid may be given after all.
+        let seeds: Vec<u64> = self.runs.iter().map(|(run, _)| run.seed).collect();
+        match sweep.seeds_of_whole_grid(&seeds) {
+            Some(seeds) => (Some(seeds), Vec::new()),
+            None => (None, self.runs.iter().map(|(run, _)| run.clone()).collect()),
         }
-        sweep.refine = Some(self.refining.clone());
-        Ok(Step::Run(sweep.jobs_of_runs(&open)?))
     }
+}
 
-    /// The next round, or why there is none.
-    fn round(&mut self) -> Result<Result<Vec<Run>, Finish>, RefinementError> {
-        let settings = self.settings();
-        let missing = missing(&self.lattice, &self.runs, &settings);
-        if !missing.is_empty() {
-            return Ok(Ok(missing));
-        }
-        if self.runs.len() >= settings.budget {
-            return Ok(Err(Finish::Budget));
-        }
-        let (lattice, runs) = (self.lattice.clone(), self.runs.clone());
-        let map = self.map()?;
-        if is_narrow(&lattice, &settings, map) {
-            return Ok(Err(Finish::Width));
-        }
-        let round = round_of(&lattice, &runs, &settings, map);
-        Ok(match round.is_empty() {
-            true => Err(Finish::Complete),
-            false => Ok(round),
-        })
-    }
-
-    /// Learns from jobs that have run, all of a step: those without a record have failed.
-    ///
-    /// # Errors
-    /// If the system gives no threads.
-    pub fn learn(
-        &mut self,
-        folder: &Folder,
-        sweep: &mut Sweep,
-        jobs: &[Job],
-        workers: usize,
-    ) -> Result<(), RefinementError> {
-        for run in self.label(folder, sweep, jobs, workers)? {
-            self.known.add(run.clone(), FAILED)?;
-            self.refining.failed.push(run);
-        }
-        for job in jobs {
-            let run = Run {
-                values: job.values.clone(),
-                seed: job.seed,
-            };
-            if let Some(label) = self.known.label(&run) {
-                self.runs.add(run, label)?;
-            }
-        }
-        self.map = None;
-        self.map()?;
-        sweep.refine = Some(self.refining.clone());
-        Ok(())
-    }
-
-    /// What has been learnt; nothing before the first run.
-    ///
-    /// # Errors
-    /// If the grid cannot be refined.
-    pub fn learnt(&mut self) -> Result<Option<Learnt>, RefinementError> {
-        if self.runs.is_empty() {
-            return Ok(None);
-        }
-        Ok(Some(Learnt {
-            map: self.map()?.clone(),
-            lattice: self.lattice.clone(),
-            runs: self.runs.clone(),
-        }))
-    }
-
-    /// The largest gap between the runs.
-    pub fn gap(&self) -> Option<Gap> {
-        Gap::new(&self.lattice, &self.runs).ok()
-    }
-
-    /// Labels of the runs so far.
-    pub fn table(&self) -> &LabelTable {
-        &self.table
-    }
-
-    /// Number of rounds so far, the coarse grid among them.
-    pub fn rounds(&self) -> usize {
-        self.rounds
-    }
-
-    /// Number of runs that have been learnt from.
-    pub fn runs(&self) -> usize {
-        self.runs.len()
-    }
-
-    /// The map that has been learnt from the runs, and how wide its borders are.
-    fn map(&mut self) -> Result<&ProbabilityMap, RefineError> {
-        let map = match self.map.take() {
-            Some(map) => map,
-            None => {
-                let map = probabilities(&self.lattice, &self.runs, &self.refining.settings)?;
-                self.refining.widths = widths(&self.lattice, &map);
-                map
-            }
-        };
-        Ok(self.map.insert(map))
+/// The place and seed of a job.
+fn run_of(job: &Job) -> Run {
+    Run {
+        values: job.values.clone(),
+        seed: job.seed,
     }
 }
 

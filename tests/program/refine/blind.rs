@@ -1,8 +1,10 @@
 //! A map that is in no project: a formula with regions, borders that move with the seed, and false
 //! labels.
 
-use phase::refine::oracle::{Oracle, PublishedMap, replay, score};
-use phase::refine::{Axis, Borders, Code, Lattice, Run, Scale, Settings, probabilities};
+use super::maps::PublishedMap;
+use super::replay::{Oracle, replay};
+use super::score::score;
+use phase::refine::{Axis, Borders, Code, Lattice, Rounds, Run, Scale, Settings};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -80,6 +82,10 @@ fn truth(lattice: &Lattice) -> PublishedMap {
     })
 }
 
+fn replayed(oracle: &Blind, settings: &Settings) -> Rounds {
+    replay(oracle, settings, |_| Ok(())).unwrap()
+}
+
 #[test]
 fn a_twelfth_of_the_runs_gives_the_labels_of_a_map_with_noise() {
     let lattice = axes(33);
@@ -89,9 +95,8 @@ fn a_twelfth_of_the_runs_gives_the_labels_of_a_map_with_noise() {
     };
     let mut settings = Settings::with_budget(90);
     settings.replicates = 2;
-    let runs = replay(&oracle, &settings, |_, _| {}).unwrap();
-    let map = probabilities(&lattice, &runs, &settings).unwrap();
-    let found = score(&truth(&lattice), &runs, &map, 1).unwrap();
+    let mut rounds = replayed(&oracle, &settings);
+    let found = score(&truth(&lattice), &mut rounds, 1).unwrap();
     assert!(found.right > 0.955, "{found:?}");
     assert!(found.covered[1] > 0.95 && found.held[1] > 0.95, "{found:?}");
     assert!(found.area[1] < 0.5, "{found:?}");
@@ -106,9 +111,7 @@ fn without_noise_labels_are_better_and_bands_are_narrower() {
             is_noisy,
         };
         let settings = Settings::with_budget(108);
-        let runs = replay(&oracle, &settings, |_, _| {}).unwrap();
-        let map = probabilities(&lattice, &runs, &settings).unwrap();
-        score(&truth(&lattice), &runs, &map, 1).unwrap()
+        score(&truth(&lattice), &mut replayed(&oracle, &settings), 1).unwrap()
     });
     let [noisy, plain] = scores;
     assert!(plain.right > 0.98, "{plain:?}");
@@ -124,9 +127,9 @@ fn intervals_hold_the_border_of_the_formula() {
         is_noisy: true,
     };
     let settings = Settings::with_budget(108);
-    let runs = replay(&oracle, &settings, |_, _| {}).unwrap();
-    let map = probabilities(&lattice, &runs, &settings).unwrap();
-    let borders = Borders::new(&lattice, &map, 1).unwrap();
+    let mut rounds = replayed(&oracle, &settings);
+    let map = rounds.map().unwrap();
+    let borders = Borders::new(&lattice, map, 1).unwrap();
     let [load, rate] = [0, 1].map(|axis| &lattice.axes()[axis]);
     let (mut held, mut columns) = (0, 0);
     for value in load.values() {
@@ -153,8 +156,8 @@ fn probabilities_are_calibrated() {
         is_noisy: true,
     };
     let settings = Settings::with_budget(108);
-    let runs = replay(&oracle, &settings, |_, _| {}).unwrap();
-    let map = probabilities(&lattice, &runs, &settings).unwrap();
+    let mut rounds = replayed(&oracle, &settings);
+    let map = rounds.map().unwrap();
     for (low, high) in [(0.3, 0.7), (0.7, 0.9), (0.9, 0.975), (0.975, 1.0)] {
         let within = |place: &usize| (low..high).contains(&map.certainty(*place));
         let places: Vec<usize> = (0..lattice.places()).filter(within).collect();

@@ -5,7 +5,7 @@
 //! its two labels were equally probable, in every square with a corner of each; the table looked at
 //! places alone.
 
-use phase::refine::model::{Fitted, Prediction};
+use phase::refine::model::Fitted;
 use phase::refine::{Axis, Borders, Code, Curve, Lattice, Panel, ProbabilityMap, Scale};
 use proptest::prelude::*;
 
@@ -13,17 +13,14 @@ use proptest::prelude::*;
 struct MadeUp(Vec<[f64; 4]>);
 
 impl Fitted for MadeUp {
-    fn predict(&self, units: &[&[f64]]) -> Vec<Prediction> {
+    fn predict(&self, units: &[&[f64]]) -> Vec<Vec<f64>> {
         let at = |unit: &&[f64]| {
             let log = |[constant, x, y, both]: &[f64; 4]| {
                 constant + x * unit[0] + y * unit[1] + both * (unit[0] - 0.5) * (unit[1] - 0.4)
             };
             let odds: Vec<f64> = self.0.iter().map(|it| libm::exp(log(it))).collect();
             let sum: f64 = odds.iter().sum();
-            Prediction {
-                probabilities: odds.iter().map(|it| it / sum).collect(),
-                information: 0.0,
-            }
+            odds.iter().map(|it| it / sum).collect()
         };
         units.iter().map(at).collect()
     }

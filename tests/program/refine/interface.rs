@@ -1,8 +1,8 @@
 //! Refining as a user of the library sees it.
 
 use phase::refine::{
-    Axis, Borders, Choice, Code, Finish, Gap, Lattice, ModelKind, Observations, Panel, RefineError,
-    Run, Scale, Settings, finished, next_round, probabilities, widths,
+    Axis, Borders, Code, Finish, Gap, Lattice, ModelKind, Observations, Panel, RefineError, Round,
+    Rounds, Run, Scale, Settings, probabilities, widths,
 };
 
 /// A quarter disc of label 1 in a field of 3, by the values of the axes.
@@ -19,18 +19,37 @@ fn square(count: usize) -> Lattice {
     Lattice::new(vec![axis("x"), axis("y")]).unwrap()
 }
 
-/// Makes rounds until none is left.
-fn refine(lattice: &Lattice, settings: &Settings, label: impl Fn(&Run) -> Code) -> Observations {
-    let mut runs = Observations::new();
+/// Makes rounds until none is left, and says why none is.
+fn finished(
+    lattice: &Lattice,
+    settings: &Settings,
+    label: impl Fn(&Run) -> Code,
+) -> (Observations, Finish) {
+    let mut rounds = Rounds::new(lattice.clone(), settings.clone()).unwrap();
     loop {
-        let round = next_round(lattice, &runs, settings).unwrap();
-        if round.is_empty() {
-            return runs;
+        match rounds.next_round().unwrap() {
+            Round::Runs(round) => {
+                for run in round {
+                    let label = label(&run);
+                    rounds.learn(run, label).unwrap();
+                }
+            }
+            Round::Finished(finish) => return (rounds.runs().clone(), finish),
         }
-        for run in round {
-            let label = label(&run);
-            runs.add(run, label).unwrap();
-        }
+    }
+}
+
+/// The runs of all rounds.
+fn refine(lattice: &Lattice, settings: &Settings, label: impl Fn(&Run) -> Code) -> Observations {
+    finished(lattice, settings, label).0
+}
+
+/// The runs of the first round.
+fn first_round(lattice: &Lattice, settings: &Settings) -> Vec<Run> {
+    let mut rounds = Rounds::new(lattice.clone(), settings.clone()).unwrap();
+    match rounds.next_round().unwrap() {
+        Round::Runs(round) => round,
+        Round::Finished(finish) => panic!("{finish:?}"),
     }
 }
 
@@ -42,29 +61,19 @@ fn a_table_with_a_budget_alone_has_defaults() {
         (settings.round, settings.start.as_slice()),
         (8, [6].as_slice())
     );
-    assert_eq!(
-        (settings.model, settings.choice),
-        (ModelKind::Propagation, Choice::Margin)
-    );
+    assert_eq!(settings.model, ModelKind::Propagation);
     let text = serde_json::to_string(&settings).unwrap();
     assert_eq!(serde_json::from_str::<Settings>(&text).unwrap(), settings);
 }
 
 #[test]
-fn tables_name_models_and_choices_and_refuse_other_keys() {
-    let text = r#"{ "budget": 9, "model": "votes", "choice": "entropy", "width": 0.05 }"#;
+fn tables_name_models_and_refuse_other_keys() {
+    let text = r#"{ "budget": 9, "model": "regression", "width": 0.05 }"#;
     let settings: Settings = serde_json::from_str(text).unwrap();
-    assert_eq!(
-        (settings.model, settings.choice),
-        (ModelKind::Votes, Choice::Entropy)
-    );
+    assert_eq!(settings.model, ModelKind::Regression);
     for kind in ModelKind::ALL {
         let name = serde_json::to_string(&kind).unwrap();
         assert_eq!(name, format!("\"{}\"", kind.name()));
-    }
-    for choice in Choice::ALL {
-        let name = serde_json::to_string(&choice).unwrap();
-        assert_eq!(name, format!("\"{}\"", choice.name()));
     }
     let error = serde_json::from_str::<Settings>(r#"{ "budget": 9, "rounds": 4 }"#).unwrap_err();
     assert!(
@@ -79,7 +88,7 @@ fn settings_out_of_range_are_refused() {
     let refused = |change: fn(&mut Settings)| {
         let mut settings = Settings::with_budget(20);
         change(&mut settings);
-        let error = next_round(&lattice, &Observations::new(), &settings).unwrap_err();
+        let error = Rounds::new(lattice.clone(), settings).unwrap_err();
         error.to_string()
     };
     assert_eq!(
@@ -127,7 +136,7 @@ fn axes_that_cannot_be_are_refused() {
 fn the_start_is_a_coarse_grid_with_the_corners() {
     let mut settings = Settings::with_budget(100);
     settings.start = vec![3, 2];
-    let round = next_round(&square(9), &Observations::new(), &settings).unwrap();
+    let round = first_round(&square(9), &settings);
     let values: Vec<&[f64]> = round.iter().map(|run| run.values.as_slice()).collect();
     let expected = [
         [0.0, 0.0],
@@ -145,12 +154,9 @@ fn the_start_is_a_coarse_grid_with_the_corners() {
 fn the_budget_is_spent_and_no_run_is_made_twice() {
     let lattice = square(17);
     let settings = Settings::with_budget(61);
-    let runs = refine(&lattice, &settings, |run| label(&run.values));
+    let (runs, finish) = finished(&lattice, &settings, |run| label(&run.values));
     assert_eq!(runs.len(), 61);
-    assert_eq!(
-        finished(&lattice, &runs, &settings).unwrap(),
-        Some(Finish::Budget)
-    );
+    assert_eq!(finish, Finish::Budget);
     let map = probabilities(&lattice, &runs, &settings).unwrap();
     let is_right = |place: &usize| map.label(*place) == label(&lattice.values(*place));
     let right = (0..lattice.places()).filter(is_right).count();
@@ -162,12 +168,9 @@ fn refining_ends_when_borders_are_narrow() {
     let lattice = square(17);
     let mut settings = Settings::with_budget(289);
     settings.width = Some(0.08);
-    let runs = refine(&lattice, &settings, |run| label(&run.values));
+    let (runs, finish) = finished(&lattice, &settings, |run| label(&run.values));
     assert!(runs.len() < 120, "{}", runs.len());
-    assert_eq!(
-        finished(&lattice, &runs, &settings).unwrap(),
-        Some(Finish::Width)
-    );
+    assert_eq!(finish, Finish::Width);
     let map = probabilities(&lattice, &runs, &settings).unwrap();
     let widths = widths(&lattice, &map);
     assert_eq!(widths.len(), 1);
@@ -180,12 +183,9 @@ fn a_small_lattice_is_run_completely() {
     let lattice = square(4);
     let mut settings = Settings::with_budget(1000);
     settings.replicates = 1;
-    let runs = refine(&lattice, &settings, |run| label(&run.values));
+    let (runs, finish) = finished(&lattice, &settings, |run| label(&run.values));
     assert_eq!(runs.len(), 16);
-    assert_eq!(
-        finished(&lattice, &runs, &settings).unwrap(),
-        Some(Finish::Complete)
-    );
+    assert_eq!(finish, Finish::Complete);
     assert_eq!(Gap::new(&lattice, &runs).unwrap().radius, 0.0);
 }
 

@@ -3,6 +3,14 @@
 mod blind;
 mod borders;
 mod interface;
+#[path = "../../../examples/oracle/maps.rs"]
+mod maps;
+#[path = "../../../examples/oracle/noise.rs"]
+mod noise;
 mod oracle;
 mod properties;
+#[path = "../../../examples/oracle/replay.rs"]
+mod replay;
+#[path = "../../../examples/oracle/score.rs"]
+mod score;
 mod sweeps;

@@ -1,7 +1,10 @@
 //! What the oracle benchmark must reach on published maps.
 
-use phase::refine::oracle::{NoisyMap, Oracle, PublishedMap, agreement, merged, replay, score};
-use phase::refine::{Run, Settings, probabilities};
+use super::maps::PublishedMap;
+use super::noise::{NoisyMap, agreement};
+use super::replay::{Oracle, replay};
+use super::score::{merged, score};
+use phase::refine::{Run, Settings};
 use std::path::{Path, PathBuf};
 
 fn path(name: &str) -> PathBuf {
@@ -31,9 +34,8 @@ fn a_tenth_of_the_runs_gives_the_map() {
         let mut settings = Settings::with_budget((share * 1681.0) as usize);
         // The map has one seed.
         settings.replicates = 1;
-        let runs = replay(&map, &settings, |_, _| {}).unwrap();
-        let found = probabilities(map.lattice(), &runs, &settings).unwrap();
-        let score = score(&map, &runs, &found, 1).unwrap();
+        let mut rounds = replay(&map, &settings, |_| Ok(())).unwrap();
+        let score = score(&map, &mut rounds, 1).unwrap();
         let found = [
             score.right,
             score.right_merged,
@@ -54,9 +56,8 @@ fn a_tenth_of_the_runs_is_as_right_as_a_seed() {
         let noisy = NoisyMap::calibrated(map(name), &map(&format!("{name}-9x9")));
         let truth = noisy.with_seeds(25);
         let settings = Settings::with_budget(168);
-        let runs = replay(&noisy, &settings, |_, _| {}).unwrap();
-        let found = probabilities(truth.lattice(), &runs, &settings).unwrap();
-        let score = score(&truth, &runs, &found, 1).unwrap();
+        let mut rounds = replay(&noisy, &settings, |_| Ok(())).unwrap();
+        let score = score(&truth, &mut rounds, 1).unwrap();
         let places = truth.lattice().places();
         let shares = (0..places).map(|place| {
             let label = merged(truth.label(place));

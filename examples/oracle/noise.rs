@@ -1,7 +1,8 @@
 //! Seeds for maps that have one.
 
-use super::{Oracle, PublishedMap};
-use crate::refine::{Code, Lattice, Run};
+use super::maps::PublishedMap;
+use super::replay::Oracle;
+use phase::refine::{Code, Lattice, Run};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
@@ -9,20 +10,20 @@ use rand_pcg::Pcg64;
 /// normal numbers of equal spread, in steps of the lattice, on every axis. The labels of one place
 /// and seed are always the same.
 #[derive(Clone, Debug)]
-pub struct NoisyMap {
+pub(crate) struct NoisyMap {
     map: PublishedMap,
     spread: f64,
 }
 
 impl NoisyMap {
     /// Moves places by this many steps of the lattice.
-    pub fn new(map: PublishedMap, spread: f64) -> Self {
+    pub(crate) fn new(map: PublishedMap, spread: f64) -> Self {
         Self { map, spread }
     }
 
     /// Moves places so far that two seeds agree as often as those of `sample` do, a map with
     /// several seeds at some of the places of `map`. The spread is found by bisection.
-    pub fn calibrated(map: PublishedMap, sample: &PublishedMap) -> Self {
+    pub(crate) fn calibrated(map: PublishedMap, sample: &PublishedMap) -> Self {
         let wanted = agreement(sample);
         let places: Vec<usize> = (0..sample.lattice().places())
             .map(|place| map.place(&sample.lattice().values(place)))
@@ -45,12 +46,12 @@ impl NoisyMap {
     }
 
     /// How far places are moved, in steps of the lattice.
-    pub fn spread(&self) -> f64 {
+    pub(crate) fn spread(&self) -> f64 {
         self.spread
     }
 
     /// The map with this many seeds at all places.
-    pub fn with_seeds(&self, seeds: u64) -> PublishedMap {
+    pub(crate) fn with_seeds(&self, seeds: u64) -> PublishedMap {
         let lattice = self.map.lattice().clone();
         PublishedMap::from_formula(lattice, 1..=seeds, |values, seed| {
             self.draw(self.map.place(values), seed)
@@ -81,7 +82,7 @@ impl Oracle for NoisyMap {
 }
 
 /// How often two seeds of one place agree, the mean over places.
-pub fn agreement(map: &PublishedMap) -> f64 {
+pub(crate) fn agreement(map: &PublishedMap) -> f64 {
     let places = map.lattice().places();
     let shares = (0..places).map(|place| {
         let labels: Vec<Code> = map.at(place).iter().map(|(_, code)| *code).collect();

@@ -1,7 +1,7 @@
 //! How good a map of probabilities is, beside the full map.
 
-use super::PublishedMap;
-use crate::refine::{Borders, Code, Crossing, Observations, ProbabilityMap, RefineError};
+use super::maps::PublishedMap;
+use phase::refine::{Borders, Code, Crossing, Observations, ProbabilityMap, RefineError, Rounds};
 
 /// The probability of the most probable label below which a place is in the bands of 68 and 95 %.
 const BOUNDS: [f64; 2] = [0.84, 0.975];
@@ -9,44 +9,40 @@ const BOUNDS: [f64; 2] = [0.84, 0.975];
 /// Shares of places and of borders that a map of probabilities has right. Borders are those
 /// between merged labels.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Score {
+pub(crate) struct Score {
     /// Share of places with the right label.
-    pub right: f64,
+    pub(crate) right: f64,
     /// The same with merged labels.
-    pub right_merged: f64,
+    pub(crate) right_merged: f64,
     /// Share of the pairs of neighbouring places with different labels between which the map has a
     /// border too, or of which one lies in the bands: of 68 and 95 %.
-    pub covered: [f64; 2],
+    pub(crate) covered: [f64; 2],
     /// Share of the places that lie in the bands: the price of `covered`.
-    pub area: [f64; 2],
+    pub(crate) area: [f64; 2],
     /// Share of the borders along an axis that lie in the interval of a crossing: of 68 and
     /// 95 %. Places that differ from all neighbours make no border.
-    pub held: [f64; 2],
+    pub(crate) held: [f64; 2],
     /// Mean length of the intervals of 95 % along that axis, as a share of it.
-    pub width: f64,
+    pub(crate) width: f64,
 }
 
 /// Puts the label `fluid` of tanks (2) together with `settled` (1).
-pub fn merged(code: Code) -> Code {
+pub(crate) fn merged(code: Code) -> Code {
     if code == 2 { 1 } else { code }
 }
 
-/// Scores a map of probabilities. Places that have been run show the label of most of their runs,
+/// Scores what rounds have found. Places that have been run show the label of most of their runs,
 /// others the most probable one. `axis` is that of the intervals.
 ///
 /// # Errors
 /// If a run does not lie on the axes, or if there is no such axis.
-pub fn score(
-    truth: &PublishedMap,
-    runs: &Observations,
-    map: &ProbabilityMap,
-    axis: usize,
-) -> Result<Score, RefineError> {
+pub(crate) fn score(truth: &PublishedMap, found: &mut Rounds, axis: usize) -> Result<Score, RefineError> {
     let places = truth.lattice().places();
+    let map = found.map()?.clone();
     let merged_map = map.merged(merged);
-    let seen = seen(truth, runs)?;
+    let seen = seen(truth, found.runs())?;
     let right = share(places, |place| {
-        shown(map, place, seen[place].clone()) == truth.label(place)
+        shown(&map, place, seen[place].clone()) == truth.label(place)
     });
     let right_merged = share(places, |place| {
         let seen = seen[place].iter().map(|code| merged(*code)).collect();

@@ -1,12 +1,26 @@
 //! Maps that have been published as tables of labels.
 
-use super::Oracle;
-use crate::refine::{Axis, Code, Lattice, RefineError, Run, Scale};
-use std::path::Path;
+use super::replay::Oracle;
+use phase::refine::{Axis, Code, Lattice, RefineError, Run, Scale};
+use std::path::{Path, PathBuf};
+
+/// Why a published map cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum MapError {
+    /// The file is no table.
+    #[error("{}: {source}", path.display())]
+    Table { path: PathBuf, source: csv::Error },
+    /// A column is missing, or a cell does not hold a number.
+    #[error("{}: {reason}", path.display())]
+    Content { path: PathBuf, reason: String },
+    /// The table is no whole grid.
+    #[error(transparent)]
+    Grid(#[from] RefineError),
+}
 
 /// All runs of a full map: the label of each place and seed.
 #[derive(Clone, Debug)]
-pub struct PublishedMap {
+pub(crate) struct PublishedMap {
     lattice: Lattice,
     /// Seeds and labels of each place, by seed.
     labels: Vec<Vec<(u64, Code)>>,
@@ -14,7 +28,7 @@ pub struct PublishedMap {
 
 impl PublishedMap {
     /// A map from a function of place and seed.
-    pub fn from_formula(
+    pub(crate) fn from_formula(
         lattice: Lattice,
         seeds: std::ops::RangeInclusive<u64>,
         label: impl Fn(&[f64], u64) -> Code,
@@ -36,19 +50,20 @@ impl PublishedMap {
     /// # Errors
     /// If the file cannot be read, lacks one of the columns, or holds something else than numbers
     /// in them; if not all combinations of the values have labels.
-    pub fn read(path: &Path) -> Result<Self, RefineError> {
-        let table = |source| RefineError::Table {
+    pub(crate) fn read(path: &Path) -> Result<Self, MapError> {
+        let table = |source| MapError::Table {
             path: path.to_owned(),
             source,
+        };
+        let content = |reason| MapError::Content {
+            path: path.to_owned(),
+            reason,
         };
         let mut reader = csv::Reader::from_path(path).map_err(table)?;
         let headers = reader.headers().map_err(table)?.clone();
         let column = |column: &'static str| {
             let place = headers.iter().position(|name| name == column);
-            place.ok_or(RefineError::Column {
-                path: path.to_owned(),
-                column,
-            })
+            place.ok_or_else(|| content(format!("no column `{column}`")))
         };
         let (id, seed, code) = (column("id")?, column("seed")?, column("code")?);
         let axes = id + 1..seed;
@@ -56,10 +71,9 @@ impl PublishedMap {
         for (row, record) in reader.records().enumerate() {
             let record = record.map_err(table)?;
             let text = |column: usize| record.get(column).unwrap_or_default();
-            let bad = |column: usize| RefineError::Number {
-                path: path.to_owned(),
-                row: row + 1,
-                text: text(column).to_owned(),
+            let bad = |column: usize| {
+                let text = text(column);
+                content(format!("row {}: `{text}` is not a number", row + 1))
             };
             let values = axes.clone().map(|at| text(at).parse().map_err(|_| bad(at)));
             let run = Run {
@@ -69,7 +83,7 @@ impl PublishedMap {
             rows.push((run, text(code).parse().map_err(|_| bad(code))?));
         }
         let names: Vec<&str> = axes.map(|at| &headers[at]).collect();
-        Self::from_rows(&names, rows)
+        Ok(Self::from_rows(&names, rows)?)
     }
 
     fn from_rows(names: &[&str], rows: Vec<(Run, Code)>) -> Result<Self, RefineError> {
@@ -99,12 +113,12 @@ impl PublishedMap {
     }
 
     /// The axes and places.
-    pub fn lattice(&self) -> &Lattice {
+    pub(crate) fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
     /// The place of these values, which must be values of the axes.
-    pub fn place(&self, values: &[f64]) -> usize {
+    pub(crate) fn place(&self, values: &[f64]) -> usize {
         let axes = self.lattice.axes().iter().zip(values);
         let indices: Vec<usize> = axes
             .map(|(axis, value)| axis.values().partition_point(|other| other < value))
@@ -113,12 +127,12 @@ impl PublishedMap {
     }
 
     /// Seeds and labels of a place.
-    pub fn at(&self, place: usize) -> &[(u64, Code)] {
+    pub(crate) fn at(&self, place: usize) -> &[(u64, Code)] {
         &self.labels[place]
     }
 
     /// The label of most seeds of a place; of equals the one that comes first by seed.
-    pub fn label(&self, place: usize) -> Code {
+    pub(crate) fn label(&self, place: usize) -> Code {
         let at = &self.labels[place];
         let count = |code: Code| at.iter().filter(|(_, other)| *other == code).count();
         let mut best = at[0].1;

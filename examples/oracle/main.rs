@@ -4,13 +4,12 @@
 //! cargo run --release --example oracle -- results [MAP ...]
 //! ```
 //!
-//! For each map, each model chooses by margin, and the default model by each way of choosing. Maps
-//! of one seed are replayed as they are, and with noise that makes seeds agree as often as those of
-//! the small map beside them; the default is then replayed with up to three seeds a place too.
-//! Large maps are replayed with other shares of exploring runs as well (`margin/10`: 10 %). One
-//! line each 1 % of the runs of a large map, in the columns
+//! Each map is replayed with each model. Maps of one seed are replayed as they are, and with noise
+//! that makes seeds agree as often as those of the small map beside them; the default model is then
+//! replayed with up to three seeds a place too. Large maps are replayed with other shares of
+//! exploring runs as well. One line each 1 % of the runs of a large map, in the columns
 //!
-//! - model and way of choosing;
+//! - model, and share of exploring runs (per cent);
 //! - most seeds of one place; share of the map's runs (per cent), runs, and places among them;
 //! - labels right (per cent), with `settled` and `fluid` apart and merged;
 //! - borders of merged labels in the bands of 68 and 95 % (per cent), and the area of the bands;
@@ -19,8 +18,17 @@
 //! - mean time of a round (milliseconds): a fit, the map and the choice.
 #![allow(clippy::print_stdout, reason = "the example prints a table")]
 
-use phase::refine::oracle::{NoisyMap, Oracle, PublishedMap, agreement, merged, replay, score};
-use phase::refine::{Choice, Code, ModelKind, RefineError, Settings};
+mod maps;
+mod noise;
+mod replay;
+mod score;
+
+use maps::PublishedMap;
+use noise::{NoisyMap, agreement};
+use phase::refine::{Code, ModelKind, RefineError, Rounds, Settings};
+use replay::{Oracle, replay};
+use score::{merged, score};
+use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -75,7 +83,7 @@ const CASES: [Case; 6] = [
     small("density-friction", &[2]),
 ];
 
-const HEADER: &str = "model        choice       seeds runs%  runs places | right merged \
+const HEADER: &str = "model        exploring    seeds runs%  runs places | right merged \
                       | in 68 in 95  area 68 95 | in 68 in 95 width | ms";
 
 /// Shares of exploring runs beside the default of 12.5 (per cent).
@@ -84,7 +92,7 @@ const EXPLORING: [f64; 3] = [10.0, 15.0, 100.0 / 6.0];
 /// Seeds that the majority labels of a noisy map come from.
 const SEEDS: u64 = 25;
 
-fn main() -> Result<(), RefineError> {
+fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let root = PathBuf::from(arguments.next().unwrap_or_else(|| "results".to_owned()));
     let only: Vec<String> = arguments.collect();
@@ -142,35 +150,26 @@ fn compare(oracle: &dyn Oracle, truth: &PublishedMap, case: Case) -> Result<(), 
         replicates: 1,
         ..Settings::with_budget(budget)
     };
-    let print = |settings: &Settings, choice: &str| table(oracle, truth, case, settings, choice);
+    let print = |settings: &Settings| table(oracle, truth, case, settings);
     for model in ModelKind::ALL {
-        for choice in Choice::ALL {
-            if model == ModelKind::default() || choice == Choice::default() {
-                let settings = Settings {
-                    model,
-                    choice,
-                    ..defaults.clone()
-                };
-                print(&settings, choice.name())?;
-            }
-        }
+        print(&Settings {
+            model,
+            ..defaults.clone()
+        })?;
     }
-    let name = defaults.choice.name();
     if case.sample.is_some() && truth.at(0).len() == 1 {
         for percent in EXPLORING {
-            let settings = Settings {
+            print(&Settings {
                 exploring: percent / 100.0,
                 ..defaults.clone()
-            };
-            print(&settings, &format!("{name}/{percent:.0}"))?;
+            })?;
         }
     }
     if truth.at(0).len() > 1 {
-        let settings = Settings {
+        print(&Settings {
             replicates: 3,
-            ..defaults.clone()
-        };
-        print(&settings, name)?;
+            ..defaults
+        })?;
     }
     Ok(())
 }
@@ -180,46 +179,44 @@ fn table(
     truth: &PublishedMap,
     case: Case,
     settings: &Settings,
-    choice: &str,
 ) -> Result<(), RefineError> {
     let places = truth.lattice().places();
     let (model, replicates, budget) = (settings.model, settings.replicates, settings.budget);
     let mut next = 0.0;
     let mut rounds = 0;
     let mut clock = Instant::now();
-    let mut lines = Ok(());
-    replay(oracle, settings, |runs, map| {
+    replay(oracle, settings, |found: &mut Rounds| {
         rounds += 1;
+        let runs = found.runs();
         let share = 100.0 * runs.len() as f64 / places as f64;
         if share < next && runs.len() < budget {
-            return;
+            return Ok(());
         }
         // Rounds that end a little before a line count.
         next = case.step * libm::floor(share / case.step + 1.15) - 0.11;
-        let time = clock.elapsed().as_secs_f64() / f64::from(rounds);
         let mut at: Vec<&[f64]> = runs.iter().map(|(run, _)| run.values.as_slice()).collect();
         at.dedup();
-        match score(truth, runs, map, case.axis) {
-            Ok(score) => println!(
-                "{:12} {choice:12} {replicates:5} {share:5.1} {:5} {:6} | {:5.1} {:6.1} | {:5.1} \
-                 {:5.1} {:5.1} {:5.1} | {:5.1} {:5.1} {:5.1} | {:.0}",
-                model.name(),
-                runs.len(),
-                at.len(),
-                100.0 * score.right,
-                100.0 * score.right_merged,
-                100.0 * score.covered[0],
-                100.0 * score.covered[1],
-                100.0 * score.area[0],
-                100.0 * score.area[1],
-                100.0 * score.held[0],
-                100.0 * score.held[1],
-                100.0 * score.width,
-                1e3 * time
-            ),
-            Err(error) => lines = Err(error),
-        }
+        let (runs, at) = (runs.len(), at.len());
+        let score = score(truth, found, case.axis)?;
+        let time = clock.elapsed().as_secs_f64() / f64::from(rounds);
+        println!(
+            "{:12} {:9.1} {replicates:8} {share:5.1} {runs:5} {at:6} | {:5.1} {:6.1} | {:5.1} \
+             {:5.1} {:5.1} {:5.1} | {:5.1} {:5.1} {:5.1} | {:.0}",
+            model.name(),
+            100.0 * settings.exploring,
+            100.0 * score.right,
+            100.0 * score.right_merged,
+            100.0 * score.covered[0],
+            100.0 * score.covered[1],
+            100.0 * score.area[0],
+            100.0 * score.area[1],
+            100.0 * score.held[0],
+            100.0 * score.held[1],
+            100.0 * score.width,
+            1e3 * time
+        );
         (clock, rounds) = (Instant::now(), 0);
+        Ok(())
     })?;
-    lines
+    Ok(())
 }
