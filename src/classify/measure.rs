@@ -26,6 +26,8 @@ pub enum Range {
     Signed,
     /// From 0 to 1: how many of a number.
     Share,
+    /// From 0 to 1: how much of something, of which 0 in all runs is no chance.
+    Part,
 }
 
 /// A measure of what a run did.
@@ -61,6 +63,14 @@ impl Measure {
     pub(super) const fn share(self) -> Self {
         Self {
             range: Range::Share,
+            ..self
+        }
+    }
+
+    /// The same from 0 to 1, in no case by chance.
+    pub(super) const fn part(self) -> Self {
+        Self {
+            range: Range::Part,
             ..self
         }
     }

@@ -1,6 +1,7 @@
 //! Maps of a number over the grid: settle time (Rice, 2012, figure 16), order parameters, and
 //! the evidence of the sieves. Means over the seeds that have a value.
 
+use super::chart::Bar;
 use super::color_bar::ColorBar;
 use super::diagram::{Diagram, Look};
 use super::grid::Grid;
@@ -9,7 +10,8 @@ use super::svg::Svg;
 use super::{Figure, PlotError, Source};
 use crate::classify::{FAMILIES, Family, Measure, Point, Range};
 use crate::scene::Units;
-use crate::statistics::Estimate;
+use crate::statistics::{Estimate, mean_share_interval};
+use plotters::style::RGBColor;
 use std::sync::LazyLock;
 
 /// A map of one measure of the verdicts.
@@ -52,9 +54,17 @@ impl Map {
         }
     }
 
-    /// Whether it is a share of something, from 0 to 1.
-    pub(super) fn is_share(&self) -> bool {
-        self.measure.range == Range::Share
+    /// The bar of the mean of values of several runs; none without any.
+    pub(super) fn bar(&self, x: f64, values: &[f64], color: RGBColor) -> Option<Bar> {
+        let Estimate { value, half_width } = Estimate::of_mean(values)?;
+        let bar = Bar::about((x, value), half_width, color);
+        let ends = match self.measure.range {
+            // One run says nothing of its scatter.
+            Range::Share if values.len() > 1 => mean_share_interval(values)?,
+            Range::Share | Range::Part => bar.ends().map(|end| end.clamp(0.0, 1.0)),
+            Range::Any | Range::Signed => return Some(bar),
+        };
+        Some(Bar::between(bar.at, ends, color))
     }
 
     /// Values of the seeds of a point that have one. One that is not a number is none.

@@ -24,7 +24,7 @@ measures! {
         /// Twice the mean height above the floor, over R. Empty without a floor.
         packing_height: measured("packing height / $R$", ""),
         /// Mean number of rising spheres, as the spout sieve counts them, over all spheres.
-        spout_count: measured("rising spheres / $n$", ""),
+        spout_count: measured("rising spheres / $n$", "").part(),
     }
 }
 
