@@ -36,7 +36,11 @@ pub(crate) fn merged(code: Code) -> Code {
 ///
 /// # Errors
 /// If a run does not lie on the axes, or if there is no such axis.
-pub(crate) fn score(truth: &PublishedMap, found: &mut Rounds, axis: usize) -> Result<Score, RefineError> {
+pub(crate) fn score(
+    truth: &PublishedMap,
+    found: &mut Rounds,
+    axis: usize,
+) -> Result<Score, RefineError> {
     let places = truth.lattice().places();
     let map = found.map()?.clone();
     let merged_map = map.merged(merged);

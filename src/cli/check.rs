@@ -95,11 +95,9 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             let about = format!("about {}", format::bytes(disk));
             console.result(line("  disk", about));
         }
-        if let Some(refining) = &sweep.refine {
-            let all = sweep
-                .points()
-                .saturating_mul(refining.settings.replicates as usize);
-            let budget = refining.settings.budget.min(all);
+        if let Some(settings) = &sweep.refine {
+            let all = sweep.points().saturating_mul(settings.replicates as usize);
+            let budget = settings.budget.min(all);
             let times = budget as f64 / jobs.len().max(1) as f64;
             console.result(line(
                 "  refined",
@@ -117,8 +115,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         jobs: jobs.len(),
         axes: &sweep.axes,
         seeds: &sweep.seeds,
-        border_seeds: &sweep.border_seeds,
-        budget: sweep.refine.as_ref().map(|it| it.settings.budget),
+        budget: sweep.refine.as_ref().map(|it| it.budget),
         spheres: scene.spheres.count,
         effects: effects(scene),
         duration: scene.time.duration,
@@ -160,15 +157,12 @@ fn describe_sweep(sweep: &Sweep, jobs: usize) -> String {
     let title = sweep.title.as_ref().or(sweep.scene.title.as_ref());
     let mut lines = describe_grid(title, &format::count(jobs, "job"), &sweep.axes);
     let seeds: Vec<String> = sweep.seeds.iter().map(u64::to_string).collect();
-    let at_borders = match &sweep.border_seeds[..] {
-        [] if sweep.refine.is_some() => " at most".to_owned(),
-        [] => String::new(),
-        [seed] => format!("; {seed} too at points beside another label"),
-        [first, .., last] => format!("; {first} to {last} too at points beside another label"),
+    let at_most = match sweep.refine {
+        Some(_) => " at most",
+        None => "",
     };
-    lines.push(line("seeds", seeds.join(", ") + &at_borders));
-    if let Some(refining) = &sweep.refine {
-        let settings = &refining.settings;
+    lines.push(line("seeds", seeds.join(", ") + at_most));
+    if let Some(settings) = &sweep.refine {
         let (round, budget) = (settings.round, settings.budget);
         let text = match budget > jobs {
             true => format!("{jobs} to start, then rounds of {round} up to {budget} in total"),
@@ -311,7 +305,6 @@ struct Answer<'a> {
     jobs: usize,
     axes: &'a [Axis],
     seeds: &'a [u64],
-    border_seeds: &'a [u64],
     /// Most runs of a refined sweep; none if the whole grid is run.
     budget: Option<usize>,
     spheres: usize,

@@ -88,15 +88,18 @@ fn label_folders(
     }
     folders::go_through(dir, found, console, |folder| {
         let sweep = sweep_with_records(folder)?;
-        let jobs = jobs_to_label(&sweep)?;
+        let jobs = jobs_to_label(folder, &sweep)?;
         let labelled = label_folder(folder, &sweep, &jobs, workers, console)?;
         Ok(Summary::new(folder, &labelled))
     })
 }
 
-/// The jobs of a sweep, which its sieves can judge.
-fn jobs_to_label(sweep: &Sweep) -> Result<Vec<Job>, Failure> {
-    let jobs = sweep.jobs().map_err(Failure::refused)?;
+/// The jobs of the sweep of a folder so far, which its sieves can judge.
+fn jobs_to_label(folder: &Folder, sweep: &Sweep) -> Result<Vec<Job>, Failure> {
+    let refining = folder.read_refining(sweep).map_err(Failure::failed)?;
+    let jobs = sweep
+        .jobs_so_far(refining.as_ref())
+        .map_err(Failure::refused)?;
     sweep.check_sieves(&jobs).map_err(cannot_label)?;
     Ok(jobs)
 }
@@ -257,7 +260,9 @@ fn write_refined(
     if table.rows.is_empty() {
         return Ok(());
     }
-    if let Some(learnt) = Learnt::of(sweep, table).map_err(Failure::failed)? {
+    let refining = folder.read_refining(sweep).map_err(Failure::failed)?;
+    let learnt = Learnt::of(sweep, refining.as_ref(), table).map_err(Failure::failed)?;
+    if let Some(learnt) = learnt {
         let written = learnt.write(folder, sweep, table.family);
         written.map_err(Failure::failed)?;
         console.file(&folder.refined());

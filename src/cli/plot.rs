@@ -342,8 +342,7 @@ pub(super) fn draw_round(
     sweep: &Sweep,
     table: &LabelTable,
 ) -> Result<(), Failure> {
-    let figure = drawn(REFINED, (folder, sweep, table), (&[], None));
-    let figure = figure.map_err(|error| refused_or_failed(folder, error))?;
+    let figure = drawn(REFINED, (folder, sweep, table), (&[], None))?;
     for (extension, bytes) in images(&figure)? {
         let path = folder.root().join(format!("{REFINED}.{extension}"));
         store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
@@ -361,8 +360,7 @@ fn draw(
     (points, times): (&[Selection], Option<[f64; 2]>),
     console: &Console,
 ) -> Result<(), Failure> {
-    let figure = drawn(name, (folder, sweep, table), (points, times));
-    let figure = figure.map_err(|error| refused_or_failed(folder, error))?;
+    let figure = drawn(name, (folder, sweep, table), (points, times))?;
     let file = |extension: &str| place.join(format!("{name}.{extension}"));
     write(&figure, file, console)
 }
@@ -372,9 +370,11 @@ fn drawn(
     name: &str,
     (folder, sweep, table): (&Folder, &Sweep, &LabelTable),
     (points, times): (&[Selection], Option<[f64; 2]>),
-) -> Result<Svg, PlotError> {
+) -> Result<Svg, Failure> {
+    let refining = folder.read_refining(sweep).map_err(Failure::failed)?;
     let source = plot::Source {
         sweep,
+        refining: refining.as_ref(),
         table,
         record: &|id| folder.read_record(id),
         points,
@@ -383,7 +383,7 @@ fn drawn(
         data: &[],
         program: &Program::current(),
     };
-    plot::draw(name, &source)
+    plot::draw(name, &source).map_err(|error| refused_or_failed(folder, error))
 }
 
 /// Why a figure of a folder is not drawn.

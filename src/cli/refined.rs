@@ -2,7 +2,7 @@
 
 use super::{format, job};
 use phase::classify::Family;
-use phase::refine::{Finish, Gap, Width};
+use phase::refine::{Finish, Gap, Settings, Width};
 use phase::sweep::{Refining, Sweep, label_name};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -29,8 +29,8 @@ struct Border {
 
 impl Answer {
     /// That of a sweep, if it is refined, with this number of runs.
-    pub(super) fn new(sweep: &Sweep, runs: usize) -> Option<Self> {
-        let refining = sweep.refine.as_ref()?;
+    pub(super) fn new(sweep: &Sweep, refining: Option<&Refining>, runs: usize) -> Option<Self> {
+        let (settings, refining) = (sweep.refine.as_ref()?, refining?);
         let family = Family::of(&sweep.scene);
         let border = |width: &Width| Border {
             labels: width.labels.map(|code| label_name(family, code)),
@@ -41,7 +41,7 @@ impl Answer {
         };
         Some(Self {
             runs,
-            budget: refining.settings.budget,
+            budget: settings.budget,
             end: refining.end,
             borders: refining.widths.iter().map(border).collect(),
         })
@@ -95,8 +95,7 @@ pub(super) fn describe_borders(sweep: &Sweep, refining: &Refining) -> Vec<String
 }
 
 /// Why no more runs are made.
-pub(super) fn describe_end(refining: &Refining, end: Finish) -> String {
-    let settings = &refining.settings;
+pub(super) fn describe_end(settings: &Settings, end: Finish) -> String {
     match (end, settings.width) {
         (Finish::Budget, None) => format!("the budget of {} runs is spent", settings.budget),
         (Finish::Budget, Some(width)) => format!(

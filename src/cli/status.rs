@@ -6,7 +6,7 @@ use super::folders::{self, Entry};
 use super::job::{self, NamedJob};
 use super::{format, refined};
 use phase::refine::Finish;
-use phase::sweep::{Axis, Folder, Plan, Status, Sweep, UnderWay, describe, work};
+use phase::sweep::{Axis, Folder, Plan, Refining, Status, Sweep, UnderWay, describe, work};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -43,7 +43,10 @@ impl FolderAnswer {
     /// That of a folder; prints it for people.
     fn of(folder: &Folder, workers: usize, console: &Console) -> Result<Self, Failure> {
         let sweep = folder.read_sweep().map_err(Failure::failed)?;
-        let jobs = sweep.jobs().map_err(Failure::failed)?;
+        let refining = folder.read_refining(&sweep).map_err(Failure::failed)?;
+        let jobs = sweep
+            .jobs_so_far(refining.as_ref())
+            .map_err(Failure::failed)?;
         let plan = Plan::new(folder, jobs, work::default_workers()).map_err(Failure::failed)?;
         let status = Status::of(folder, &plan).map_err(Failure::failed)?;
         console.result(format_args!(
@@ -51,7 +54,7 @@ impl FolderAnswer {
             folder.root().display(),
             text(&status, &sweep.axes, workers)
         ));
-        for line in describe_refined(&sweep, &status, workers) {
+        for line in describe_refined(&sweep, refining.as_ref(), &status, workers) {
             console.result(line);
         }
         Ok(Self {
@@ -66,18 +69,27 @@ impl FolderAnswer {
             workers: workers.min(status.left.max(1)),
             seconds_left: seconds_left(&status, workers),
             running: status.running,
-            refined: refined::Answer::new(&sweep, status.done + status.failures.len()),
+            refined: refined::Answer::new(
+                &sweep,
+                refining.as_ref(),
+                status.done + status.failures.len(),
+            ),
         })
     }
 }
 
 /// How far a refined sweep is, and how well its borders are known.
-fn describe_refined(sweep: &Sweep, status: &Status, workers: usize) -> Vec<String> {
-    let Some(refining) = &sweep.refine else {
+fn describe_refined(
+    sweep: &Sweep,
+    refining: Option<&Refining>,
+    status: &Status,
+    workers: usize,
+) -> Vec<String> {
+    let (Some(settings), Some(refining)) = (&sweep.refine, refining) else {
         return Vec::new();
     };
     let runs = status.done + status.failures.len();
-    let budget = refining.settings.budget;
+    let budget = settings.budget;
     let mut lines = vec![format!(
         "  refined    {} of at most {budget}, {}",
         format::count(runs, "run"),
@@ -87,7 +99,7 @@ fn describe_refined(sweep: &Sweep, status: &Status, workers: usize) -> Vec<Strin
     let end = refining
         .end
         .filter(|end| *end != Finish::Budget || runs >= budget);
-    lines.extend(end.map(|end| format!("  ended      {}", refined::describe_end(refining, end))));
+    lines.extend(end.map(|end| format!("  ended      {}", refined::describe_end(settings, end))));
     let more = match end {
         Some(_) => 0,
         None => budget.saturating_sub(runs),

@@ -11,7 +11,7 @@ use phase::classify::Family;
 use phase::resume::DEFAULT_INTERVAL;
 use phase::store;
 use phase::sweep::{
-    Folder, FolderError, Job, Plan, Refining, Sweep, differing_keys, refuse_to_lose_labels, work,
+    Folder, FolderError, Job, Plan, Sweep, differing_keys, refuse_to_lose_labels, work,
 };
 use rounds::{Rounds, Run};
 use serde::Serialize;
@@ -91,11 +91,6 @@ pub(super) fn at_least_one(text: &str) -> Result<usize, String> {
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let mut sweep = phase::sweep::load(&arguments.file).map_err(Failure::refused)?;
     choose_runs(&mut sweep, arguments)?;
-    if arguments.no_classify && !sweep.border_seeds.is_empty() {
-        return Err(Failure::refused(
-            "seeds.at_borders needs labels; leave out --no-classify, or give the seeds with --seed",
-        ));
-    }
     let workers = arguments.jobs.unwrap_or_else(work::default_workers);
     let jobs = sweep.jobs().map_err(Failure::refused)?;
     if !arguments.no_classify {
@@ -139,20 +134,21 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         draws: !arguments.no_plot,
         console,
     };
-    let (plan, run, refined) = match sweep.refine {
+    let (plan, run, refinement) = match sweep.refine {
         None => {
-            let (plan, run) = rounds.run(&mut sweep, jobs)?;
+            let (plan, run) = rounds.run(&sweep, jobs)?;
             (plan, run, None)
         }
         Some(_) => {
-            let (plan, run, refined) = rounds.refine(&mut sweep)?;
-            (plan, run, Some(refined))
+            let (plan, run, refinement) = rounds.refine(&sweep)?;
+            (plan, run, Some(refinement))
         }
     };
     run.print(&plan, &sweep, console)?;
     let jobs: Vec<Job> = plan.jobs.iter().map(|(job, _)| job.clone()).collect();
     let mut answer = Answer::new(&folder, &plan, &sweep, &run);
-    answer.refined = refined.and_then(|runs| refined::Answer::new(&sweep, runs));
+    answer.refined =
+        refinement.and_then(|it| refined::Answer::new(&sweep, Some(it.refining()), it.runs()));
 
     if stop.load(Ordering::Relaxed) {
         console.note(format_args!(
@@ -237,15 +233,18 @@ fn refuse_foreign(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Resu
 }
 
 /// The jobs of the sweep that the folder keeps, if this one makes the same, and those that a
-/// refined sweep takes as given. Those at borders and those of rounds follow from the labels, so
-/// that the thresholds count too.
+/// refined sweep takes as given. Those of rounds follow from the labels, so that the thresholds
+/// count too.
 fn jobs_made_again(folder: &Folder, sweep: &Sweep) -> Vec<Job> {
     let given = sweep.jobs_given_by(folder).unwrap_or_default();
     let stored = folder.read_sweep().ok();
     let stored = stored.filter(|stored| {
         stored.sieves == sweep.sieves && stored.keys_of_other_runs(sweep).is_empty()
     });
-    let jobs = stored.and_then(|stored| stored.jobs().ok());
+    let jobs = stored.and_then(|stored| {
+        let refining = folder.read_refining(&stored).ok()?;
+        stored.jobs_so_far(refining.as_ref()).ok()
+    });
     given.into_iter().chain(jobs.unwrap_or_default()).collect()
 }
 
@@ -253,12 +252,11 @@ fn jobs_made_again(folder: &Folder, sweep: &Sweep) -> Vec<Job> {
 fn choose_runs(sweep: &mut Sweep, arguments: &Arguments) -> Result<(), Failure> {
     if !arguments.seed.is_empty() {
         let seeds = distinct(&arguments.seed)?;
-        if let Some(refining) = &sweep.refine {
-            refining::check(refining, &seeds)?;
+        if let Some(settings) = &sweep.refine {
+            refining::check(settings, &seeds)?;
             sweep.refine_from_seed(seeds[0]).map_err(Failure::refused)?;
         } else {
             sweep.seeds = seeds;
-            sweep.border_seeds.clear();
         }
     }
     if arguments.refine && sweep.refine.is_none() {
@@ -312,16 +310,7 @@ fn tell_of_other_sweep(folder: &Folder, sweep: &Sweep, console: &Console) {
     let Ok(earlier) = folder.read_sweep() else {
         return;
     };
-    let earlier = Sweep {
-        border_points: sweep.border_points.clone(),
-        refine: earlier.refine.as_ref().map(Refining::without_runs),
-        ..earlier
-    };
-    let sweep = Sweep {
-        refine: sweep.refine.as_ref().map(Refining::without_runs),
-        ..sweep.clone()
-    };
-    let keys = differing_keys(&earlier, &sweep);
+    let keys = differing_keys(&earlier, sweep);
     if !keys.is_empty() {
         console.note(format_args!(
             "the sweep has changed since it was last run into {} ({}); records it still needs are \

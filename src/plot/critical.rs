@@ -155,8 +155,6 @@ mod tests {
             scene: scene(),
             axes: axes.iter().map(axis).collect(),
             seeds: vec![1],
-            border_seeds: Vec::new(),
-            border_points: Vec::new(),
             refine: None,
             sieves: Sieves::default(),
             plot: PlotSettings::default(),
@@ -174,6 +172,7 @@ mod tests {
         };
         let grid = Grid::new(&Source {
             sweep: &sweep,
+            refining: None,
             table: &table,
             record: &|id| panic!("the grid read the record {id}"),
             points: &[],

@@ -61,19 +61,12 @@ const BARS: &str = "Bars: 95 % intervals of the means (Student's t, within 0 and
 
 /// What points and bars are.
 fn note(sweep: &Sweep) -> String {
-    let seeds = match (sweep.seeds.len(), sweep.border_seeds.len()) {
-        (1, 0) => return "Points: one run each.".to_owned(),
-        (seeds, 0) => format!("{seeds} seeds"),
-        (1, more) => {
-            return format!(
-                "Points: one run each; at borders means over {} seeds, or over those that have a \
-                 value. {BARS}",
-                1 + more
-            );
+    match sweep.seeds.len() {
+        1 => "Points: one run each.".to_owned(),
+        seeds => {
+            format!("Points: means over {seeds} seeds, or over those that have a value. {BARS}")
         }
-        (seeds, more) => format!("{seeds} seeds, at borders {}", seeds + more),
-    };
-    format!("Points: means over {seeds}, or over those that have a value. {BARS}")
+    }
 }
 
 /// The panel of a measure; none if no run has it.

@@ -61,12 +61,14 @@ use crate::classify::LabelTable;
 use crate::record::{Program, RunRecord};
 use crate::refine::RefineError;
 use crate::store::{DataSet, StoreError};
-use crate::sweep::{SelectError, Selection, Sweep};
+use crate::sweep::{Refining, SelectError, Selection, Sweep};
 
 /// What figures are drawn from: tables and records, never simulations.
 pub struct Source<'a> {
     /// The sweep.
     pub sweep: &'a Sweep,
+    /// How far it is, if it is refined.
+    pub refining: Option<&'a Refining>,
     /// Labels of its runs.
     pub table: &'a LabelTable,
     /// Fetches the record of a run by its identity.

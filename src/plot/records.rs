@@ -62,8 +62,6 @@ pub fn draw_records(
             .filter(|_| scenes.iter().all(is_common)),
         axes: Vec::new(),
         seeds: table.rows.iter().map(|row| row.seed).collect(),
-        border_seeds: Vec::new(),
-        border_points: Vec::new(),
         refine: None,
         scene: first.scene.clone(),
         sieves,
@@ -78,6 +76,7 @@ pub fn draw_records(
     };
     let source = Source {
         sweep: &sweep,
+        refining: None,
         table: &table,
         record: &record,
         points: &[],

@@ -50,7 +50,8 @@ impl Figure for RefinedDiagram {
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
         grid::check(source.sweep, source.table)?;
-        let learnt = Learnt::of(source.sweep, source.table)?.ok_or(PlotError::NotRefined)?;
+        let learnt = Learnt::of(source.sweep, source.refining, source.table)?;
+        let learnt = learnt.ok_or(PlotError::NotRefined)?;
         let (grid, places) = grid_of(source, &learnt)?;
         let curves = curves(source, &learnt, &grid, &places);
         let cells = || grid.panels.iter().flat_map(|it| it.cells.iter().flatten());

@@ -41,6 +41,7 @@ enum Kind {
 fn kind_of(name: &str) -> Option<Kind> {
     Some(match name {
         "sweep.json" => Kind::Object(&["scene", "axes", "seeds"]),
+        "progress.json" => Kind::Object(&["basis", "chosen"]),
         "accuracy.json" => Kind::Object(&["outcomes", "finding"]),
         "ablation.json" => Kind::Object(&["ablated", "finding"]),
         "labels.csv" => Kind::Table("seed,label,code"),

@@ -1,10 +1,11 @@
 //! The results folder of a sweep: what lies where in it.
 
-use super::Sweep;
+use super::{Refining, Sweep};
 use crate::classify::LabelRow;
 use crate::record::RunRecord;
 use crate::resume::Checkpoints;
 use crate::store::{self, Lock, StoreError};
+use serde::Serialize;
 use std::collections::HashMap;
 use std::fs;
 use std::io;
@@ -182,6 +183,11 @@ impl Folder {
         self.root.join("sweep.json")
     }
 
+    /// How far the refining of the sweep is.
+    pub fn progress(&self) -> PathBuf {
+        self.root.join("progress.json")
+    }
+
     /// The folder of all records.
     pub fn records(&self) -> PathBuf {
         self.root.join("records")
@@ -296,14 +302,7 @@ impl Folder {
     pub fn read_sweep(&self) -> Result<Sweep, FolderError> {
         let path = self.sweep();
         match fs::read(&path) {
-            Ok(text) => {
-                let sweep = serde_json::from_slice(&text).map_err(|error| error.to_string());
-                let sweep = sweep.and_then(|sweep: Sweep| sweep.check_refining().map(|()| sweep));
-                sweep.map_err(|reason| match store::is_own_file(&path) {
-                    true => FolderError::BadSweep { path, reason },
-                    false => FolderError::NotASweep { path, reason },
-                })
-            }
+            Ok(text) => serde_json::from_slice(&text).map_err(|error| bad(path, error.to_string())),
             Err(source) => Err(match in_place_of_file(&path, &source) {
                 Some(reason) => FolderError::NoFile { path, reason },
                 None => FolderError::Io { path, source },
@@ -311,16 +310,68 @@ impl Folder {
         }
     }
 
-    /// Writes the resolved sweep.
+    /// Writes the resolved sweep, unless the file says the same already.
     ///
     /// # Errors
     /// If the file cannot be written.
     pub fn write_sweep(&self, sweep: &Sweep) -> Result<(), FolderError> {
-        let mut text =
-            serde_json::to_string_pretty(sweep).expect("a sweep holds no map with odd keys");
-        text.push('\n');
-        Ok(store::write_atomic(&self.sweep(), text.as_bytes())?)
+        write_unless_equal(&self.sweep(), sweep)
     }
+
+    /// How far the refining of the folder's sweep is: none if the sweep is not refined, and the
+    /// beginning if what the folder keeps is of another one.
+    ///
+    /// # Errors
+    /// If `progress.json` is there and does not hold the progress of the sweep.
+    pub fn read_refining(&self, sweep: &Sweep) -> Result<Option<Refining>, FolderError> {
+        if sweep.refine.is_none() {
+            return Ok(None);
+        }
+        let path = self.progress();
+        let text = match fs::read(&path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                return Ok(Some(Refining::new(sweep)));
+            }
+            Err(source) => return Err(FolderError::Io { path, source }),
+        };
+        let stored: Refining =
+            serde_json::from_slice(&text).map_err(|error| bad(path.clone(), error.to_string()))?;
+        if stored.basis != sweep.basis_of_runs() {
+            return Ok(Some(Refining::new(sweep)));
+        }
+        match stored.check(sweep) {
+            Ok(()) => Ok(Some(stored)),
+            Err(reason) => Err(bad(path, reason)),
+        }
+    }
+
+    /// Writes how far refining is, unless the file says the same already.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write_refining(&self, refining: &Refining) -> Result<(), FolderError> {
+        write_unless_equal(&self.progress(), refining)
+    }
+}
+
+/// The error of a file that does not hold what it should.
+fn bad(path: PathBuf, reason: String) -> FolderError {
+    match store::is_own_file(&path) {
+        true => FolderError::BadSweep { path, reason },
+        false => FolderError::NotASweep { path, reason },
+    }
+}
+
+/// Writes a file of JSON, unless it says the same already.
+fn write_unless_equal(path: &Path, content: &impl Serialize) -> Result<(), FolderError> {
+    let mut text =
+        serde_json::to_string_pretty(content).expect("a sweep holds no map with odd keys");
+    text.push('\n');
+    if fs::read(path).is_ok_and(|stored| stored == text.as_bytes()) {
+        return Ok(());
+    }
+    Ok(store::write_atomic(path, text.as_bytes())?)
 }
 
 /// What is there in the place of a file that cannot be read, if it is not just the system that says

@@ -2,6 +2,7 @@
 
 use super::{Axis, Sweep};
 use crate::document::{Problem, number};
+use crate::refine::start;
 use crate::run::{self, Progress};
 use crate::scene::{Scene, Template};
 
@@ -42,23 +43,21 @@ pub struct PointError {
 }
 
 impl Sweep {
-    /// All jobs. The first axis varies slowest; the seeds of a point follow each other, at border
-    /// points (`border_points`) with `border_seeds` after them. Of a refined sweep those that have
-    /// been chosen so far, by point and seed.
+    /// All jobs. The first axis varies slowest; the seeds of a point follow each other. Of a
+    /// refined sweep those of the coarse grid, by point and seed: others
+    /// [follow](Self::jobs_so_far) from labels.
     ///
     /// # Errors
     /// The first point whose scene cannot be run. Never for a sweep that [`load`](super::load)
     /// returned.
     pub fn jobs(&self) -> Result<Vec<Job>, PointError> {
-        if let Some(refining) = &self.refine {
-            return self.jobs_of_runs(&refining.runs());
+        if let Some(settings) = &self.refine
+            && let Ok(lattice) = self.lattice()
+        {
+            return self.jobs_of_runs(&start(&lattice, settings));
         }
         self.jobs_at(self.grid().flat_map(|values| {
-            let more = match self.border_points.contains(&values) {
-                true => &self.border_seeds[..],
-                false => &[],
-            };
-            let seeds = self.seeds.iter().chain(more);
+            let seeds = self.seeds.iter();
             seeds.map(move |seed| (values.clone(), *seed))
         }))
     }

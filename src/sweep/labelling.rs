@@ -1,6 +1,6 @@
 //! Labels every run of a results folder from its record.
 
-use super::{Folder, Job, PlotSettings, Refining, Sweep, work};
+use super::{Folder, Job, PlotSettings, Sweep, work};
 use crate::classify::{self, ClassifyError, Family, Label, LabelRow, LabelTable, Sieves};
 use crate::document::differing_keys;
 use crate::scene::Scene;
@@ -259,8 +259,8 @@ impl Sweep {
         found
     }
 
-    /// Keys in which the runs of this sweep differ from those of an edited one. Titles, thresholds,
-    /// plot settings and what follows from labels may differ.
+    /// Keys in which the runs of this sweep differ from those of an edited one. Titles, thresholds
+    /// and plot settings may differ.
     pub fn keys_of_other_runs(&self, edited: &Self) -> Vec<String> {
         let runs = |sweep: &Self| Self {
             title: None,
@@ -268,8 +268,6 @@ impl Sweep {
                 title: None,
                 ..sweep.scene.clone()
             },
-            border_points: Vec::new(),
-            refine: sweep.refine.as_ref().map(Refining::without_runs),
             sieves: Sieves::default(),
             plot: PlotSettings::default(),
             ..sweep.clone()

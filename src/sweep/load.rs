@@ -3,7 +3,7 @@
 use super::axis::AxisEntry;
 use super::job::{PointError, PointScenes, points};
 use super::refining::RefineEntry;
-use super::seeds::{SweepSeeds, expand_seeds};
+use super::seeds::{SeedsEntry, expand_seeds};
 use super::{Axis, PlotSettings, Sweep};
 use crate::classify::{ClassifyError, Family, Sieves};
 use crate::document::{Document, LoadError, Problem, Schema, one_of, suggest};
@@ -37,7 +37,7 @@ pub(crate) struct SweepFile {
     #[serde(default)]
     axis: Vec<AxisEntry>,
     /// Seeds; each point of the grid runs once per seed. Absent: seed 1 alone.
-    seeds: Option<SweepSeeds>,
+    seeds: Option<SeedsEntry>,
     /// Runs only where labels need them, in place of the whole grid. Absent: the whole grid is run.
     refine: Option<RefineEntry>,
     /// Thresholds of the sieves, which label the runs.
@@ -89,21 +89,15 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
         scene.time.safety_factor = None;
     }
     let entry = file.seeds.as_ref();
-    let (seeds, border_seeds) = match &file.refine {
-        Some(refine) => (refine.seeds(entry, &mut problems), None),
-        None => {
-            let seeds = expand_seeds(entry.map(|seeds| &seeds.of_all), &mut problems);
-            let more = entry.map(|entry| entry.more_at_borders(&seeds, &mut problems));
-            (seeds, more)
-        }
+    let seeds = match &file.refine {
+        Some(refine) => refine.seeds(entry, &mut problems),
+        None => expand_seeds(entry, &mut problems),
     };
     let mut sweep = Sweep {
         title: file.title,
         scene,
         axes,
         seeds,
-        border_seeds: border_seeds.unwrap_or_default(),
-        border_points: Vec::new(),
         refine: None,
         sieves: file.sieves,
         plot: file.plot,
@@ -293,8 +287,7 @@ fn no_axis(sweep: &Sweep, name: &str, path: String) -> Problem {
 }
 
 fn check_grid(sweep: &Sweep, document: &Document, problems: &mut Vec<Problem>) {
-    let seeds = sweep.seeds.len() + sweep.border_seeds.len();
-    let jobs = sweep.points().saturating_mul(seeds);
+    let jobs = sweep.points().saturating_mul(sweep.seeds.len());
     if !check_jobs(jobs, "use fewer values or seeds", problems) {
         return;
     }

@@ -1,7 +1,6 @@
 //! Sweeps: a scene, the axes it is varied over, and the jobs that follow.
 
 mod axis;
-mod borders;
 mod dumps;
 mod failure;
 mod failures;
@@ -46,11 +45,12 @@ pub use workers::{Begin, Event, Report};
 pub(crate) use workers::{Results, Workers};
 
 use crate::classify::Sieves;
+use crate::refine::Settings;
 use crate::scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A sweep, fully resolved: this is what the results folder keeps as `sweep.json`.
+/// A sweep, fully resolved: what is asked for. The results folder keeps it as `sweep.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sweep {
     /// Free text, the title of figures.
@@ -62,16 +62,10 @@ pub struct Sweep {
     pub axes: Vec<Axis>,
     /// Seeds; each point of the grid runs once per seed.
     pub seeds: Vec<u64>,
-    /// More seeds, of the points at borders alone.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub border_seeds: Vec<u64>,
-    /// The points of the grid at borders, as far as labels have told them.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub border_points: Vec<Vec<f64>>,
     /// How it is refined, if not the whole grid is run: its `seeds` are then those that a point
     /// may have.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub refine: Option<Refining>,
+    pub refine: Option<Settings>,
     /// Thresholds of the sieves.
     pub sieves: Sieves,
     /// What the phase diagram shows.
@@ -85,8 +79,6 @@ impl Sweep {
             title: None,
             axes: Vec::new(),
             seeds: vec![scene.seed],
-            border_seeds: Vec::new(),
-            border_points: Vec::new(),
             refine: None,
             scene,
             sieves: Sieves::default(),

@@ -120,10 +120,8 @@ impl Sweep {
         }
         if let Some(seed) = point.seed {
             chosen.seeds.retain(|known| *known == seed);
-            chosen.border_seeds.retain(|known| *known == seed);
-            if chosen.seeds.is_empty() && chosen.border_seeds.is_empty() {
-                let known = [&self.seeds[..], &self.border_seeds].concat();
-                return Err(never(SEED, seed, &known));
+            if chosen.seeds.is_empty() {
+                return Err(never(SEED, seed, &self.seeds));
             }
         }
         Ok(chosen)

@@ -20,8 +20,6 @@ pub(crate) fn sweep(title: &str, scene: Scene, axes: Vec<Axis>, seeds: &[u64]) -
         scene,
         axes,
         seeds: seeds.to_vec(),
-        border_seeds: Vec::new(),
-        border_points: Vec::new(),
         refine: None,
         sieves: Sieves::default(),
         plot: PlotSettings::default(),
@@ -72,6 +70,7 @@ pub(crate) fn source<'a>(
 ) -> Source<'a> {
     Source {
         sweep,
+        refining: None,
         table,
         record: &|id| panic!("a figure of a table read the record {id}"),
         points: &[],

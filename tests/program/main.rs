@@ -4,7 +4,6 @@
 
 mod ablate;
 mod accuracy;
-mod borders;
 mod checkpoint;
 mod command_line;
 mod compare;

@@ -41,11 +41,11 @@ fn borders_of_steel_are_those_of_its_labels() {
         let published = Path::new("results/steel").join(file);
         fs::copy(published, place.path("steel").join(file)).unwrap();
     }
-    let sweep = concat!(env!("CARGO_MANIFEST_DIR"), "/sweeps/steel-refined.toml");
+    let sweep = concat!(env!("CARGO_MANIFEST_DIR"), "/sweeps/steel.toml");
     let options = ["--out", "steel", "--keep-labels", "--no-plot"];
     place
         .phase(&[&["sweep", sweep], &options[..]].concat())
         .code(0);
-    let published = fs::read_to_string("results/steel-refined/borders.csv").unwrap();
+    let published = fs::read_to_string("results/steel/borders.csv").unwrap();
     assert_eq!(place.read("steel/borders.csv"), published);
 }

@@ -28,16 +28,18 @@ pub(super) fn label(
     }
     let mut edits = edits.into_iter();
     folders::go_through(dir, found, console, |folder| {
-        let mut edit = edits.next().expect("one for each folder")?;
+        let edit = edits.next().expect("one for each folder")?;
         let labelling = labelling_of(folder, &edit.sweep, &edit.jobs, workers, console)?;
         refuse_problems(folder, &labelling)?;
         let labelled = write(folder, &edit.sweep, labelling, console)?;
-        if let Ok(Some(learnt)) = Learnt::of(&edit.sweep, &labelled.table)
-            && let Some(refining) = &mut edit.sweep.refine
+        folder.write_sweep(&edit.sweep).map_err(Failure::failed)?;
+        let refining = folder.read_refining(&edit.sweep).map_err(Failure::failed)?;
+        if let Ok(Some(learnt)) = Learnt::of(&edit.sweep, refining.as_ref(), &labelled.table)
+            && let Some(mut refining) = refining
         {
             refining.widths = phase::refine::widths(&learnt.lattice, &learnt.map);
+            folder.write_refining(&refining).map_err(Failure::failed)?;
         }
-        folder.write_sweep(&edit.sweep).map_err(Failure::failed)?;
         Ok(Summary::new(folder, &labelled))
     })
 }
@@ -64,15 +66,9 @@ fn edit(folder: &Folder, sweep: Sweep, edited: &Sweep) -> Result<ToLabel, Failur
     }
     let lock = folder.lock().map_err(Failure::refused)?;
     check_files(folder, &sweep)?;
-    // The runs at borders stay those that were run, and so do those of a refined sweep.
-    let sweep = Sweep {
-        border_points: sweep.border_points,
-        refine: sweep.refine,
-        ..edited
-    };
     Ok(ToLabel {
-        jobs: jobs_to_label(&sweep)?,
-        sweep,
+        jobs: jobs_to_label(folder, &edited)?,
+        sweep: edited,
         _lock: lock,
     })
 }
@@ -81,7 +77,7 @@ fn edit(folder: &Folder, sweep: Sweep, edited: &Sweep) -> Result<ToLabel, Failur
 fn check_files(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
     let mut files = vec![folder.labels(), folder.points(), folder.sweep()];
     if sweep.refine.is_some() {
-        files.extend([folder.refined(), folder.borders()]);
+        files.extend([folder.progress(), folder.refined(), folder.borders()]);
     }
     let mut files = files.iter();
     files.try_for_each(|file| store::check_writable(file).map_err(Failure::failed))

@@ -127,6 +127,7 @@ fn print_fits(
     let program = Program::current();
     let lines = plot::fitted_lines(&plot::Source {
         sweep,
+        refining: None,
         table,
         record: &|id| folder.read_record(id),
         points: &[],

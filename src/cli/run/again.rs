@@ -62,7 +62,9 @@ impl Original {
                 values.join(", ")
             )));
         }
-        let mut jobs = chosen.jobs().map_err(Failure::refused)?;
+        let refining = folder.read_refining(&sweep).map_err(Failure::failed)?;
+        let jobs = chosen.jobs_so_far(refining.as_ref());
+        let mut jobs = jobs.map_err(Failure::refused)?;
         if jobs.is_empty() {
             // A point at which a refined sweep has no run.
             let whole = Sweep {

@@ -3,10 +3,8 @@
 use super::rounds::{Part, Rounds, Run};
 use crate::cli::exit::Failure;
 use crate::cli::{format, plot, refined};
-use phase::refine::Finish;
-use phase::sweep::{
-    Folder, Job, Plan, Refinement, RefinementError, Refining, Standing, Step, Sweep,
-};
+use phase::refine::{Finish, Settings};
+use phase::sweep::{Job, Plan, Refinement, RefinementError, Refining, Standing, Step, Sweep};
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
@@ -14,9 +12,8 @@ use std::time::{Duration, Instant};
 const BETWEEN_NOTES: Duration = Duration::from_secs(5);
 
 impl Rounds<'_> {
-    /// Runs the rounds, and puts the runs into the sweep. Gives the plan of all its jobs, what was
-    /// run, and the number of runs that have been learnt from.
-    pub(super) fn refine(&self, sweep: &mut Sweep) -> Result<(Plan, Run, usize), Failure> {
+    /// Runs the rounds. Gives the plan of all jobs, what was run, and how far refining is.
+    pub(super) fn refine(&self, sweep: &Sweep) -> Result<(Plan, Run, Refinement), Failure> {
         let Rounds {
             folder,
             workers,
@@ -37,7 +34,9 @@ impl Rounds<'_> {
                 }
                 Step::Run(jobs) => jobs,
             };
-            let plan = self.plan_of_round(sweep, &jobs)?;
+            let refining = refinement.refining();
+            folder.write_refining(refining).map_err(Failure::failed)?;
+            let plan = self.plan_of_round(sweep, refining, &jobs)?;
             if run.is_none() {
                 super::rounds::tell_of_plan(&plan, console);
             }
@@ -55,27 +54,27 @@ impl Rounds<'_> {
             refinement
                 .learn(folder, sweep, &jobs, workers)
                 .map_err(refused_or_failed)?;
-            self.show(folder, sweep, &mut refinement)?;
+            let refining = refinement.refining();
+            folder.write_refining(refining).map_err(Failure::failed)?;
+            self.show(sweep, &mut refinement)?;
         };
-        if end.is_none()
-            && run.is_none()
-            && let Some(stored) = folder.read_sweep().ok().and_then(|it| it.refine)
-        {
-            // Stopped before anything was run: the folder stays as it was.
-            sweep.refine = Some(stored);
+        if end.is_some() {
+            let refining = refinement.refining();
+            folder.write_refining(refining).map_err(Failure::failed)?;
         }
-        let plan = Plan::new(folder, all_jobs(sweep)?, workers).map_err(Failure::failed)?;
+        // Stopped before anything was run: the folder stays as it was.
+        let refining = folder.read_refining(sweep).map_err(Failure::failed)?;
+        let jobs = sweep.jobs_so_far(refining.as_ref());
+        let jobs = jobs.map_err(Failure::refused)?;
+        let plan = Plan::new(folder, jobs, workers).map_err(Failure::failed)?;
         let run = match run {
             Some(run) => run,
             None => self.run_part(&plan, sweep, Part::default())?,
         };
-        if end.is_some() {
-            folder.write_sweep(sweep).map_err(Failure::failed)?;
-        }
         self.tell_of_end(sweep, &refinement, end);
         let done_before = plan.labelled().count().saturating_sub(run.report.finished);
         let run = Run { done_before, ..run };
-        Ok((plan, run, refinement.runs()))
+        Ok((plan, run, refinement))
     }
 
     /// Says now and then how far the choosing of rounds is whose runs are there already.
@@ -91,11 +90,16 @@ impl Rounds<'_> {
     }
 
     /// The plan of all jobs that have not failed, of which only those of the round are to be run.
-    fn plan_of_round(&self, sweep: &Sweep, round: &[Job]) -> Result<Plan, Failure> {
-        let mut jobs = all_jobs(sweep)?;
-        let refining = sweep.refine.as_ref();
+    fn plan_of_round(
+        &self,
+        sweep: &Sweep,
+        refining: &Refining,
+        round: &[Job],
+    ) -> Result<Plan, Failure> {
+        let jobs = sweep.jobs_so_far(Some(refining));
+        let mut jobs = jobs.map_err(Failure::refused)?;
         let has_failed = |job: &Job| {
-            let mut failed = refining.into_iter().flat_map(|it| &it.failed);
+            let mut failed = refining.failed.iter();
             failed.any(|run| run.values == job.values && run.seed == job.seed)
         };
         jobs.retain(|job| !has_failed(job));
@@ -110,65 +114,56 @@ impl Rounds<'_> {
 
     /// What the progress of a round is part of.
     fn part(&self, sweep: &Sweep, refinement: &Refinement) -> Part {
-        let Some(refining) = &sweep.refine else {
+        let Some(settings) = &sweep.refine else {
             return Part::default();
         };
         let widest = match refinement.rounds() {
             0 | 1 => "coarse grid".to_owned(),
-            _ => refined::describe_widest(sweep, refining),
+            _ => refined::describe_widest(sweep, refinement.refining()),
         };
         Part {
             head: format!("round {}, {widest}", refinement.rounds()),
-            jobs: Some(refining.settings.budget),
+            jobs: Some(settings.budget),
         }
     }
 
     /// Says what a round has told, and writes tables and figure anew.
-    fn show(
-        &self,
-        folder: &Folder,
-        sweep: &Sweep,
-        refinement: &mut Refinement,
-    ) -> Result<(), Failure> {
-        if let Some(refining) = &sweep.refine {
+    fn show(&self, sweep: &Sweep, refinement: &mut Refinement) -> Result<(), Failure> {
+        if let Some(settings) = &sweep.refine {
             self.console.note(format_args!(
                 "round {}: {} of at most {}; {}",
                 refinement.rounds(),
                 format::count(refinement.runs(), "run"),
-                refining.settings.budget,
-                refined::describe_widest(sweep, refining)
+                settings.budget,
+                refined::describe_widest(sweep, refinement.refining())
             ));
         }
         if let Some(learnt) = refinement.learnt().map_err(refused_or_failed)? {
             let family = refinement.table().family;
             learnt
-                .write(folder, sweep, family)
+                .write(self.folder, sweep, family)
                 .map_err(Failure::failed)?;
             if self.draws {
-                plot::draw_round(folder, sweep, refinement.table())?;
+                plot::draw_round(self.folder, sweep, refinement.table())?;
             }
         }
         Ok(())
     }
 
     fn tell_of_end(&self, sweep: &Sweep, refinement: &Refinement, end: Option<Finish>) {
-        let (Some(end), Some(refining)) = (end, &sweep.refine) else {
+        let (Some(end), Some(settings)) = (end, &sweep.refine) else {
             return;
         };
         self.console.result(format_args!(
             "refined with {}: {}; {}",
             format::count(refinement.runs(), "run"),
-            refined::describe_end(refining, end),
-            refined::describe_widest(sweep, refining)
+            refined::describe_end(settings, end),
+            refined::describe_widest(sweep, refinement.refining())
         ));
         if let Some(gap) = refinement.gap().filter(|gap| gap.radius > 0.0) {
             self.console.note(refined::describe_gap(sweep, &gap));
         }
     }
-}
-
-fn all_jobs(sweep: &Sweep) -> Result<Vec<Job>, Failure> {
-    sweep.jobs().map_err(Failure::refused)
 }
 
 fn refused_or_failed(error: RefinementError) -> Failure {
@@ -179,11 +174,11 @@ fn refused_or_failed(error: RefinementError) -> Failure {
 }
 
 /// Refuses what does not go with refining.
-pub(super) fn check(refining: &Refining, seeds: &[u64]) -> Result<(), Failure> {
+pub(super) fn check(settings: &Settings, seeds: &[u64]) -> Result<(), Failure> {
     if seeds.len() > 1 {
         return Err(Failure::refused(format_args!(
             "a refined sweep takes one --seed, the first; each point has at most {} from there on",
-            format::count(refining.settings.replicates as usize, "seed")
+            format::count(settings.replicates as usize, "seed")
         )));
     }
     Ok(())

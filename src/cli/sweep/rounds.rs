@@ -1,5 +1,4 @@
-//! The rounds of a sweep: all points of the grid, then more seeds at borders. Those of refined
-//! sweeps are in `refining.rs`.
+//! Runs the jobs of a sweep and watches them. The rounds of refined sweeps are in `refining.rs`.
 
 use crate::cli::console::{Console, name_first};
 use crate::cli::exit::Failure;
@@ -8,15 +7,15 @@ use crate::cli::{builds, format, job};
 use phase::record::{Outcome, RunRecord};
 use phase::run::model_of;
 use phase::sweep::{
-    Event, Failure as JobFailure, Folder, Job, Labelling, Plan, Pool, PoolError, Report, Standing,
-    Sweep, describe, write_failures,
+    Event, Failure as JobFailure, Folder, Job, Plan, Pool, PoolError, Report, Standing, Sweep,
+    describe, write_failures,
 };
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// The rounds of a sweep: all points of the grid, then more seeds at borders.
+/// How and where the jobs of a sweep are run.
 pub(super) struct Rounds<'a> {
     pub(super) folder: &'a Folder,
     pub(super) workers: usize,
@@ -29,61 +28,16 @@ pub(super) struct Rounds<'a> {
 }
 
 impl Rounds<'_> {
-    /// Runs them, and puts the points at borders into the sweep. Gives the last plan, and what was
-    /// run of all rounds.
-    pub(super) fn run(&self, sweep: &mut Sweep, jobs: Vec<Job>) -> Result<(Plan, Run), Failure> {
+    /// Runs all points of the grid. Gives the plan, and what was run.
+    pub(super) fn run(&self, sweep: &Sweep, jobs: Vec<Job>) -> Result<(Plan, Run), Failure> {
         let plan = if self.force {
             Plan::afresh(jobs)
         } else {
             Plan::new(self.folder, jobs, self.workers).map_err(Failure::failed)?
         };
         tell_of_plan(&plan, self.console);
-        let run = self.run_plan(&plan, sweep)?;
-        let is_whole = run.report.left == 0
-            && run.report.halted.is_none()
-            && !self.stop.load(Ordering::Relaxed);
-        if sweep.border_seeds.is_empty() || !is_whole {
-            return Ok((plan, run));
-        }
-        let plan = self.plan_of_borders(sweep, &plan)?;
-        let done_before = plan.labelled().count().saturating_sub(run.report.finished);
-        // Jobs that failed are not tried again at once.
-        let failures = run.report.failures.iter();
-        let failed: HashSet<&str> = failures.map(|failure| failure.id.as_str()).collect();
-        let mut others = plan.clone();
-        others
-            .jobs
-            .retain(|(job, _)| !failed.contains(job.id.as_str()));
-        let later = self.run_plan(&others, sweep)?;
-        let mut run = run.and(later);
-        run.note_failures(sweep, self.folder);
-        Ok((plan, Run { done_before, ..run }))
-    }
-
-    /// All jobs with those of the points at borders, once the points of the grid have run.
-    fn plan_of_borders(&self, sweep: &mut Sweep, plan: &Plan) -> Result<Plan, Failure> {
-        let jobs: Vec<Job> = plan.jobs.iter().map(|(job, _)| job.clone()).collect();
-        let labelling =
-            Labelling::new(self.folder, sweep, &jobs, self.workers).map_err(Failure::failed)?;
-        sweep.border_points = sweep.points_at_borders(&labelling.table);
-        self.console.note(format_args!(
-            "{} of {} lie beside another label and have {} in all",
-            sweep.border_points.len(),
-            format::count(sweep.points(), "point"),
-            format::count(sweep.seeds.len() + sweep.border_seeds.len(), "seed")
-        ));
-        let jobs = sweep.jobs().map_err(Failure::refused)?;
-        let mut plan = Plan::new(self.folder, jobs, self.workers).map_err(Failure::failed)?;
-        if self.force {
-            let at_border = |job: &Job| sweep.border_seeds.contains(&job.seed);
-            let again = plan.jobs.iter_mut().filter(|(job, _)| at_border(job));
-            again.for_each(|(_, standing)| *standing = Standing::Missing);
-        }
-        Ok(plan)
-    }
-
-    fn run_plan(&self, plan: &Plan, sweep: &Sweep) -> Result<Run, Failure> {
-        self.run_part(plan, sweep, Part::default())
+        let run = self.run_part(&plan, sweep, Part::default())?;
+        Ok((plan, run))
     }
 
     /// Runs a plan that is part of more.

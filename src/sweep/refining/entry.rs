@@ -6,14 +6,10 @@ use crate::refine::{ModelKind, RefineError, Settings, start};
 use crate::scene::LARGEST_SEED;
 use crate::sweep::Sweep;
 use crate::sweep::load::MOST_JOBS;
-use crate::sweep::seeds::SweepSeeds;
+use crate::sweep::seeds::SeedsEntry;
 use crate::sweep::spacing::MOST_VALUES;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// Why border seeds and refining exclude each other.
-pub(super) const AT_BORDERS: &str = "refining gives the points at borders more seeds itself, so \
-                                     that `seeds.at_borders` has no effect; remove it";
 
 /// Why a sweep without axes is not refined.
 pub(super) const NO_AXES: &str = "a sweep without axes has no borders to refine: add `[[axis]]`";
@@ -122,7 +118,7 @@ impl RefineEntry {
     /// The seeds of a refined sweep: the first of the file, and those that follow.
     pub(in crate::sweep) fn seeds(
         &self,
-        seeds: Option<&SweepSeeds>,
+        seeds: Option<&SeedsEntry>,
         problems: &mut Vec<Problem>,
     ) -> Vec<u64> {
         let first = seeds.map_or(1, |seeds| seeds.first_of_refined(problems));

@@ -1,6 +1,6 @@
 //! What a refined sweep has learnt from its runs, and the tables that tell it.
 
-use super::borders;
+use super::{Refining, borders};
 use crate::classify::{Family, LabelTable};
 use crate::refine::{
     Borders, Code, Lattice, Observations, ProbabilityMap, RefineError, Run, probabilities,
@@ -30,33 +30,41 @@ pub struct Learnt {
 }
 
 impl Learnt {
-    /// What a sweep learns from the rows of a table that are of its runs. None if the sweep is not
-    /// refined.
+    /// What a sweep learns from the rows of a table that are of its runs so far; from all rows if
+    /// `refining` does not say how far it is. None if the sweep is not refined.
     ///
     /// # Errors
     /// If there are no such rows, or if the grid cannot be refined.
-    pub fn of(sweep: &Sweep, table: &LabelTable) -> Result<Option<Self>, RefineError> {
-        let Some(refining) = &sweep.refine else {
+    pub fn of(
+        sweep: &Sweep,
+        refining: Option<&Refining>,
+        table: &LabelTable,
+    ) -> Result<Option<Self>, RefineError> {
+        let Some(settings) = &sweep.refine else {
             return Ok(None);
         };
         let lattice = sweep.lattice()?;
-        let chosen = refining.runs();
+        let chosen = refining.map(Refining::runs);
+        let is_of_sweep = |run: &Run| {
+            let mut chosen = chosen.iter();
+            chosen.all(|runs| runs.binary_search_by(|it| it.order(run)).is_ok())
+        };
         let mut runs = Observations::new();
         for row in &table.rows {
             let run = Run {
                 values: row.values.clone(),
                 seed: row.seed,
             };
-            if chosen.binary_search_by(|it| it.order(&run)).is_ok() {
+            if is_of_sweep(&run) {
                 runs.add(run, row.verdict.label.code)?;
             }
         }
-        for run in &refining.failed {
+        for run in refining.iter().flat_map(|it| &it.failed) {
             if runs.label(run).is_none() {
                 runs.add(run.clone(), FAILED)?;
             }
         }
-        let map = probabilities(&lattice, &runs, &refining.settings)?;
+        let map = probabilities(&lattice, &runs, settings)?;
         Ok(Some(Self { lattice, runs, map }))
     }
 

@@ -16,11 +16,13 @@ use crate::refine::{Finish, Lattice, RefineError, Run, Settings, Width, start};
 use crate::scene::LARGEST_SEED;
 use serde::{Deserialize, Serialize};
 
-/// How a sweep is refined, and what has been run of it.
+/// How far the refining of a sweep is: the runs that it has chosen, and what they tell. The results
+/// folder keeps it as `progress.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Refining {
-    /// The table `[refine]`, with all defaults filled in.
-    pub settings: Settings,
+    /// What the runs follow from: see [`Sweep::basis_of_runs`].
+    pub basis: String,
     /// Runs that were in the folder when refining began; they count as part of the budget.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub given: Vec<Run>,
@@ -42,17 +44,22 @@ pub struct Refining {
 }
 
 impl Refining {
-    /// Refining that has not begun: the coarse grid is chosen.
-    fn new(settings: Settings, lattice: &Lattice) -> Self {
+    /// Refining of a sweep that has chosen nothing yet.
+    pub fn new(sweep: &Sweep) -> Self {
         Self {
+            basis: sweep.basis_of_runs(),
             given: Vec::new(),
             seeds_there: None,
-            chosen: start(lattice, &settings),
+            chosen: Vec::new(),
             failed: Vec::new(),
             widths: Vec::new(),
             end: None,
-            settings,
         }
+    }
+
+    /// Whether there are runs.
+    pub fn has_begun(&self) -> bool {
+        !(self.given.is_empty() && self.chosen.is_empty())
     }
 
     /// All runs, by place and seed.
@@ -63,35 +70,45 @@ impl Refining {
         runs
     }
 
-    /// Its settings alone.
-    pub fn without_runs(&self) -> Self {
-        Self {
-            settings: self.settings.clone(),
-            given: Vec::new(),
-            seeds_there: None,
-            chosen: Vec::new(),
-            failed: Vec::new(),
-            widths: Vec::new(),
-            end: None,
-        }
-    }
-
-    /// Whether it may end with fewer rounds than another with the same other settings.
-    fn ends_before(&self, other: &Self) -> bool {
-        let [own, other] = [&self.settings, &other.settings];
-        let is_wider = match (own.width, other.width) {
-            (None, _) => false,
-            (Some(_), None) => true,
-            (Some(own), Some(other)) => own > other,
-        };
-        own.budget < other.budget || is_wider
-    }
-
     /// The border that is known worst: that with the largest mean width.
     pub fn widest(&self) -> Option<&Width> {
         let widths = self.widths.iter();
         widths.max_by(|one, other| one.mean.total_cmp(&other.mean))
     }
+
+    /// Whether the runs and borders lie on the axes of a sweep.
+    ///
+    /// # Errors
+    /// Why they do not.
+    pub(in crate::sweep) fn check(&self, sweep: &Sweep) -> Result<(), String> {
+        let axes = sweep.axes.len();
+        let mut runs = [&self.given, &self.chosen, &self.failed]
+            .into_iter()
+            .flatten();
+        if let Some(run) = runs.find(|run| run.values.len() != axes) {
+            let values = run.values.len();
+            return Err(format!(
+                "a run has {values} values, but there are {axes} axes"
+            ));
+        }
+        match self.widths.iter().find(|width| width.axis >= axes) {
+            Some(width) => Err(format!(
+                "a border is along axis {} of {axes}, counted from 0",
+                width.axis
+            )),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Whether refining may end with fewer rounds than with other settings that differ in nothing else.
+fn ends_before(own: &Settings, other: &Settings) -> bool {
+    let is_wider = match (own.width, other.width) {
+        (None, _) => false,
+        (Some(_), None) => true,
+        (Some(own), Some(other)) => own > other,
+    };
+    own.budget < other.budget || is_wider
 }
 
 /// Whether there are seeds enough.
@@ -136,9 +153,6 @@ impl Sweep {
                     .to_owned(),
             );
         };
-        if !self.border_seeds.is_empty() {
-            return Err(entry::AT_BORDERS.to_owned());
-        }
         let jobs = self.points().saturating_mul(self.seeds.len());
         let mut settings = Settings::with_budget(jobs.div_ceil(10));
         if self.seeds.len() > 1 {
@@ -155,12 +169,12 @@ impl Sweep {
     /// # Errors
     /// If the seeds would go beyond the largest one.
     pub fn refine_from_seed(&mut self, first: u64) -> Result<(), String> {
-        let Some(refining) = &self.refine else {
+        let Some(settings) = &self.refine else {
             return Ok(());
         };
         let settings = Settings {
             first_seed: first,
-            ..refining.settings.clone()
+            ..settings.clone()
         };
         check_seeds(&settings)?;
         self.refine_with(settings, false)
@@ -181,41 +195,22 @@ impl Sweep {
         settings.check(self.axes.len())?;
         let first = settings.first_seed;
         self.seeds = (first..first.saturating_add(settings.replicates)).collect();
-        self.refine = Some(Refining::new(settings, &lattice));
+        self.refine = Some(settings);
         Ok(())
     }
 
-    /// Whether the runs and borders of a refined sweep that has been read lie on its axes.
-    ///
-    /// # Errors
-    /// Why they do not.
-    pub(in crate::sweep) fn check_refining(&self) -> Result<(), String> {
-        let Some(refining) = &self.refine else {
-            return Ok(());
-        };
-        self.lattice().map_err(|error| error.to_string())?;
-        let axes = self.axes.len();
-        let Refining {
-            given,
-            chosen,
-            failed,
-            widths,
-            ..
-        } = refining;
-        let mut runs = [given, chosen, failed].into_iter().flatten();
-        if let Some(run) = runs.find(|run| run.values.len() != axes) {
-            let values = run.values.len();
-            return Err(format!(
-                "a run of `refine` has {values} values, but there are {axes} axes"
-            ));
-        }
-        match widths.iter().find(|width| width.axis >= axes) {
-            Some(width) => Err(format!(
-                "a border of `refine` is along axis {} of {axes}, counted from 0",
-                width.axis
-            )),
-            None => Ok(()),
-        }
+    /// Hexadecimal digits that stand for everything which the runs that refining chooses follow
+    /// from, beside their labels: the scene, the axes, the seeds and the settings, but for how many
+    /// rounds are made. With another basis other runs are chosen from the start.
+    pub fn basis_of_runs(&self) -> String {
+        let settings = self.refine.as_ref().map(|settings| Settings {
+            budget: 0,
+            width: None,
+            ..settings.clone()
+        });
+        let basis = (self.scene.identity(), &self.axes, &self.seeds, settings);
+        let text = serde_json::to_vec(&basis).expect("a sweep holds no map with odd keys");
+        blake3::hash(&text).to_hex()[..16].to_owned()
     }
 
     /// The axes along which borders are crossed: the vertical one of the diagram first.
@@ -233,6 +228,18 @@ impl Sweep {
         let first = first.unwrap_or(0);
         let others = all.filter(|axis| *axis != first);
         std::iter::once(first).chain(others).collect()
+    }
+
+    /// The jobs of a refined sweep that have been chosen so far, by point and seed; all jobs of one
+    /// that is not refined.
+    ///
+    /// # Errors
+    /// Those of [`jobs`](Self::jobs).
+    pub fn jobs_so_far(&self, refining: Option<&Refining>) -> Result<Vec<Job>, PointError> {
+        match refining {
+            Some(refining) if refining.has_begun() => self.jobs_of_runs(&refining.runs()),
+            _ => self.jobs(),
+        }
     }
 
     /// The jobs of runs of a refined sweep, those of points and seeds that the sweep still has.

@@ -1,7 +1,7 @@
 //! The rounds of a refined sweep, chosen from labels alone.
 
-use super::Refining;
 use super::learnt::{FAILED, Learnt};
+use super::{Refining, ends_before};
 use crate::classify::{Family, LabelTable};
 use crate::refine::{Finish, Gap, Observations, RefineError, Round, Rounds, Run, Settings, widths};
 use crate::sweep::{Folder, Job, Labelling, Plan, PointError, Sweep};
@@ -72,10 +72,10 @@ impl Refinement {
         afresh: bool,
         workers: usize,
     ) -> Result<Self, RefinementError> {
-        let Some(refining) = &sweep.refine else {
+        let Some(settings) = &sweep.refine else {
             return Err(RefinementError::NotRefined);
         };
-        let mut refining = refining.without_runs();
+        let mut refining = Refining::new(sweep);
         let mut known = Known::none(sweep);
         let mut given = Vec::new();
         if !afresh {
@@ -86,8 +86,8 @@ impl Refinement {
             (refining.seeds_there, given) = known.given(folder, sweep);
         }
         let settings = Settings {
-            replicates: refining.seeds_there.unwrap_or(refining.settings.replicates),
-            ..refining.settings.clone()
+            replicates: refining.seeds_there.unwrap_or(settings.replicates),
+            ..settings.clone()
         };
         let mut rounds = Rounds::new(sweep.lattice()?, settings)?;
         for run in given {
@@ -109,13 +109,12 @@ impl Refinement {
     ///
     /// # Errors
     /// If a point cannot be run.
-    pub fn next_step(&mut self, sweep: &mut Sweep) -> Result<Step, RefinementError> {
+    pub fn next_step(&mut self, sweep: &Sweep) -> Result<Step, RefinementError> {
         let round = match self.rounds.next_round()? {
             Round::Runs(round) => round,
             Round::Finished(finish) => {
                 self.note_widths()?;
                 self.refining.end = Some(finish);
-                sweep.refine = Some(self.refining.clone());
                 return Ok(Step::Finished(finish));
             }
         };
@@ -131,7 +130,6 @@ impl Refinement {
         if open.is_empty() {
             return Ok(Step::Known);
         }
-        sweep.refine = Some(self.refining.clone());
         Ok(Step::Run(sweep.jobs_of_runs(&open)?))
     }
 
@@ -142,7 +140,7 @@ impl Refinement {
     pub fn learn(
         &mut self,
         folder: &Folder,
-        sweep: &mut Sweep,
+        sweep: &Sweep,
         jobs: &[Job],
         workers: usize,
     ) -> Result<(), RefinementError> {
@@ -156,9 +154,7 @@ impl Refinement {
                 self.rounds.learn(run, label)?;
             }
         }
-        self.note_widths()?;
-        sweep.refine = Some(self.refining.clone());
-        Ok(())
+        Ok(self.note_widths()?)
     }
 
     /// Notes how wide the borders are by now.
@@ -181,6 +177,11 @@ impl Refinement {
             lattice: self.rounds.lattice().clone(),
             runs: self.rounds.runs().clone(),
         }))
+    }
+
+    /// How far refining is.
+    pub fn refining(&self) -> &Refining {
+        &self.refining
     }
 
     /// The largest gap between the runs.
@@ -241,10 +242,7 @@ impl Known {
     /// else all that are there. Of a whole grid of more runs than the budget none are given: the
     /// number of seeds of its points comes first then, and refining chooses among them.
     fn given(&self, folder: &Folder, sweep: &Sweep) -> (Option<u64>, Vec<Run>) {
-        let stored = folder.read_sweep().ok();
-        let goes_on = stored.filter(|stored| stored.is_refined_like(sweep));
-        let goes_on = goes_on.and_then(|stored| stored.refine);
-        if let Some(stored) = goes_on.filter(|stored| stored.seeds_there.is_none()) {
+        if let Some(stored) = goes_on(folder, sweep) {
             return (None, stored.given);
         }
         // With another budget the runs of a whole grid may be given after all.
@@ -273,14 +271,13 @@ impl Sweep {
     /// # Errors
     /// If a point cannot be run.
     pub fn jobs_given_by(&self, folder: &Folder) -> Result<Vec<Job>, PointError> {
-        let Some(refining) = &self.refine else {
+        let Some(settings) = &self.refine else {
             return Ok(Vec::new());
         };
-        let stored = folder.read_sweep().ok();
-        let goes_on = stored.filter(|stored| stored.is_refined_like(self));
-        let goes_on = goes_on.and_then(|stored| stored.refine);
-        if let Some(stored) = goes_on.filter(|stored| stored.seeds_there.is_none()) {
-            return self.jobs_of_runs(&match refining.ends_before(&stored) {
+        if let Some(stored) = goes_on(folder, self) {
+            let before = folder.read_sweep().ok().and_then(|sweep| sweep.refine);
+            let may_end_earlier = before.is_none_or(|before| ends_before(settings, &before));
+            return self.jobs_of_runs(&match may_end_earlier {
                 true => stored.given,
                 false => stored.runs(),
             });
@@ -296,26 +293,19 @@ impl Sweep {
     /// Number of seeds, from the first on, that every point of the grid has a run of, if there is
     /// one and the runs are more than the budget. `seeds` holds the seed of each run that is there.
     fn seeds_of_whole_grid(&self, seeds: &[u64]) -> Option<u64> {
-        let settings = &self.refine.as_ref()?.settings;
+        let settings = self.refine.as_ref()?;
         let is_whole = |seed: &u64| seeds.iter().filter(|it| *it == seed).count() == self.points();
         let candidates = settings.first_seed..settings.first_seed + settings.replicates;
         let count = candidates.take_while(is_whole).count() as u64;
         (count > 0 && seeds.len() > settings.budget).then_some(count)
     }
+}
 
-    /// Whether another sweep chooses the same runs, but for more or fewer rounds.
-    fn is_refined_like(&self, other: &Self) -> bool {
-        let without_end = |sweep: &Self| {
-            let mut sweep = sweep.clone();
-            if let Some(refining) = &mut sweep.refine {
-                refining.settings.budget = 0;
-                refining.settings.width = None;
-            }
-            sweep
-        };
-        let keys = without_end(self).keys_of_other_runs(&without_end(other));
-        self.refine.is_some() && keys.is_empty()
-    }
+/// How far the refining is that goes on in a folder: with the same basis, and not among the runs of
+/// a whole grid, which may be given with another budget.
+fn goes_on(folder: &Folder, sweep: &Sweep) -> Option<Refining> {
+    let stored = folder.read_refining(sweep).ok()??;
+    (stored.seeds_there.is_none() && stored.has_begun()).then_some(stored)
 }
 
 /// The jobs of all points and seeds of a refined sweep that have a record or a kept label.

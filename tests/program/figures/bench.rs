@@ -127,6 +127,7 @@ impl Tank {
         };
         let source = Source {
             sweep: &self.sweep,
+            refining: None,
             table: &self.table,
             record: &record,
             points: &points,

@@ -194,6 +194,7 @@ fn a_missing_record_is_named() {
     let tank = Tank::settled();
     let source = Source {
         sweep: &tank.sweep,
+        refining: None,
         table: &tank.table,
         record: &|id| read_record(&Path::new("nowhere").join(id)),
         points: &[parse_point("radius=0.002,omega=2,seed=2").unwrap()],

@@ -51,31 +51,6 @@ fn a_record_that_cannot_be_written_is_a_failed_job() {
     assert!(!place.path("results/tiny/failed.csv").exists());
 }
 
-/// Symptom: the runs at borders were never made while one job of the grid failed.
-#[test]
-fn runs_at_borders_do_not_wait_for_a_failed_job() {
-    let sweep = TinySweep {
-        omegas: vec![0.0, 4.0, 8.0, 12.0],
-        more: "at_borders = 4".to_owned(),
-        ..TinySweep::default()
-    };
-    // Records are in the order of their names: one of a point far from the border is blocked.
-    let place = Workplace::new();
-    place.write("tiny.toml", &sweep.text());
-    let run = ["sweep", "tiny.toml", "--no-plot"];
-    place.phase(&run).code(0).says("12 jobs: 12 run now");
-    let labels = place.read("results/tiny/labels.csv");
-    let far = labels.lines().find(|row| row.contains(",12.0,1,")).unwrap();
-    let id = far.split(',').next().unwrap();
-    fs::remove_dir_all(place.path("results/tiny")).unwrap();
-    fs::create_dir_all(place.path(&format!("results/tiny/records/{id}.h5"))).unwrap();
-    let answer = place.phase(&run).code(1);
-    answer.says("12 jobs: 11 run now").says("1 failed");
-    let failed = place.read("results/tiny/failed.csv");
-    assert_eq!(failed.lines().count(), 2, "{failed}");
-    assert_eq!(place.read("results/tiny/labels.csv").lines().count(), 12);
-}
-
 /// A refined sweep goes on without the label of a job whose record cannot be written.
 #[test]
 fn a_refined_sweep_goes_on_without_a_record() {

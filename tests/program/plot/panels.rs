@@ -4,7 +4,6 @@ use super::bench::{
     OMEGA, RADIUS, axis, draw, has, linear, made_up, nine, sweep, table, texts, verdict,
 };
 use phase::classify::{Label, LabelTable};
-use phase::refine::Run;
 use phase::scene::Scene;
 use phase::sweep::{Axis, Sweep};
 use std::path::Path;
@@ -188,15 +187,6 @@ fn refined(axes: Vec<Axis>) -> (Sweep, LabelTable) {
         row += 1;
         row % 3 == 1
     });
-    let refining = sweep.refine.as_mut().unwrap();
-    refining.chosen = table
-        .rows
-        .iter()
-        .map(|row| Run {
-            values: row.values.clone(),
-            seed: row.seed,
-        })
-        .collect();
     (sweep, table)
 }
 
@@ -268,11 +258,6 @@ fn refined_strip(file: &str, omegas: &[f64]) -> String {
     sweep.axes.pop();
     table.axes.pop();
     table.rows.iter_mut().for_each(|row| row.values.truncate(1));
-    let refining = sweep.refine.as_mut().unwrap();
-    refining
-        .chosen
-        .iter_mut()
-        .for_each(|run| run.values.truncate(1));
     draw(file, "refined", &sweep, &table)
 }
 

@@ -3,9 +3,7 @@
 use super::bench::{
     OMEGA, RADIUS, axis, draw, has, linear, nine, of_table, set, sweep, table, texts, verdict,
 };
-use phase::classify::{Label, LabelTable};
-use phase::refine::Run;
-use phase::sweep::Sweep;
+use phase::classify::Label;
 
 const DENSITY: (&str, &str) = ("spheres.density", "density");
 
@@ -46,15 +44,6 @@ fn circles(svg: &str, radius: &str) -> Vec<(f64, f64)> {
     circles.collect()
 }
 
-fn refine(sweep: &mut Sweep, table: &LabelTable) {
-    sweep.refine_by_default().unwrap();
-    let runs = table.rows.iter().map(|row| Run {
-        values: row.values.clone(),
-        seed: row.seed,
-    });
-    sweep.refine.as_mut().unwrap().chosen = runs.collect();
-}
-
 /// Symptom: of a refined sweep over Ω = 0, 2, 4, 6, 8, 12, 16, 24, 40 rad/s the run at 40 was drawn
 /// at 36.5. Cause: a dot stood in the middle of its cell.
 #[test]
@@ -62,7 +51,7 @@ fn dots_of_runs_stand_at_their_values() {
     let (mut sweep, mut table) = nine();
     table.rows.retain(|row| row.seed == 1);
     sweep.seeds = vec![1];
-    refine(&mut sweep, &table);
+    sweep.refine_by_default().unwrap();
     let svg = draw("dots", "refined", &sweep, &table);
     let ticks = tick_heights(&svg);
     let dots = circles(&svg, "20");

@@ -191,6 +191,7 @@ fn content(place: &Workplace, results: &str) -> Vec<String> {
         "refined.csv",
         "borders.csv",
         "sweep.json",
+        "progress.json",
     ];
     let files = files.map(|file| place.read(&format!("{results}/{file}")));
     [&files[..], &[format!("{:?}", place.digests(results))]].concat()
@@ -254,8 +255,8 @@ fn nothing_is_run_of_a_full_grid() {
     let said = bare(&place, &tiny(2.0, REFINE), "results", &[]);
     assert!(said.contains("14 jobs: 0 run now"), "{said}");
     bare(&place, &tiny(2.0, REFINE), "alone", &[]);
-    // All but sweep.json, which says of a whole grid that it was there.
-    let tables = |folder: &str| content(&place, folder)[..4].to_vec();
+    // All but progress.json, which says of a whole grid that it was there.
+    let tables = |folder: &str| content(&place, folder)[..5].to_vec();
     assert_eq!(tables("results"), tables("alone"));
 }
 
@@ -335,33 +336,62 @@ fn a_budget_beyond_the_whole_grid_runs_more_seeds() {
 /// What is done to a document.
 type Edit = fn(&mut Value);
 
-/// Symptom: `phase status` panicked on a sweep.json of which an axis had been removed.
+/// Symptom: `phase status` panicked on runs and borders that do not lie on the axes.
 #[test]
-fn a_sweep_whose_runs_do_not_lie_on_its_axes_is_refused() {
+fn progress_that_does_not_lie_on_the_axes_is_refused() {
     let place = Workplace::new();
     bare(&place, &tiny(2.0, REFINE), "results", &[]);
-    let text = place.read("results/sweep.json");
-    let sweep: Value = serde_json::from_str(&text).unwrap();
+    let text = place.read("results/progress.json");
+    let progress: Value = serde_json::from_str(&text).unwrap();
     let edits: [(&str, Edit); 3] = [
         ("along axis 7 of 2", |it| {
-            it["refine"]["widths"][0]["axis"] = 7.into();
+            it["widths"][0]["axis"] = 7.into();
         }),
-        ("has 2 values, but there are 1 axes", |it| {
-            it["axes"].as_array_mut().unwrap().pop();
+        ("has 1 values, but there are 2 axes", |it| {
+            it["chosen"][0]["values"].as_array_mut().unwrap().pop();
         }),
-        ("the values do not ascend", |it| {
-            it["axes"][0]["values"].as_array_mut().unwrap().reverse();
-        }),
+        ("unknown field `budget`", |it| it["budget"] = 7.into()),
     ];
     for (reason, edit) in edits {
-        let mut broken = sweep.clone();
+        let mut broken = progress.clone();
         edit(&mut broken);
-        place.write("results/sweep.json", &broken.to_string());
+        place.write("results/progress.json", &broken.to_string());
         for command in ["status", "classify"] {
             let answer = place.phase(&[command, "results"]).code(1);
-            answer.complains(reason).complains("sweep.json");
+            answer.complains(reason).complains("progress.json");
         }
     }
+}
+
+/// What is asked stays as it is while runs are made; the progress of another sweep does not count.
+#[test]
+fn what_is_asked_is_apart_from_what_was_run() {
+    let place = Workplace::new();
+    bare(&place, &tiny(2.0, REFINE), "results", &[]);
+    let [sweep, progress] =
+        ["sweep", "progress"].map(|name| place.read(&format!("results/{name}.json")));
+    for key in ["chosen", "given", "widths", "end"] {
+        assert!(!sweep.contains(&format!("\"{key}\"")), "{key}");
+    }
+    let asked: Value = serde_json::from_str(&sweep).unwrap();
+    assert_eq!(asked["refine"]["budget"], 14);
+    // A larger budget goes on from the same progress.
+    let larger = REFINE.replace("budget = 14", "budget = 16");
+    let said = bare(&place, &tiny(2.0, &larger), "results", &[]);
+    assert!(said.contains("16 jobs: 2 run now"), "{said}");
+    // That of other runs is as good as none.
+    place.write(
+        "results/sweep.json",
+        &sweep.replace("\"round\": 3", "\"round\": 2"),
+    );
+    let text = place.phase(&["status", "results"]).code(0).stdout;
+    assert!(text.contains("6 jobs, "), "{text}");
+    place.write("results/sweep.json", &sweep);
+    place.write("results/progress.json", &progress);
+    place
+        .phase(&["status", "results"])
+        .code(0)
+        .says("14 jobs, 14 done");
 }
 
 /// Symptom: an interval had no width where its ends lay between two sure points of the grid: in 7
@@ -380,16 +410,23 @@ fn a_border_between_two_sure_points_is_anywhere_between_them() {
     }
 }
 
-/// Symptom: a refined sweep refused published labels with more seeds at borders. Cause: only the
+/// Symptom: a refined sweep refused published labels with more seeds at some points. Cause: only the
 /// jobs of the same sweep were thought to stay. They all count if they are no more than the budget.
 #[test]
-fn published_labels_with_more_seeds_at_borders_count_without_records() {
+fn published_labels_with_more_seeds_at_some_points_count_without_records() {
     let place = Workplace::new();
-    let borders = "[seeds]\ncount = 1\nat_borders = 2";
-    bare(&place, &tiny(2.0, borders), "results", &[]);
+    bare(&place, &tiny(2.0, "[seeds]\ncount = 1"), "results", &[]);
+    let few = tiny(2.0, "[seeds]\nfirst = 2").replace(
+        "[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]",
+        "[3.0, 4.0]",
+    );
+    bare(&place, &few, "more", &[]);
+    let more = place.read("more/labels.csv");
+    let all = place.read("results/labels.csv") + more.split_once('\n').unwrap().1;
+    place.write("results/labels.csv", &all);
     std::fs::remove_dir_all(place.path("results/records")).unwrap();
     let labels = rows(&place, "results/labels.csv");
-    assert!((28..54).contains(&labels.len()), "{}", labels.len());
+    assert_eq!(labels.len(), 27 + 6);
     let budget = |runs: usize| REFINE.replace("budget = 14", &format!("budget = {runs}"));
     let keep = [
         "sweep",
@@ -483,16 +520,11 @@ fn what_does_not_go_with_refining_is_refused() {
     let no_axes = text.split("[[axis]]").next().unwrap();
     let no_axes = format!("{no_axes}[seeds]\ncount = 3\n");
     place.write("alone.toml", &no_axes);
-    place.write("borders.toml", &tiny(2.0, "[seeds]\nat_borders = 3"));
     for (arguments, message) in [
         (&["tiny.toml", "--no-classify"][..], "refining needs labels"),
         (
             &["tiny.toml", "--seed", "4,5"],
             "a refined sweep takes one --seed, the first; each point has at most 2 seeds from",
-        ),
-        (
-            &["borders.toml", "--refine"],
-            "`seeds.at_borders` has no effect; remove it",
         ),
         (
             &["alone.toml", "--refine"],
@@ -517,27 +549,28 @@ fn failed_runs_are_a_label() {
     let place = tempfile::tempdir().unwrap();
     let folder = Folder::new(place.path());
     folder.create().unwrap();
-    let mut sweep = load(&tiny(2.0, REFINE));
+    let sweep = load(&tiny(2.0, REFINE));
     let mut refinement = Refinement::new(&folder, &sweep, false, 1).unwrap();
     let mut rounds = Vec::new();
     let end = loop {
-        match refinement.next_step(&mut sweep).unwrap() {
+        match refinement.next_step(&sweep).unwrap() {
             Step::Finished(end) => break end,
             Step::Known => unreachable!("no run is there"),
             Step::Run(jobs) => {
                 rounds.push(jobs.len());
-                refinement.learn(&folder, &mut sweep, &jobs, 1).unwrap();
+                refinement.learn(&folder, &sweep, &jobs, 1).unwrap();
             }
         }
     };
     assert_eq!((end, rounds), (Finish::Budget, vec![6, 3, 3, 2]));
-    assert_eq!(sweep.refine.as_ref().unwrap().failed.len(), 14);
+    let refining = refinement.refining();
+    assert_eq!(refining.failed.len(), 14);
     let table = LabelTable {
         family: &TANK,
         axes: vec!["omega".to_owned(), "radius".to_owned()],
         rows: Vec::new(),
     };
-    let learnt = Learnt::of(&sweep, &table).unwrap().unwrap();
+    let learnt = Learnt::of(&sweep, Some(refining), &table).unwrap().unwrap();
     assert_eq!(learnt.map.codes(), [FAILED]);
     learnt.write(&folder, &sweep, &TANK).unwrap();
     let text = std::fs::read_to_string(folder.refined()).unwrap();
@@ -549,7 +582,7 @@ fn failed_runs_are_a_label() {
 }
 
 #[test]
-fn a_sweep_survives_json_with_its_runs() {
+fn a_refined_sweep_survives_json() {
     let mut sweep = load(&tiny(2.0, REFINE));
     assert_eq!(sweep.jobs().unwrap().len(), 6);
     let point = phase::sweep::parse_point("omega=4").unwrap();
