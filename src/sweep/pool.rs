@@ -114,12 +114,10 @@ impl Results for Records<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::classify::Sieves;
     use crate::dem;
     use crate::resume;
-    use crate::scene::Scene;
     use crate::simulation::BuildError;
-    use crate::sweep::{Axis, PlotSettings, read_failures};
+    use crate::sweep::{Axis, read_failures};
     use std::sync::Mutex;
     use std::sync::atomic::Ordering;
 
