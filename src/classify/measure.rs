@@ -24,8 +24,10 @@ pub enum Range {
     Any,
     /// Zero is the middle.
     Signed,
-    /// From 0 to 1: how many of a number.
+    /// From 0 to 1: how many of a number, which may be all or none by chance.
     Share,
+    /// From 0 to 1: how much of something.
+    Part,
 }
 
 /// A measure of what a run did.
@@ -57,10 +59,18 @@ impl Measure {
         }
     }
 
-    /// The same from 0 to 1.
+    /// The same from 0 to 1, how many.
     pub(super) const fn share(self) -> Self {
         Self {
             range: Range::Share,
+            ..self
+        }
+    }
+
+    /// The same from 0 to 1, how much.
+    pub(super) const fn part(self) -> Self {
+        Self {
+            range: Range::Part,
             ..self
         }
     }

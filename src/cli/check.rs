@@ -11,6 +11,7 @@ use super::{classify, format, job, overlaps};
 use phase::cost::{Forecast, Leaves, forecast};
 use phase::dem::timestep::{Limit, Standing};
 use phase::document::LoadError;
+use phase::run::Edits;
 use phase::scene::{FileKind, Scene, Start, Tank};
 use phase::study::{AnyFile, AnyStudy};
 use phase::sweep::{Axis, Job, Sweep, describe, work};
@@ -141,7 +142,12 @@ impl Arguments {
         if self.set.is_empty() && self.without.is_empty() {
             return AnyFile::load(&self.file);
         }
-        let scene = Scene::load_with(&self.file, &self.set, &self.without)?;
+        let edits = Edits {
+            set: &self.set,
+            remove: &self.without,
+            options: &[],
+        };
+        let scene = Scene::load_with(&self.file, edits)?;
         Ok(AnyFile::Scene(Box::new(scene)))
     }
 }

@@ -2,13 +2,13 @@
 //! folder of dumps.
 
 mod dumps;
+mod edited;
 
 use super::console::{Console, name_first};
 use super::exit::{Exit, Failure};
 use super::folders::{self, Entry, Undone};
 use super::format;
 use phase::classify::{ClassifyError, Label, LabelTable};
-use phase::store::Lock;
 use phase::sweep::{
     Folder, Job, Labelled, Labelling, LabellingError, Learnt, Since, Sweep, refuse_to_lose_labels,
     work,
@@ -83,80 +83,22 @@ fn label_folders(
     console: &Console,
 ) -> Result<Vec<Entry<Summary>>, Failure> {
     let found = Folder::find(dir).map_err(|error| dumps::hint(dir, &error))?;
-    let label = |ToLabel { sweep, jobs, .. }: &ToLabel, folder: &Folder| {
-        label_folder(folder, sweep, jobs, workers, console)
-    };
-    let Some(edited) = edited else {
-        return folders::go_through(dir, found, console, |folder| {
-            let sweep = sweep_with_records(folder)?;
-            let labelled = label(&ToLabel::new(sweep, None)?, folder)?;
-            Ok(Summary::new(folder, &labelled))
-        });
-    };
-    // All are checked and locked before the first is changed.
-    let mut edits = Vec::new();
-    for folder in &found {
-        edits.push(match sweep_with_records(folder) {
-            Ok(sweep) => Ok(edit(folder, sweep, edited)?),
-            Err(Undone::Failed(failure)) => return Err(failure),
-            Err(kept) => Err(kept),
-        });
+    if let Some(edited) = edited {
+        return edited::label(dir, found, edited, workers, console);
     }
-    let mut edits = edits.into_iter();
     folders::go_through(dir, found, console, |folder| {
-        let mut edit = edits.next().expect("one for each folder")?;
-        let labelled = label(&edit, folder)?;
-        if let Ok(Some(learnt)) = Learnt::of(&edit.sweep, &labelled.table)
-            && let Some(refining) = &mut edit.sweep.refine
-        {
-            refining.widths = phase::refine::widths(&learnt.lattice, &learnt.map);
-        }
-        folder.write_sweep(&edit.sweep).map_err(Failure::failed)?;
+        let sweep = sweep_with_records(folder)?;
+        let jobs = jobs_to_label(&sweep)?;
+        let labelled = label_folder(folder, &sweep, &jobs, workers, console)?;
         Ok(Summary::new(folder, &labelled))
     })
 }
 
-/// A sweep whose runs are to be labelled.
-struct ToLabel {
-    sweep: Sweep,
-    jobs: Vec<Job>,
-    /// The right to change its folder, if the sweep has been edited.
-    _lock: Option<Lock>,
-}
-
-impl ToLabel {
-    fn new(sweep: Sweep, lock: Option<Lock>) -> Result<Self, Failure> {
-        let jobs = sweep.jobs().map_err(Failure::refused)?;
-        sweep.check_sieves(&jobs).map_err(cannot_label)?;
-        Ok(Self {
-            sweep,
-            jobs,
-            _lock: lock,
-        })
-    }
-}
-
-/// The sweep of a folder with the thresholds of an edited one, which it keeps, so that the labels
-/// are always those that it says. Refuses one that has other runs.
-fn edit(folder: &Folder, sweep: Sweep, edited: &Sweep) -> Result<ToLabel, Failure> {
-    let edited = refined_alike(edited, &sweep);
-    let keys = sweep.keys_of_other_runs(&edited);
-    if !keys.is_empty() {
-        return Err(Failure::refused(format_args!(
-            "{}: the runs in this folder are not those of the edited sweep; they differ in {}. \
-             Thresholds may change, runs may not: `phase sweep` makes new ones",
-            folder.root().display(),
-            keys.join(", ")
-        )));
-    }
-    let lock = folder.lock().map_err(Failure::refused)?;
-    // The runs at borders stay those that were run, and so do those of a refined sweep.
-    let sweep = Sweep {
-        border_points: sweep.border_points,
-        refine: sweep.refine,
-        ..edited
-    };
-    ToLabel::new(sweep, Some(lock))
+/// The jobs of a sweep, which its sieves can judge.
+fn jobs_to_label(sweep: &Sweep) -> Result<Vec<Job>, Failure> {
+    let jobs = sweep.jobs().map_err(Failure::refused)?;
+    sweep.check_sieves(&jobs).map_err(cannot_label)?;
+    Ok(jobs)
 }
 
 /// The sweep of a folder. Refuses to label runs whose records are not there: where none of them is,
@@ -170,16 +112,6 @@ fn sweep_with_records(folder: &Folder) -> Result<Sweep, Undone> {
         }
         Err(error) => Err(Undone::Failed(cannot_write(error))),
     }
-}
-
-/// An edited sweep, refined if that of the folder was and the edited one does not say so.
-fn refined_alike(edited: &Sweep, sweep: &Sweep) -> Sweep {
-    let mut edited = edited.clone();
-    if sweep.refine.is_some() && edited.refine.is_none() && edited.refine_by_default().is_ok() {
-        edited.refine.clone_from(&sweep.refine);
-        edited.seeds.clone_from(&sweep.seeds);
-    }
-    edited
 }
 
 /// The failure of sieves that cannot judge the runs.
@@ -277,6 +209,18 @@ pub(super) fn label_folder(
     workers: usize,
     console: &Console,
 ) -> Result<Labelled, Failure> {
+    let labelling = labelling_of(folder, sweep, jobs, workers, console)?;
+    write(folder, sweep, labelling, console)
+}
+
+/// The labels of the runs of a folder; says which runs have none.
+fn labelling_of(
+    folder: &Folder,
+    sweep: &Sweep,
+    jobs: &[Job],
+    workers: usize,
+    console: &Console,
+) -> Result<Labelling, Failure> {
     let labelling = Labelling::new(folder, sweep, jobs, workers).map_err(Failure::failed)?;
     if labelling.missing > 0 {
         console.note(format_args!(
@@ -287,6 +231,16 @@ pub(super) fn label_folder(
         ));
     }
     tell_of_problems(&labelling, console);
+    Ok(labelling)
+}
+
+/// Writes the tables of a folder and prints what they say.
+fn write(
+    folder: &Folder,
+    sweep: &Sweep,
+    labelling: Labelling,
+    console: &Console,
+) -> Result<Labelled, Failure> {
     let labelled = labelling.write(folder).map_err(cannot_write)?;
     tell_of_labels(&labelled, folder, console);
     write_refined(folder, sweep, &labelled.table, console)?;

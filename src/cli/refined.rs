@@ -48,9 +48,14 @@ impl Answer {
     }
 }
 
-/// A part of an axis, as per cent.
+/// A part of an axis, as per cent: a small one to two digits.
 fn share(share: f64) -> String {
-    format!("{:.1} %", 100.0 * share)
+    let percent = 100.0 * share;
+    let decimals = match percent {
+        percent if percent >= 1.0 || percent <= 0.0 => 1,
+        percent => 1 + libm::ceil(-libm::log10(percent)) as usize,
+    };
+    format!("{percent:.decimals$} %")
 }
 
 /// Names the two labels of a border.
@@ -118,4 +123,27 @@ pub(super) fn describe_gap(sweep: &Sweep, gap: &Gap) -> String {
         share(2.0 * gap.radius),
         point.collect::<Vec<_>>().join(", ")
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Symptom: "a region less than 0.0 % of the axes across". Cause: one decimal, whatever the
+    /// share is.
+    #[test]
+    fn small_shares_have_two_digits() {
+        let shares = [0.5, 0.0123, 0.0049, 0.000_31, 2.5e-7, 0.0].map(share);
+        assert_eq!(
+            shares,
+            [
+                "50.0 %",
+                "1.2 %",
+                "0.49 %",
+                "0.031 %",
+                "0.000025 %",
+                "0.0 %"
+            ]
+        );
+    }
 }

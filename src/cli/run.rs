@@ -13,7 +13,7 @@ use phase::dem::timestep::Standing;
 use phase::document::Problem;
 use phase::record::{Milestone, MilestoneKind, Outcome, RunRecord};
 use phase::resume::{Checkpoints, DEFAULT_INTERVAL};
-use phase::run::{frame_of_state, model_of};
+use phase::run::{Edits, frame_of_state, model_of};
 use phase::scene::{Scene, Start};
 use phase::store::{self, Lock, StoreError};
 use serde::Serialize;
@@ -98,6 +98,24 @@ pub(crate) struct Arguments {
     pub(super) json: bool,
 }
 
+impl Arguments {
+    /// The options given that set a key of the scene of their own, with that key.
+    fn own_keys(&self) -> Vec<(&'static str, &'static str)> {
+        let options = [
+            (self.seed.is_some(), "--seed", "seed"),
+            (self.trajectory, "--trajectory", "output.trajectory"),
+            (self.ledger, "--ledger", "output.ledger"),
+            (
+                self.snapshot_interval.is_some(),
+                "--snapshot-interval",
+                "output.snapshot_interval",
+            ),
+        ];
+        let given = options.into_iter().filter(|(is_given, ..)| *is_given);
+        given.map(|(_, option, key)| (option, key)).collect()
+    }
+}
+
 /// Parses a number of threads.
 fn threads(text: &str) -> Result<usize, String> {
     match text.parse() {
@@ -126,7 +144,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     let (mut scene, default_path, original) = match (&arguments.scene, &arguments.from) {
         (Some(file), _) => {
-            let scene = Scene::load_with(file, &arguments.set, &arguments.without);
+            let edits = Edits {
+                set: &arguments.set,
+                remove: &arguments.without,
+                options: &arguments.own_keys(),
+            };
+            let scene = Scene::load_with(file, edits);
             let mut scene = scene.map_err(Failure::refused)?;
             scene.seed = arguments.seed.unwrap_or(scene.seed);
             (scene, default_record(file), None)

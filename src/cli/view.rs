@@ -185,7 +185,11 @@ fn runs<'a>(
 ) -> Result<Vec<Run<'a>>, Failure> {
     let numbered = records.iter().enumerate();
     let runs = numbered.map(|(number, record)| run(number, record, arguments, console));
-    let runs: Vec<Run<'_>> = runs.collect::<Result<_, _>>()?;
+    let mut runs: Vec<Run<'_>> = runs.collect::<Result<_, _>>()?;
+    let differences = words::differences(&records.iter().collect::<Vec<_>>());
+    for (run, differs) in runs.iter_mut().zip(differences) {
+        run.differs = differs;
+    }
     warn_of_letters(&runs, console);
     Ok(runs)
 }
@@ -257,6 +261,7 @@ fn run<'a>(
         shown,
         origin,
         label: arguments.labels.get(number).cloned(),
+        differs: Vec::new(),
     })
 }
 

@@ -1,7 +1,7 @@
 //! One thing that is wrong with a scene or a sweep.
 
 /// One thing that is wrong with a scene or a sweep, with the key it concerns.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
     /// Path of the key, such as `start.spheres[3].radius`; empty for the file as a whole.
     pub path: String,
@@ -11,6 +11,9 @@ pub struct Problem {
     pub help: Option<String>,
     /// Whether the key itself is at fault, not its value.
     pub(crate) at_key: bool,
+    /// The largest value that the help advises, where it allows all below. Of several scenes with
+    /// such a problem the least one mends all.
+    pub(crate) most: Option<f64>,
 }
 
 impl Problem {
@@ -21,6 +24,7 @@ impl Problem {
             message: message.into(),
             help: None,
             at_key: false,
+            most: None,
         }
     }
 
@@ -33,6 +37,12 @@ impl Problem {
     /// The key itself is at fault, not its value.
     pub(crate) fn at_key(mut self) -> Self {
         self.at_key = true;
+        self
+    }
+
+    /// The help advises this value or less.
+    pub(crate) fn at_most(mut self, value: f64) -> Self {
+        self.most = Some(value);
         self
     }
 

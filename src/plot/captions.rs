@@ -11,6 +11,9 @@ const UNNAMED: [&str; 3] = ["output", "title", "time.duration"];
 /// A whole number that may have more digits than a real number holds.
 const SEED: &str = "seed";
 
+/// Most letters of a list that is written as it is.
+const LONGEST: usize = 40;
+
 /// What names each run, with markup: its values of the keys in which the scenes differ, or the
 /// titles where all scenes have different ones. Nothing where they do not differ.
 pub(super) fn of(scenes: &[&Scene]) -> Vec<Vec<String>> {
@@ -21,13 +24,19 @@ pub(super) fn of(scenes: &[&Scene]) -> Vec<Vec<String>> {
         let title = |scene: &&Scene| vec![scene.title.clone().unwrap_or_default()];
         return scenes.iter().map(title).collect();
     }
+    differences(scenes, &[])
+}
+
+/// The values of each run of the keys in which the scenes differ, with markup, but for those keys
+/// that are `told` otherwise.
+pub(super) fn differences(scenes: &[&Scene], told: &[&str]) -> Vec<Vec<String>> {
     let mut keys: Vec<String> = Vec::new();
     for other in scenes.iter().skip(1) {
         keys.extend(differing_keys(scenes[0], other));
     }
     let is_unnamed = |key: &String| {
         let in_table = |table: &&str| key == table || key.starts_with(&format!("{table}."));
-        UNNAMED.iter().any(in_table)
+        UNNAMED.iter().any(in_table) || told.contains(&key.as_str())
     };
     keys.retain(|key| !is_unnamed(key));
     keys.sort();
@@ -85,7 +94,21 @@ fn part(scene: &Scene, tree: &Value, trees: &[Value], key: &str) -> String {
         }
         Some(Value::Bool(true)) => words(key),
         Some(Value::Bool(false)) => format!("no {}", words(key)),
-        Some(other) => format!("{} = {other}", words(key)),
+        Some(other) => match other.to_string() {
+            text if text.len() <= LONGEST => format!("{} = {text}", words(key)),
+            // Long lists have numbers, in the order in which they come.
+            _ => {
+                let lists = trees.iter().map(|tree| at(tree, key));
+                let mut different: Vec<Option<&Value>> = Vec::new();
+                lists.for_each(|list| {
+                    if !different.contains(&list) {
+                        different.push(list);
+                    }
+                });
+                let place = different.iter().position(|list| *list == Some(other));
+                format!("{}: list {}", words(key), place.unwrap_or(0) + 1)
+            }
+        },
     }
 }
 
@@ -145,6 +168,40 @@ mod tests {
         let scenes = [falling(None, 2500.1), falling(None, 2500.3)];
         let names = of(&[&scenes[0], &scenes[1]]);
         assert_eq!(names, [["$ρ$ = 2500.1 kg/m³"], ["$ρ$ = 2500.3 kg/m³"]]);
+    }
+
+    /// Symptom: runs of the seeds 2^53 and 2^53 + 1 had one name. Cause: as real numbers these are
+    /// equal.
+    #[test]
+    fn seeds_have_all_their_digits() {
+        let seeds = [1 << 53, (1 << 53) + 1, u64::MAX];
+        let scenes = seeds.map(|seed| Scene {
+            seed,
+            ..falling(None, 2500.0)
+        });
+        let names = of(&scenes.each_ref());
+        let expected = [
+            "9007199254740992",
+            "9007199254740993",
+            "18446744073709551615",
+        ];
+        assert_eq!(names, expected.map(|seed| [format!("$seed$ = {seed}")]));
+        assert_eq!(differences(&scenes.each_ref(), &["seed"]), [[""; 0]; 3]);
+    }
+
+    #[test]
+    fn long_lists_have_numbers() {
+        let lists = [vec![0.004; 20], vec![0.003; 20], vec![0.004; 20]];
+        let scenes = lists.map(|radii| {
+            let mut scene = falling(None, 2500.0);
+            scene.spheres.radius = Radii::Each(radii);
+            scene
+        });
+        let names = of(&scenes.each_ref());
+        assert_eq!(
+            names,
+            [1, 2, 1].map(|list| [format!("radius: list {list}")])
+        );
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Maps of a number over the grid: settle time (Rice, 2012, figure 16), order parameters, and
 //! the evidence of the sieves. Means over the seeds that have a value.
 
+use super::chart::Bar;
 use super::color_bar::ColorBar;
 use super::diagram::{Diagram, Look};
 use super::grid::Grid;
@@ -9,7 +10,8 @@ use super::svg::Svg;
 use super::{Figure, PlotError, Source};
 use crate::classify::{FAMILIES, Family, Measure, Point, Range};
 use crate::scene::Units;
-use crate::statistics::Estimate;
+use crate::statistics::{Estimate, mean_share_interval};
+use plotters::style::RGBColor;
 use std::sync::LazyLock;
 
 /// A map of one measure of the verdicts.
@@ -52,9 +54,17 @@ impl Map {
         }
     }
 
-    /// Whether it is a share of something, from 0 to 1.
-    pub(super) fn is_share(&self) -> bool {
-        self.measure.range == Range::Share
+    /// The bar of the mean of values of several runs; none without any.
+    pub(super) fn bar(&self, x: f64, values: &[f64], color: RGBColor) -> Option<Bar> {
+        let Estimate { value, half_width } = Estimate::of_mean(values)?;
+        let bar = Bar::about((x, value), half_width, color);
+        let ends = match self.measure.range {
+            // One run says nothing of its scatter.
+            Range::Share if values.len() > 1 => mean_share_interval(values)?,
+            Range::Share | Range::Part => bar.ends().map(|end| end.clamp(0.0, 1.0)),
+            Range::Any | Range::Signed => return Some(bar),
+        };
+        Some(Bar::between(bar.at, ends, color))
     }
 
     /// Values of the seeds of a point that have one. One that is not a number is none.
@@ -107,5 +117,34 @@ impl Figure for Map {
             bar: bar.clone(),
         }
         .draw(source)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use plotters::style::BLACK;
+
+    /// Symptom: bars of rising spheres began below none, those of holes ended beyond the tank.
+    /// Cause: only measures that were called shares had their bars between 0 and 1.
+    #[test]
+    fn bars_of_parts_stay_between_0_and_1() {
+        let ends = |name: &str, values: &[f64]| {
+            let map = MAPS.iter().find(|map| map.name == name).unwrap();
+            map.bar(0.0, values, BLACK).unwrap().ends()
+        };
+        for name in [
+            "spout-count",
+            "hole-radius",
+            "packing-fraction",
+            "discharged-share",
+        ] {
+            assert_eq!(ends(name, &[0.1, 0.9]), [0.0, 1.0], "{name}");
+            assert_eq!(ends(name, &[0.4]), [0.4, 0.4], "{name}");
+        }
+        // No run without a spout has one by chance; grains may all leave by chance.
+        assert_eq!(ends("spout-count", &[0.0; 3]), [0.0, 0.0]);
+        assert!(ends("discharged-share", &[1.0; 3])[0] < 0.5);
+        assert!(ends("settle-time", &[0.1, 0.9])[0] < 0.0);
     }
 }

@@ -9,7 +9,6 @@ use super::spacing::Spacing;
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source};
-use crate::statistics::{Estimate, mean_share_interval};
 use crate::sweep::Sweep;
 
 /// Every measure over the horizontal axis.
@@ -105,16 +104,7 @@ fn panel(source: &Source<'_>, map: &Map, lines: &[Series], axis: &GridAxis) -> O
             .iter()
             .filter_map(|(at, point)| {
                 let values = map.values(source, point);
-                let mean = Estimate::of_mean(&values)?;
-                let at = (aside(axis.show(*at), from_middle), mean.value);
-                // One run says nothing of its scatter.
-                match map.is_share() && values.len() > 1 {
-                    true => {
-                        let ends = mean_share_interval(&values)?;
-                        Some(Bar::between(at, ends, line.color))
-                    }
-                    false => Some(Bar::about(at, mean.half_width, line.color)),
-                }
+                map.bar(aside(axis.show(*at), from_middle), &values, line.color)
             })
             .collect();
         // A line between two points would only repeat them.

@@ -52,7 +52,7 @@ mod words;
 
 pub use beverloo::{FittedLine, fitted_lines};
 pub use ledger::draw as draw_ledger;
-pub use records::{captions, draw_records};
+pub use records::{captions, differences, draw_records};
 pub use svg::Svg;
 pub use tracks::draw as draw_tracks;
 

@@ -99,6 +99,10 @@ impl Across {
         let room = Room::Up(plan.height);
         let ticks = 2 * TICK + plan.most(|frame| &frame.y, room, Scale::label_width);
         let left = MARGIN + ticks + only(!plan.labels[1].is_empty(), LABEL + px(8));
+        // The half of the first tick label may need more.
+        let widest = (WIDTH - MARGIN - left) / columns;
+        let first = |scale: &Scale| scale.overhangs(widest)[0];
+        let left = left.max(MARGIN + plan.most(|frame| &frame.x, Room::Across(widest), first));
         let room = only(!plan.beside, WIDTH - MARGIN - left);
         let legend = Legend::new(plan.legend.clone(), room);
         let heads = only(!plan.row_heads.is_empty(), ROW_HEAD);
@@ -106,7 +110,14 @@ impl Across {
         // The widest panel that could be, for the half of a tick label that reaches beyond it.
         let widest = (WIDTH - MARGIN - left) / columns;
         let room = Room::Across(widest);
-        let beyond = plan.most(|frame| &frame.x, room, |scale| scale.overhang(widest));
+        let beyond = plan.most(
+            |frame| &frame.x,
+            room,
+            |scale| {
+                let [before, after] = scale.overhangs(widest);
+                before.max(after)
+            },
+        );
         let beside = beyond.max(heads + only(aside > 0, ASIDE + aside));
         let mut inner = (0..plan.frames.len()).filter(|index| index % plan.columns > 0);
         let has_ticks = inner.any(|index| plan.has_ticks(index).0);

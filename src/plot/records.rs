@@ -97,7 +97,17 @@ pub fn draw_records(
 /// What names each of several records, without markup: the keys in which their scenes differ.
 pub fn captions(records: &[&RunRecord]) -> Vec<Vec<String>> {
     let scenes: Vec<&Scene> = records.iter().map(|it| &it.scene).collect();
-    let captions = names::of(&scenes).into_iter();
+    plainly(names::of(&scenes))
+}
+
+/// The values of each of several records, without markup, of the keys in which their scenes differ
+/// but for those that are `told` otherwise. Nothing where the scenes differ in no other.
+pub fn differences(records: &[&RunRecord], told: &[&str]) -> Vec<Vec<String>> {
+    let scenes: Vec<&Scene> = records.iter().map(|it| &it.scene).collect();
+    plainly(names::differences(&scenes, told))
+}
+
+fn plainly(captions: Vec<Vec<String>>) -> Vec<Vec<String>> {
     let plainly = |parts: Vec<String>| parts.iter().map(|it| text::plain(it)).collect();
-    captions.map(plainly).collect()
+    captions.into_iter().map(plainly).collect()
 }

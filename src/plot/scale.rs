@@ -105,12 +105,15 @@ impl Scale {
     }
 
     /// How far the labels of a horizontal axis of a length reach beyond its ends.
-    pub(super) fn overhang(&self, length: i32) -> i32 {
-        let beyond = self.ticks.iter().map(|(value, label)| {
-            let place = self.fraction(*value);
-            0.5 * self.width(label) - place.min(1.0 - place) * f64::from(length)
-        });
-        beyond.fold(0.0, f64::max).ceil() as i32
+    pub(super) fn overhangs(&self, length: i32) -> [i32; 2] {
+        let beyond = |from_end: fn(f64) -> f64| {
+            let beyond = self.ticks.iter().map(|(value, label)| {
+                let place = from_end(self.fraction(*value));
+                0.5 * self.width(label) - place * f64::from(length)
+            });
+            beyond.fold(0.0, f64::max).ceil() as i32
+        };
+        [beyond(|place| place), beyond(|place| 1.0 - place)]
     }
 
     fn width(&self, label: &str) -> f64 {

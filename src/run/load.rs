@@ -1,8 +1,9 @@
 //! From a scene file to a scene.
 
+use super::Edits;
 use crate::dem::SAFETY_FACTOR;
 use crate::document::{Document, LoadError, Problem};
-use crate::scene::{AUTO, Change, FileKind, SCENE, Scene, in_start_file, is_within, settings};
+use crate::scene::{AUTO, Change, FileKind, SCENE, Scene, in_start_file, settings};
 use serde_json::Value;
 use std::path::Path;
 
@@ -29,41 +30,27 @@ impl Scene {
 
     /// Like [`load`](Self::load), with keys set or left out that a command line names.
     ///
-    /// * `set`: settings such as `spot.walk.bias=3`; a value that is no TOML is a text
-    /// * `remove`: paths of tables or keys, such as `spot.weighting`
-    ///
     /// # Errors
-    /// Those of [`load`](Self::load), where problems of a setting point to it.
-    pub fn load_with(path: &Path, set: &[String], remove: &[String]) -> Result<Self, LoadError> {
+    /// Those of [`load`](Self::load), where problems of a setting point to it; and edits that
+    /// contradict each other.
+    pub fn load_with(path: &Path, edits: Edits<'_>) -> Result<Self, LoadError> {
         let document = Document::read(path)?;
         FileKind::Scene.expect(&document)?;
-        let settings = set.iter().map(|text| setting(text));
+        let settings = edits.set.iter().map(|text| setting(text));
         let settings: Vec<Document> = settings.collect::<Result<_, _>>()?;
         let mut tree = document.tree().clone();
         let refuse = |problems: Vec<Problem>| refuse(&document, &settings, &problems);
-        let absent = remove
-            .iter()
+        let removed = edits.remove.iter();
+        let absent = removed
             .filter(|path| !document.holds(path))
             .map(|path| Problem::new("", format!("--without {path}: the scene has no such key")));
         let mut problems: Vec<Problem> = absent.collect();
         let change = Change {
             set: settings.iter().flat_map(Document::entries).collect(),
-            remove: remove.to_vec(),
+            remove: edits.remove.to_vec(),
             ..Change::default()
         };
-        let paths = change.paths();
-        let repeated = paths.iter().enumerate().filter(|(place, path)| {
-            let others = paths.iter().enumerate();
-            let mut others = others.filter(|(other, _)| other != place);
-            let is_later = paths[..*place].contains(path);
-            is_later || others.any(|(_, other)| other != *path && is_within(path, other))
-        });
-        problems.extend(repeated.map(|(_, path)| {
-            Problem::new(
-                "",
-                format!("--set {path}: this key is set twice; set it once"),
-            )
-        }));
+        problems.extend(edits.contradictions(&change.paths()));
         if let Err(path) = change.apply(&mut tree) {
             problems.push(Problem::new("", format!("--set {path}: not in a table")));
         }

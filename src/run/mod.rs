@@ -1,11 +1,13 @@
 //! One run: from a scene to its record.
 
+mod edits;
 mod load;
 mod models;
 mod packed;
 mod state;
 mod steady;
 
+pub use edits::Edits;
 pub(crate) use load::{Reading, base_of_completed, base_of_document, base_of_tree, load_base_with};
 pub use models::model_of;
 pub use state::frame_of_state;

@@ -6,6 +6,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
+use tempfile::NamedTempFile;
 
 /// How the name of an unfinished file begins. The machine and the process that write it follow.
 const PREFIX: &str = ".phase-";
@@ -63,18 +64,9 @@ fn replace(
     durable: Durable,
     fill: impl FnOnce(&mut File) -> io::Result<()>,
 ) -> io::Result<()> {
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
+    let folder = folder_of(path);
     remove_those_of_the_dead(folder);
-    let prefix = format!("{PREFIX}{}-{}-", machine(), std::process::id());
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(&prefix).suffix(SUFFIX);
-    // Temporary files are private by default; results are as readable as other files.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut temporary = builder.tempfile_in(folder)?;
+    let mut temporary = temporary_in(folder)?;
     fill(temporary.as_file_mut())?;
     if durable == Durable::Yes {
         temporary.as_file().sync_all()?;
@@ -86,6 +78,37 @@ fn replace(
         File::open(folder)?.sync_all()?;
     }
     Ok(())
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+/// An unfinished file in a folder.
+fn temporary_in(folder: &Path) -> io::Result<NamedTempFile> {
+    let prefix = format!("{PREFIX}{}-{}-", machine(), std::process::id());
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(&prefix).suffix(SUFFIX);
+    // Temporary files are private by default; results are as readable as other files.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
+}
+
+/// Checks whether [`write_atomic`] could replace a file, as far as that can be told before.
+///
+/// # Errors
+/// [`StoreError::Write`] if a folder is in the place of the file, or nothing can be written to its
+/// folder.
+pub fn check_writable(path: &Path) -> Result<(), StoreError> {
+    let tried = match path.is_dir() {
+        true => Err(io::ErrorKind::IsADirectory.into()),
+        false => temporary_in(folder_of(path)).map(drop),
+    };
+    tried.map_err(|error| StoreError::writing(path, error))
 }
 
 /// Before this process first writes to a folder: removes the temporary files that processes of this
@@ -213,6 +236,23 @@ mod tests {
             .to_string();
         assert!(message.contains("no/table.csv"), "{message}");
         assert!(message.ends_with("; check the path"), "{message}");
+    }
+
+    #[test]
+    fn what_cannot_be_replaced_is_known_before() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table.csv");
+        check_writable(&path).unwrap();
+        assert!(names(folder.path()).is_empty());
+        fs::create_dir(&path).unwrap();
+        for (path, reason) in [
+            (path, "a file, not a folder"),
+            (folder.path().join("no/x"), "path"),
+        ] {
+            let message = check_writable(&path).unwrap_err().to_string();
+            assert!(message.starts_with("cannot write "), "{message}");
+            assert!(message.ends_with(reason), "{message}");
+        }
     }
 
     #[cfg(unix)]

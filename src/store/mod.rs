@@ -18,7 +18,7 @@ mod refined;
 mod rows;
 
 pub use crate::document::advice;
-pub use atomic::{remove_leftovers, write_atomic};
+pub use atomic::{check_writable, remove_leftovers, write_atomic};
 pub use checkpoint::{
     CHECKPOINT_SIGNATURE, Checkpoint, CheckpointError, read_checkpoint, write_checkpoint,
 };

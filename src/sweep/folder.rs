@@ -38,6 +38,14 @@ pub enum FolderError {
         .0.display()
     )]
     NoSweep(PathBuf),
+    /// There are results, but `sweep.json` is not there, or no file.
+    #[error("{}: {reason}", path.display())]
+    NoFile {
+        /// The file.
+        path: PathBuf,
+        /// What is there in its place, and what to do.
+        reason: &'static str,
+    },
     /// `sweep.json` holds a sweep of another version.
     #[error(
         "{}: not a sweep of this version of phase ({reason}); run `phase sweep` again",
@@ -108,7 +116,8 @@ impl Folder {
         rows.map(|row| (row.id.clone(), row)).collect()
     }
 
-    /// The results folder at `path`, or all of them that lie directly in it, by name.
+    /// The results folder at `path`, or all of them that lie directly in it, by name. A folder of
+    /// results counts even if its `sweep.json` is missing or is no file: reading it says why.
     ///
     /// # Errors
     /// If there is none.
@@ -121,7 +130,7 @@ impl Folder {
             });
         }
         let folder = Self::new(path);
-        if folder.sweep().is_file() {
+        if folder.holds_sweep() {
             return Ok(vec![folder]);
         }
         let io_error = |source| FolderError::Io {
@@ -131,7 +140,7 @@ impl Folder {
         let mut found = Vec::new();
         for entry in fs::read_dir(path).map_err(io_error)? {
             let folder = Self::new(entry.map_err(io_error)?.path());
-            if folder.sweep().is_file() {
+            if folder.holds_sweep() || folder.holds_results() {
                 found.push(folder);
             }
         }
@@ -140,6 +149,27 @@ impl Folder {
         }
         found.sort_by(|a, b| a.root.cmp(&b.root));
         Ok(found)
+    }
+
+    /// Whether something has the name of the resolved sweep, or may have it: the system does not
+    /// let everybody look into every folder.
+    fn holds_sweep(&self) -> bool {
+        match self.sweep().symlink_metadata() {
+            Ok(_) => true,
+            Err(error) => error.kind() == io::ErrorKind::PermissionDenied,
+        }
+    }
+
+    /// Whether a sweep has left labels or records here. Dumps may have labels, too.
+    fn holds_results(&self) -> bool {
+        let of_end = |folder: &Path, end: &str| {
+            let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+            let mut paths = entries.map(|entry| entry.path());
+            paths.any(|path| path.extension().is_some_and(|it| it == end))
+        };
+        let labels = self.labels();
+        let has_labels = labels.is_file() && store::is_own_file(&labels);
+        of_end(&self.records(), "h5") || (has_labels && !of_end(&self.root, "npy"))
     }
 
     /// The folder itself.
@@ -274,7 +304,10 @@ impl Folder {
                     false => FolderError::NotASweep { path, reason },
                 })
             }
-            Err(source) => Err(FolderError::Io { path, source }),
+            Err(source) => Err(match in_place_of_file(&path, &source) {
+                Some(reason) => FolderError::NoFile { path, reason },
+                None => FolderError::Io { path, source },
+            }),
         }
     }
 
@@ -287,5 +320,20 @@ impl Folder {
             serde_json::to_string_pretty(sweep).expect("a sweep holds no map with odd keys");
         text.push('\n');
         Ok(store::write_atomic(&self.sweep(), text.as_bytes())?)
+    }
+}
+
+/// What is there in the place of a file that cannot be read, if it is not just the system that says
+/// no; and what to do.
+fn in_place_of_file(path: &Path, error: &io::Error) -> Option<&'static str> {
+    match error.kind() {
+        _ if path.is_dir() => Some("this is a folder in the place of a file; move it away"),
+        io::ErrorKind::NotFound if path.is_symlink() => {
+            Some("this link leads nowhere; bring back the file that it names")
+        }
+        io::ErrorKind::NotFound => {
+            Some("this file is missing; bring it back, or run `phase sweep` into this folder again")
+        }
+        _ => None,
     }
 }

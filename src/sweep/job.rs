@@ -31,7 +31,7 @@ impl Job {
 }
 
 /// A point of the grid whose scene cannot be run.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}{}", if point.is_empty() { String::new() } else { format!("at {point}: ") },
     problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("; "))]
 pub struct PointError {

@@ -318,16 +318,25 @@ pub(crate) fn check_jobs(jobs: usize, help: &str, problems: &mut Vec<Problem>) -
     jobs <= MOST_JOBS
 }
 
-/// Adds what is wrong with the points of a grid: the problems of the first point, and the number of
-/// other points with problems.
+/// Adds what is wrong with the points of a grid: the problems of the first point, with help that
+/// serves all others too, and the number of other points with problems.
 pub(crate) fn check_points(
     mut errors: impl Iterator<Item = PointError>,
     axes: &[Axis],
     tree: &Value,
     problems: &mut Vec<Problem>,
 ) {
-    let Some(first) = errors.next() else { return };
-    let more = errors.count();
+    let Some(mut first) = errors.next() else {
+        return;
+    };
+    let mut more = 0;
+    for other in errors {
+        more += 1;
+        first
+            .problems
+            .iter_mut()
+            .for_each(|problem| advise_for(problem, &other));
+    }
     let others = match more {
         0 => String::new(),
         more => format!(" (and at {more} more of the {} points)", points(axes)),
@@ -340,6 +349,19 @@ pub(crate) fn check_points(
             message,
             ..problem
         });
+    }
+}
+
+/// Gives a problem the help of another point where that asks for a lesser value: it serves both.
+fn advise_for(problem: &mut Problem, other: &PointError) {
+    for stricter in &other.problems {
+        let is_stricter = stricter.most.is_some() && stricter.most < problem.most;
+        if stricter.path != problem.path || !is_stricter {
+            continue;
+        }
+        let help = stricter.help.as_deref().unwrap_or_default();
+        problem.help = Some(format!("{help} at {}", other.point));
+        problem.most = stricter.most;
     }
 }
 

@@ -93,6 +93,18 @@ impl Sweep {
             plot: PlotSettings::default(),
         }
     }
+
+    /// The sweep of a scene that takes no time, to test with.
+    #[cfg(test)]
+    fn of_falling_sphere() -> Self {
+        let scene = r#"
+            spheres = { count = 1, radius = 0.004, density = 1000.0 }
+            start = { kind = "list", spheres = [{ position = [0.0, 0.0, 1.0] }] }
+            gravity = { acceleration = 9.8 }
+            time = { dt = 1e-3, duration = 0.01, frame_interval = 1e-3 }
+        "#;
+        Self::of_scene(toml::from_str(scene).unwrap())
+    }
 }
 
 /// What the phase diagram shows.

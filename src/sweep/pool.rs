@@ -114,31 +114,22 @@ impl Results for Records<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::classify::Sieves;
     use crate::dem;
     use crate::resume;
-    use crate::scene::Scene;
     use crate::simulation::BuildError;
-    use crate::sweep::{Axis, PlotSettings, read_failures};
+    use crate::sweep::{Axis, read_failures};
     use std::sync::Mutex;
     use std::sync::atomic::Ordering;
 
-    const SCENE: &str = r#"
-        spheres = { count = 1, radius = 0.004, density = 1000.0 }
-        start = { kind = "list", spheres = [{ position = [0.0, 0.0, 1.0] }] }
-        gravity = { acceleration = 9.8 }
-        time = { dt = 1e-3, duration = 0.01, frame_interval = 1e-3 }
-    "#;
-
     fn sweep() -> (Sweep, Vec<Job>) {
-        let scene: Scene = toml::from_str(SCENE).unwrap();
+        let falling = Sweep::of_falling_sphere();
         let axis = Axis {
             key: "gravity.acceleration".to_owned(),
             name: "acceleration".to_owned(),
             values: vec![1.0, 2.0, 3.0, 4.0],
         };
         let job = |&value: &f64| {
-            let mut scene = scene.clone();
+            let mut scene = falling.scene.clone();
             scene.dem.effects.gravity.as_mut().unwrap().acceleration = value;
             Job {
                 id: scene.identity(),
@@ -148,21 +139,12 @@ mod tests {
             }
         };
         let jobs = axis.values.iter().map(job).collect();
-        let (sieves, plot) = (Sieves::default(), PlotSettings::default());
-        (
-            Sweep {
-                title: None,
-                scene,
-                axes: vec![axis],
-                seeds: vec![1],
-                border_seeds: Vec::new(),
-                border_points: Vec::new(),
-                refine: None,
-                sieves,
-                plot,
-            },
-            jobs,
-        )
+        let sweep = Sweep {
+            axes: vec![axis],
+            seeds: vec![1],
+            ..falling
+        };
+        (sweep, jobs)
     }
 
     #[test]

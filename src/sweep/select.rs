@@ -156,20 +156,10 @@ fn never<T: Copy + PartialOrd + Display>(name: &str, value: T, known: &[T]) -> S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
     use crate::sweep::Axis;
     use proptest::prelude::*;
 
     fn sweep(values: Vec<f64>, seeds: Vec<u64>) -> Sweep {
-        let scene: Scene = toml::from_str(
-            r#"
-            spheres = { count = 1, radius = 0.004, density = 1000.0 }
-            start = { kind = "list", spheres = [{ position = [0.0, 0.0, 1.0] }] }
-            gravity = { acceleration = 9.8 }
-            time = { dt = 1e-3, duration = 0.01, frame_interval = 1e-3 }
-            "#,
-        )
-        .unwrap();
         let axis = Axis {
             key: "gravity.acceleration".to_owned(),
             name: "gravity".to_owned(),
@@ -178,7 +168,7 @@ mod tests {
         Sweep {
             axes: vec![axis],
             seeds,
-            ..Sweep::of_scene(scene)
+            ..Sweep::of_falling_sphere()
         }
     }
 

@@ -18,9 +18,9 @@ pub struct Status {
     pub unstable: usize,
     /// Jobs that failed when they were last run.
     pub failures: Vec<Failure>,
-    /// Jobs whose record is damaged, or holds another scene or other output: these count as left.
+    /// Jobs left whose record is damaged, or holds another scene or other output.
     pub bad: usize,
-    /// Jobs left to run.
+    /// Jobs left to run: with those done and failed, these are all.
     pub left: usize,
     /// Of these, runs with a checkpoint that they go on from.
     pub under_way: Vec<UnderWay>,
@@ -70,7 +70,9 @@ impl Status {
     pub fn of(folder: &Folder, plan: &Plan) -> Result<Self, FolderError> {
         let left_ids: HashSet<_> = plan.pending().map(|job| &job.id).collect();
         let mut failures = read_failures(&folder.failures())?;
-        failures.retain(|failure| left_ids.contains(&failure.id));
+        let mut failed = HashSet::new();
+        failures
+            .retain(|failure| left_ids.contains(&failure.id) && failed.insert(failure.id.clone()));
         let is_bad = |standing: &Standing| {
             !matches!(
                 standing,
@@ -88,7 +90,7 @@ impl Status {
             bad: plan
                 .jobs
                 .iter()
-                .filter(|(_, standing)| is_bad(standing))
+                .filter(|(job, standing)| is_bad(standing) && !failed.contains(&job.id))
                 .count(),
             left: left_ids.len() - failures.len(),
             under_way: plan

@@ -269,7 +269,6 @@ pub(crate) fn panic_message(panic: &(dyn std::any::Any + Send)) -> &str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::Scene;
     use crate::sweep::Sweep;
     use std::io::{Error, ErrorKind};
     use std::path::{Path, PathBuf};
@@ -320,18 +319,9 @@ mod tests {
     /// What became of four jobs with seeds 1 to 4, one after the other.
     fn report(kind: ErrorKind, have_own_files: bool) -> Report {
         let place = tempfile::tempdir().unwrap();
-        let scene: Scene = toml::from_str(
-            r#"
-            spheres = { count = 1, radius = 0.004, density = 1000.0 }
-            start = { kind = "list", spheres = [{ position = [0.0, 0.0, 1.0] }] }
-            gravity = { acceleration = 9.8 }
-            time = { dt = 1e-3, duration = 0.01, frame_interval = 1e-3 }
-            "#,
-        )
-        .unwrap();
         let sweep = Sweep {
             seeds: vec![1, 2, 3, 4],
-            ..Sweep::of_scene(scene)
+            ..Sweep::of_falling_sphere()
         };
         let jobs = sweep.jobs().unwrap();
         let workers = Workers {

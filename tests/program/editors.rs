@@ -167,6 +167,25 @@ fn a_new_sweep_names_its_scene_from_its_own_folder() {
     }
 }
 
+/// Symptom: the new sweep named a scene that is not there. Cause: what is no text in a path became
+/// U+FFFD.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_new_sweep_does_not_name_a_scene_that_no_text_can_name() {
+    use std::os::unix::ffi::OsStrExt;
+    let place = Workplace::new();
+    let mut new = place.command(&["new", "sweep", "mine", "--scene"]);
+    let output = new.arg(std::ffi::OsStr::from_bytes(b"d\xff.toml")).output();
+    let output = output.unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        said.contains("a sweep file is UTF-8 text, and this path is not"),
+        "{said}"
+    );
+    assert!(!place.path("mine.toml").exists());
+}
+
 #[test]
 fn new_files_comment_every_table() {
     let place = Workplace::new();

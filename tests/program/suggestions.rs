@@ -275,6 +275,46 @@ frame_interval=6.24e-6
     assert_eq!(type_all(path, text), 2);
 }
 
+/// Symptom: a sweep whose points need different steps asked for one correction after the other.
+/// Cause: the step that its message advised was that of the first bad point.
+#[test]
+fn one_suggested_step_serves_all_points_of_a_sweep() {
+    let text = r#"
+[[axis]]
+key = "young_modulus"
+values = [1e6, 1e10, 1e12, 1e11]
+[seeds]
+list = [1]
+[scene]
+spheres = { count = 10, radius = 0.004, density = 2500.0 }
+contact = { law = "hertz", young_modulus = 1e6, poisson_ratio = 0.3, dissipation_time = 1e-6 }
+tank = { radius = 0.06, floor = 0.0 }
+start = { kind = "random", z_min = 0.01, z_max = 0.1 }
+gravity = { acceleration = 9.81 }
+[scene.time]
+dt = 1e-4
+duration = 0.1
+frame_interval = 1e-2
+"#;
+    let path = Path::new("tests/good/sweep-of-table.toml");
+    let findings = problems(path, text);
+    let [finding] = &findings[..] else {
+        panic!("{findings:?}");
+    };
+    let message = "at young_modulus = 1e10 (and at 2 more of the 4 points): `time.dt` = 1e-4 s";
+    assert!(finding.message.starts_with(message), "{finding}");
+    let help = finding.help.as_deref().unwrap();
+    assert!(
+        help.ends_with("at most half the limit at young_modulus = 1e12"),
+        "{help}"
+    );
+    let [step] = &suggestions(finding)[..] else {
+        panic!("{finding}");
+    };
+    let typed = typed(text, finding, step).unwrap();
+    assert_eq!(problems(path, &typed), []);
+}
+
 /// The paths of all numbers of a document.
 fn numbers(value: &Value, path: &str, found: &mut Vec<String>) {
     let join = |key: &str| match path {

@@ -14,7 +14,7 @@ measures! {
     /// Continuous measures of a drainage.
     struct DrainageOrder {
         /// Packing fraction in the middle when the opening opened.
-        start_packing_fraction: measured("packing fraction at the opening", ""),
+        start_packing_fraction: measured("packing fraction at the opening", "").part(),
         /// Spheres that left per second, from the frame by which a fifth had left of those that
         /// did. One that is blocked has none.
         outflow_rate: measured("outflow", "spheres/s"),

@@ -21,7 +21,7 @@ measures! {
         heap_height: measured("height of the highest centre at rest", "m"),
         /// Packing fraction at rest (see [`packing_fraction`]), of the snapshot nearest to the time
         /// of rest in which all grains are in and the door is closed.
-        packing_fraction: measured("packing fraction at rest", ""),
+        packing_fraction: measured("packing fraction at rest", "").part(),
         /// Mean number of contacts of a grain at rest, with grains and with walls, at the last
         /// frame before the door opened.
         coordination: measured("contacts of a grain at rest", ""),

@@ -70,7 +70,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         (Kind::Scene, _) => SCENE.to_owned(),
         (Kind::Silo, _) => SILO.to_owned(),
         (Kind::Spot, _) => SPOT.to_owned(),
-        (Kind::Sweep, Some(scene)) => sweep_of_file(&from_folder_of(&path, scene)),
+        (Kind::Sweep, Some(scene)) => sweep_of_file(&from_folder_of(&path, scene))?,
         (Kind::Sweep, None) => sweep_of_table(),
     };
     store::write_atomic(&path, text.as_bytes()).map_err(Failure::failed)?;
@@ -123,9 +123,19 @@ fn from_folder_of(file: &Path, scene: &Path) -> PathBuf {
 }
 
 /// The starter sweep over a scene of its own file.
-fn sweep_of_file(scene: &Path) -> String {
-    let name = toml::Value::String(scene.to_string_lossy().into_owned());
-    SWEEP.replace(SCENE_LINE, &format!("scene = {name}"))
+fn sweep_of_file(scene: &Path) -> Result<String, Failure> {
+    let name = scene.to_str().ok_or_else(|| not_text(scene))?;
+    let name = toml::Value::String(name.to_owned());
+    Ok(SWEEP.replace(SCENE_LINE, &format!("scene = {name}")))
+}
+
+/// The failure of a path that no file of text can name.
+fn not_text(scene: &Path) -> Failure {
+    Failure::refused(format_args!(
+        "--scene {}: a sweep file is UTF-8 text, and this path is not; rename the file or its \
+         folders",
+        scene.display()
+    ))
 }
 
 /// The starter sweep with the starter scene in it.

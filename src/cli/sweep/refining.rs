@@ -161,7 +161,7 @@ impl Rounds<'_> {
             refined::describe_end(refining, end),
             refined::describe_widest(sweep, refining)
         ));
-        if let Some(gap) = refinement.gap() {
+        if let Some(gap) = refinement.gap().filter(|gap| gap.radius > 0.0) {
             self.console.note(refined::describe_gap(sweep, &gap));
         }
     }

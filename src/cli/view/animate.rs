@@ -43,6 +43,7 @@ pub(super) fn animate(
         shown: shown.clone(),
         origin: 0.0,
         label: arguments.labels.first().cloned(),
+        differs: Vec::new(),
     }];
     let mut sheets = Sheets::new(&runs, arguments)?;
     if !sheets.are_flat() {
@@ -101,6 +102,7 @@ fn leave_out_arrivals(
         record: run.record,
         shown: run.shown[first..].to_vec(),
         label: None,
+        differs: Vec::new(),
         ..*run
     }];
     let later = Sheets::new(&arrived, arguments)?.top();

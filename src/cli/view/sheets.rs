@@ -20,6 +20,8 @@ pub(super) struct Run<'a> {
     pub(super) origin: f64,
     /// What the picture calls it.
     pub(super) label: Option<String>,
+    /// What tells it from other runs, beside title and place in a sweep.
+    pub(super) differs: Vec<String>,
 }
 
 impl Run<'_> {
@@ -29,7 +31,8 @@ impl Run<'_> {
             return vec![label.clone()];
         }
         let title = self.record.scene.title.iter().cloned();
-        title.chain([words::place(self.record)]).collect()
+        let names = title.chain([words::place(self.record)]);
+        names.chain(self.differs.iter().cloned()).collect()
     }
 }
 

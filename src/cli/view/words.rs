@@ -4,6 +4,7 @@ use super::moment;
 use phase::observe::Snapshot;
 use phase::record::RunRecord;
 use phase::scene::{Radii, Units};
+use std::collections::BTreeSet;
 
 /// A time as text, with as many digits as the frames ask for.
 fn seconds(record: &RunRecord, time: f64) -> String {
@@ -31,28 +32,78 @@ pub(super) fn caption(record: &RunRecord, state: &Snapshot, origin: f64) -> Stri
 
 /// What is known of the run's place in a sweep.
 pub(super) fn place(record: &RunRecord) -> String {
-    let scene = &record.scene;
-    let mut place = vec![format!("n = {}", record.radius.len())];
-    let millimetres = |radius: f64| clean(1e3 * radius).to_string();
-    match &scene.spheres.radius {
-        Radii::One(_) if scene.units() == Units::OfSpheres => {}
-        Radii::One(radius) => place.push(format!("r = {} mm", millimetres(*radius))),
-        Radii::Shares(shares) => {
-            let radii: Vec<String> = shares.iter().map(|it| millimetres(it.radius)).collect();
-            place.push(format!("r = {} mm", radii.join(" and ")));
-        }
-        Radii::File { .. } | Radii::Each(_) => {}
-    }
-    if let Some(swirl) = &scene.dem.effects.swirl {
-        place.push(format!("Ω = {} rad/s", clean(swirl.omega)));
-    }
-    place.push(format!("seed {}", scene.seed));
-    place.join(", ")
+    let named = named(record).into_iter();
+    named.map(|(_, words)| words).collect::<Vec<_>>().join(", ")
 }
 
-/// A number as its file has it: without the last digits, which only calculations change.
-fn clean(value: f64) -> f64 {
-    format!("{value:.13e}").parse().unwrap_or(value)
+/// The keys that tell of a run's place in a sweep, with their values.
+fn named(record: &RunRecord) -> Vec<(&'static str, String)> {
+    let scene = &record.scene;
+    let mut named = vec![("spheres.count", format!("n = {}", record.radius.len()))];
+    let radii = match &scene.spheres.radius {
+        Radii::One(_) if scene.units() == Units::OfSpheres => Vec::new(),
+        Radii::One(radius) => vec![*radius],
+        Radii::Shares(shares) => shares.iter().map(|it| it.radius).collect(),
+        Radii::File { .. } | Radii::Each(_) => Vec::new(),
+    };
+    if !radii.is_empty() {
+        let radii: Vec<String> = radii.iter().map(|radius| millimetres(*radius)).collect();
+        named.push(("spheres.radius", format!("r = {} mm", radii.join(" and "))));
+    }
+    if let Some(swirl) = &scene.dem.effects.swirl {
+        named.push(("swirl.omega", format!("Ω = {} rad/s", swirl.omega)));
+    }
+    named.push(("seed", format!("seed {}", scene.seed)));
+    named
+}
+
+/// A length (m) in millimetres, as its file would have it: a product would have other last digits.
+fn millimetres(length: f64) -> String {
+    let shifted = format!("{length}e3").parse();
+    shifted.unwrap_or(1e3 * length).to_string()
+}
+
+/// Letters of a line of a caption that has several.
+const LINE: usize = 36;
+
+/// What tells each of several runs from the others, in lines; nothing where their titles and places
+/// do.
+pub(super) fn differences(records: &[&RunRecord]) -> Vec<Vec<String>> {
+    let titles: BTreeSet<&str> = records
+        .iter()
+        .filter_map(|it| it.scene.title.as_deref())
+        .collect();
+    if titles.len() == records.len() {
+        return vec![Vec::new(); records.len()];
+    }
+    let is_told = |key: &str| {
+        records
+            .iter()
+            .all(|it| named(it).iter().any(|(name, _)| *name == key))
+    };
+    let mut told: Vec<&str> = records
+        .iter()
+        .flat_map(|it| named(it))
+        .map(|(key, _)| key)
+        .collect();
+    told.retain(|key| is_told(key));
+    let differences = phase::plot::differences(records, &told).into_iter();
+    differences.map(|parts| lines(&parts)).collect()
+}
+
+/// A list in lines.
+fn lines(parts: &[String]) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for part in parts {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + part.chars().count() < LINE => {
+                line.push_str(", ");
+                line.push_str(part);
+            }
+            _ => lines.push(part.clone()),
+        }
+    }
+    lines
 }
 
 /// What the metadata of a picture says.
@@ -64,4 +115,22 @@ pub(super) fn texts(record: &RunRecord) -> Vec<(&'static str, String)> {
         ("Run", record.scene.identity()),
         ("Seed", record.scene.seed.to_string()),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Symptom: two radii had one caption. Cause: numbers were rounded to 14 digits.
+    #[test]
+    fn lengths_have_the_digits_of_their_file() {
+        for (length, expected) in [
+            (0.003, "3"),
+            (0.0023, "2.3"),
+            (0.003_000_000_000_000_01, "3.00000000000001"),
+            (1e-7, "0.0001"),
+        ] {
+            assert_eq!(millimetres(length), expected);
+        }
+    }
 }

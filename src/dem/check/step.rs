@@ -48,7 +48,8 @@ impl Scene {
         let intervals = self.intervals_of_steps();
         let divides = |dt: f64| intervals.iter().all(|(_, time)| multiple(*time, dt));
         let fits = |dt: f64| dt <= limit.seconds && divides(dt) && may_hold("time.dt", dt);
-        let help = match accepted(frame / steps, fits) {
+        let advised = accepted(frame / steps, fits);
+        let help = match &advised {
             Some(dt) => {
                 format!("use `dt = {dt}` or less: {steps} steps per frame, at most half the limit")
             }
@@ -56,7 +57,11 @@ impl Scene {
                      spheres"
                 .to_owned(),
         };
-        problems.push(Problem::new("time.dt", message).help(help));
+        let most = match advised {
+            Some(_) => frame / steps,
+            None => 0.5 * limit.seconds,
+        };
+        problems.push(Problem::new("time.dt", message).help(help).at_most(most));
     }
 
     /// The largest step that divides all intervals and keeps `safety_factor` of every limit (s).

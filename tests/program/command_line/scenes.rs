@@ -267,3 +267,67 @@ fn a_key_is_set_once() {
     }
     check(["swirl.omega=3", "time.duration=1"]).code(0);
 }
+
+/// Symptom: `--seed 3 --set seed=5` ran seed 3, and `--set x=1 --without x` set x, without a word.
+/// Cause: options that change the scene were applied one after the other, and none knew of another.
+#[test]
+fn options_that_contradict_each_other_are_refused() {
+    let place = Workplace::new();
+    place.write("scene.toml", &scene_file());
+    let run = |more: &[&str]| {
+        let run = ["run", "scene.toml", "--out", "run.h5"];
+        place.phase(&[&run[..], more].concat())
+    };
+    let (set, without) = ("--set", "--without");
+    let interval = "output.snapshot_interval";
+    for (more, one, other) in [
+        (&["--seed", "3", set, "seed=5"][..], "--seed", "--set seed"),
+        (
+            &["--trajectory", set, "output.trajectory=false"],
+            "--trajectory",
+            "--set output.trajectory",
+        ),
+        (
+            &["--ledger", set, "output={ ledger = false }"],
+            "--ledger",
+            "--set output.ledger",
+        ),
+        (
+            &[
+                "--snapshot-interval",
+                "0.1",
+                set,
+                "output.snapshot_interval=0.2",
+            ],
+            "--snapshot-interval",
+            &format!("--set {interval}"),
+        ),
+        (
+            &[set, "swirl.omega=1", without, "swirl.omega"],
+            "--set swirl.omega",
+            "--without swirl.omega",
+        ),
+        (
+            &[set, "swirl.omega=1", without, "swirl"],
+            "--set swirl.omega",
+            "--without swirl",
+        ),
+    ] {
+        let answer = run(more).code(2);
+        answer.complains(&format!("{one} and {other} "));
+        assert!(!place.path("run.h5").exists());
+    }
+    place
+        .phase(&[
+            "check",
+            "scene.toml",
+            set,
+            "swirl.omega=1",
+            without,
+            "swirl",
+        ])
+        .code(2)
+        .complains("contradict each other; leave one out");
+    // Other keys of the same table do not.
+    run(&["--ledger", "--seed", "3", set, "output.trajectory=true"]).code(0);
+}

@@ -37,8 +37,10 @@ fn a_record_that_cannot_be_written_is_a_failed_job() {
         // The others have their labels.
         assert_eq!(place.read("results/tiny/labels.csv").lines().count(), 6);
     }
+    // Symptom: the job was among those to redo, too. Cause: these were counted by their records.
     let status = place.phase(&["status", "results/tiny"]).code(0);
-    status.says("6 jobs, 5 done, 1 failed, 0 left");
+    let status = status.says("6 jobs, 5 done, 1 failed, 0 left");
+    assert!(!status.stdout.contains("to redo"), "{}", status.stdout);
     // It is tried again.
     fs::remove_dir(place.path(&path)).unwrap();
     place

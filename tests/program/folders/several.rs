@@ -197,6 +197,128 @@ fn edited_thresholds_change_all_folders_or_none() {
     assert!(after[0] != before[0] && after[1] != before[1]);
 }
 
+/// Symptom: results whose sweep.json was lost were passed over, with exit 0. Cause: a folder
+/// counted only if a file of that name could be seen in it.
+#[cfg(unix)]
+#[test]
+fn results_without_their_sweep_are_named() {
+    let place = with_a_broken_one();
+    let sweep = |name: &str| place.path(&format!("results/{name}/sweep.json"));
+    let copy = |name: &str| {
+        copy_files(
+            &place.path("results/a"),
+            &place.path(&format!("results/{name}")),
+        );
+        fs::remove_file(sweep(name)).unwrap();
+    };
+    ["b1", "b2", "b3", "b4"].into_iter().for_each(copy);
+    fs::create_dir_all(place.path("results/b4/records")).unwrap();
+    fs::rename(
+        place.path("results/b4/labels.csv"),
+        place.path("results/b4/records/0123456789abcdef.h5"),
+    )
+    .unwrap();
+    std::os::unix::fs::symlink("nowhere.json", sweep("b2")).unwrap();
+    fs::create_dir(sweep("b3")).unwrap();
+    // These are no results: files of others, and dumps with labels.
+    for name in ["d/notes.txt", "e/labels.csv", "f/dump.npy"] {
+        fs::create_dir_all(place.path("results").join(name).parent().unwrap()).unwrap();
+        place.write(&format!("results/{name}"), "of others\n");
+    }
+    fs::copy(
+        place.path("results/a/labels.csv"),
+        place.path("results/f/labels.csv"),
+    )
+    .unwrap();
+    for command in ["status", "classify", "plot"] {
+        let answer = place.phase(&[command, "results", "--json"]).code(1);
+        let entries = entries(&answer);
+        let expected = [
+            "done", "failed", "failed", "failed", "failed", "failed", "done",
+        ];
+        assert_eq!(outcomes(&entries), expected, "{command}");
+        for (name, reason) in [
+            ("b1", "this file is missing"),
+            ("b2", "this link leads nowhere"),
+            ("b3", "this is a folder"),
+            ("b4", "this file is missing"),
+        ] {
+            let found = entry(&entries, name)["reason"].as_str().unwrap();
+            let expected = format!("results/{name}/sweep.json: {reason}");
+            assert!(found.starts_with(&expected), "{found}");
+        }
+    }
+    // Named itself, such a folder is no folder of folders.
+    let answer = place.phase(&["status", "results/b2"]).code(1);
+    answer.complains("results/b2/sweep.json: this link leads nowhere");
+}
+
+/// Symptom: a folder that nobody may look into was passed over, with exit 0.
+#[cfg(unix)]
+#[test]
+fn a_folder_that_nobody_may_look_into_is_named() {
+    use std::os::unix::fs::PermissionsExt;
+    let place = with_a_broken_one();
+    let folder = place.path("results/b");
+    let allow = |mode| fs::set_permissions(&folder, fs::Permissions::from_mode(mode)).unwrap();
+    allow(0);
+    if fs::read_dir(&folder).is_ok() {
+        // The superuser may look into every folder.
+        return;
+    }
+    let answer = place.phase(&["status", "results", "--json"]);
+    allow(0o755);
+    let answer = answer.code(1).complains("check the permissions");
+    assert_eq!(outcomes(&entries(&answer)), ["done", "failed", "done"]);
+}
+
+/// Symptom: `--sweep` changed folders before it came to one whose tables cannot be written; of one
+/// with a damaged record the label was lost.
+#[test]
+fn edited_thresholds_leave_a_folder_that_cannot_have_them_as_it_was() {
+    let place = with_a_broken_one();
+    fs::remove_dir_all(place.path("results/b")).unwrap();
+    place
+        .phase(&["sweep", "tiny.toml", "--no-plot", "--out", "results/b"])
+        .code(0);
+    let edited = TinySweep {
+        more: "[sieves.settle]\ntolerance = 1e-30".to_owned(),
+        ..TinySweep::default()
+    };
+    place.write("edited.toml", &edited.text());
+    let files = || {
+        ["a", "b", "c"].map(|name| {
+            ["labels.csv", "sweep.json"].map(|file| place.read(&format!("results/{name}/{file}")))
+        })
+    };
+    let before = files();
+    let points = place.path("results/c/points.csv");
+    fs::remove_file(&points).unwrap();
+    fs::create_dir(&points).unwrap();
+    let classify = ["classify", "results", "--sweep", "edited.toml", "--json"];
+    place
+        .phase(&classify)
+        .code(1)
+        .complains("cannot write results/c/points.csv");
+    assert_eq!(files(), before);
+    fs::remove_dir(&points).unwrap();
+    let record = place.records("results/b")[0].clone();
+    place.write(&format!("results/b/records/{record}"), "broken");
+    let answer = place.phase(&classify).code(1);
+    let entries = entries(&answer);
+    assert_eq!(outcomes(&entries), ["done", "failed", "done"]);
+    let reason = entry(&entries, "b")["reason"].as_str().unwrap();
+    assert!(reason.contains("1 record cannot be labelled"), "{reason}");
+    let after = files();
+    assert_eq!(after[1], before[1]);
+    assert!(after[0] != before[0] && after[2] != before[2]);
+    // The way out that the message names.
+    let sweep = ["sweep", "tiny.toml", "--no-plot", "--out", "results/b"];
+    place.phase(&sweep).code(0);
+    place.phase(&classify).code(0);
+    assert!(files()[1] != before[1]);
+}
+
 /// Symptom: `--figure a,b` drew nothing of `b` where `a` could not be drawn.
 #[test]
 fn a_figure_that_cannot_be_drawn_does_not_stop_the_others() {

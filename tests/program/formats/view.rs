@@ -220,3 +220,28 @@ fn animations_play_the_whole_run() {
     assert_eq!(delays, [10; 21]);
     view("run.mp4").code(2).complains("a .png (APNG) or a .gif");
 }
+
+/// Symptom: two runs had one caption. Cause: captions said nothing of keys other than number,
+/// radius, rotation and seed.
+#[test]
+fn captions_tell_runs_apart() {
+    let place = run(&[]);
+    let halves_differ = |setting: &str| {
+        let run = ["run", "scene.toml", "--set", setting, "--out", "other.h5"];
+        place.phase(&run).code(0);
+        let view = [
+            "view", "run.h5", "other.h5", "--time", "0", "--color", "none",
+        ];
+        place
+            .phase(&[&view[..], &["--width", "200", "--out", "pair.png"]].concat())
+            .code(0);
+        let (width, height, _, pixels) = decode(&place, "pair.png");
+        // Legend and length, at the foot, are of both.
+        let rows = pixels.chunks(4 * width as usize);
+        let mut rows = rows.take(height as usize - 40);
+        rows.any(|row| row[..row.len() / 2] != row[row.len() / 2..])
+    };
+    // The spheres are where they were.
+    assert!(halves_differ("spheres.density=3750.00001"));
+    assert!(!halves_differ("output.snapshot_interval=2.0"));
+}

@@ -262,12 +262,9 @@ fn a_third_axis_of_a_refined_map_has_four_panels() {
     draw("phase-of-refined-three", "phase", &sweep, &table);
 }
 
-#[test]
-fn one_axis_of_a_refined_map_is_a_strip() {
-    let (mut sweep, mut table) = refined(vec![
-        axis(OMEGA, &linear(0.0, 40.0, 13)),
-        axis(RADIUS, &[0.003]),
-    ]);
+/// The figure of a refined sweep over Omega alone.
+fn refined_strip(file: &str, omegas: &[f64]) -> String {
+    let (mut sweep, mut table) = refined(vec![axis(OMEGA, omegas), axis(RADIUS, &[0.003])]);
     sweep.axes.pop();
     table.axes.pop();
     table.rows.iter_mut().for_each(|row| row.values.truncate(1));
@@ -276,6 +273,26 @@ fn one_axis_of_a_refined_map_is_a_strip() {
         .chosen
         .iter_mut()
         .for_each(|run| run.values.truncate(1));
-    let svg = draw("refined-strip", "refined", &sweep, &table);
+    draw(file, "refined", &sweep, &table)
+}
+
+#[test]
+fn one_axis_of_a_refined_map_is_a_strip() {
+    let svg = refined_strip("refined-strip", &linear(0.0, 40.0, 13));
     assert!(has(&svg, "run"));
+}
+
+/// Symptom: the first label of the horizontal axis was cut. Cause: without a vertical axis nothing
+/// made room for its half left of the panel.
+#[test]
+fn the_first_tick_label_of_a_strip_is_in_the_figure() {
+    let svg = refined_strip(
+        "refined-strip-of-long-labels",
+        &linear(1e6, 1_000_080.0, 81),
+    );
+    let label = svg.lines().find(|line| line.contains(">1000000</text>"));
+    let place = label.and_then(|it| it.split('"').nth(1)).unwrap();
+    // Half of seven digits, in tenths of pixels.
+    let half = 3.5 * 0.63 * 120.0;
+    assert!(place.parse::<f64>().unwrap() > half, "{label:?}");
 }
