@@ -268,6 +268,7 @@ fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
         effects: scene.dem.effects.build(&Targets {
             radii: &particles.radius,
             scene: scene.facts(),
+            lag: scene.time.integrator.lag() * scene.time.dt,
         }),
         shielded: scene.dem.effects.updraught.is_some(),
         driven: driven(scene),

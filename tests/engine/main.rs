@@ -11,6 +11,7 @@ mod integrators;
 mod invariants;
 mod large;
 mod ledger;
+mod lift;
 mod motion;
 mod openings;
 mod order;
