@@ -148,16 +148,9 @@ impl Simulation {
             None => advance(),
         };
         // A guard names a sphere by its index in memory.
-        result.map_err(|instability| {
-            let (index, particles) = (instability.sphere, self.engine.particles());
-            let sphere = match &self.process {
-                Some(_) => particles.number[index] as usize,
-                None => particles.place_in_scene(index),
-            };
-            Instability {
-                sphere,
-                ..instability
-            }
+        result.map_err(|instability| Instability {
+            sphere: self.engine.particles().number_in_scene(instability.sphere),
+            ..instability
         })
     }
 

@@ -17,6 +17,7 @@ mod openings;
 mod order;
 mod packing;
 mod plane_sides;
+mod prescribed;
 mod reproduction;
 mod rolling;
 #[path = "../scenes/mod.rs"]
