@@ -186,9 +186,7 @@ impl Scene {
             problems.push(Problem::new("start", message).help(help));
         }
     }
-}
 
-impl Scene {
     /// Refuses driven spheres that stay where they came in until the end of the run, as they leave
     /// no room for a later one.
     fn check_driven_at_the_feed(&self, problems: &mut Vec<Problem>) {
