@@ -95,8 +95,8 @@ fn deepest(scene: &Scene, radius: f64, [one, other]: [FixedSphere; 2]) -> Option
     (above > 0.0).then(|| [x + above * normal[0], y, z + above * normal[1]])
 }
 
-/// The elastic energy (J) of the contacts of a disc with all `fixed` discs, at a place: `of_contact`
-/// of each, by its overlap and effective radius.
+/// The elastic energy (J) of the contacts of a disc with all `fixed` discs, at a place:
+/// `of_contact` of each, by its overlap and effective radius.
 fn energy_at(
     of_contact: &dyn Fn(f64, f64) -> f64,
     radius: f64,

@@ -2,8 +2,8 @@
 //!
 //! Such a sphere has infinite inertia, so that forces leave its velocity alone. In every step it
 //! has the velocity that takes it to where its path is at the end of the step. It passes walls,
-//! fixed spheres and others of its kind: forces between them are computed, and move nothing, so that
-//! no guard looks at their overlaps.
+//! fixed spheres and others of its kind: forces between them are computed, and move nothing, so
+//! that no guard looks at their overlaps.
 //!
 //! A path names its sphere by the number in the scene. The index in memory changes when spheres
 //! come, go or are sorted, so it is found again then.

@@ -79,8 +79,8 @@ impl<'a> Partners<'a> {
         (partners, [spheres.force, spheres.torque])
     }
 
-    /// The first of these spheres, with indices counted from the first of these partners, that forces
-    /// move, and its index among all. A contact of others moves nothing, however deep it is.
+    /// The first of these spheres, with indices counted from the first of these partners, that
+    /// forces move, and its index among all. A contact of others moves nothing, however deep it is.
     #[inline(always)]
     pub(super) fn first_to_yield(&self, spheres: &[u32]) -> Option<usize> {
         let mut all = spheres.iter();

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 /// A sphere that moves along a prescribed path, whatever acts on it:
 /// x(t) = x(0) + v t + A (sin(w t + p) - sin p). It keeps the spin of its start. Others feel it as
 /// any sphere; it passes walls, fixed spheres and other driven ones. It is never removed, may leave
-/// the bounds of `guards`, and does not count when spheres are to be at rest. One that a feed lets in
-/// moves along its path from then on.
+/// the bounds of `guards`, and does not count when spheres are to be at rest. One that a feed lets
+/// in moves along its path from then on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Driven {
