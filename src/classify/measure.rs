@@ -24,9 +24,9 @@ pub enum Range {
     Any,
     /// Zero is the middle.
     Signed,
-    /// From 0 to 1: how many of a number.
+    /// From 0 to 1: how many of a number, which may be all or none by chance.
     Share,
-    /// From 0 to 1: how much of something, of which 0 in all runs is no chance.
+    /// From 0 to 1: how much of something.
     Part,
 }
 
@@ -59,7 +59,7 @@ impl Measure {
         }
     }
 
-    /// The same from 0 to 1.
+    /// The same from 0 to 1, how many.
     pub(super) const fn share(self) -> Self {
         Self {
             range: Range::Share,
@@ -67,7 +67,7 @@ impl Measure {
         }
     }
 
-    /// The same from 0 to 1, in no case by chance.
+    /// The same from 0 to 1, how much.
     pub(super) const fn part(self) -> Self {
         Self {
             range: Range::Part,

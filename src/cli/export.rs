@@ -139,13 +139,11 @@ impl Format {
 fn refuse_foreign_arrays(folder: &Path) -> Result<(), Failure> {
     let is_there = |name: &&str| folder.join(name).exists();
     match store::ARRAYS.into_iter().find(is_there) {
-        Some(name) if !store::ARRAYS.iter().all(|name| is_there(&name)) => {
-            Err(Failure::refused(format_args!(
-                "{}: this array is not of an export, which would replace it; {ANOTHER_FOLDER}, or \
+        Some(name) if !store::ARRAYS.iter().all(is_there) => Err(Failure::refused(format_args!(
+            "{}: this array is not of an export, which would replace it; {ANOTHER_FOLDER}, or \
                  move it away",
-                folder.join(name).display()
-            )))
-        }
+            folder.join(name).display()
+        ))),
         _ => Ok(()),
     }
 }

@@ -33,7 +33,7 @@ impl WeakestWall {
     /// equal the elastic energy of these contacts. Damping would require a little more, and discs
     /// that push from behind less. Both are left out.
     pub fn of_scene(scene: &Scene) -> Option<Self> {
-        scene.dem.contact.as_ref()?;
+        let elastic_energy = scene.dem.contact.as_ref()?.elastic_energy();
         let fixed = scene.dem.geometry.as_ref().map(Geometry::spheres)?;
         if scene.spheres.shape != Shape::Disc {
             return None;
@@ -53,7 +53,11 @@ impl WeakestWall {
             })
         });
         let places = places.map(|((failure, place), radius, fixed)| Self {
-            speed: speed_to(scene, radius, place, &with_door),
+            speed: {
+                let energy = energy_at(&elastic_energy, radius, place, &with_door);
+                let mass = scene.spheres.shape.mass(scene.spheres.density, radius);
+                (2.0 * energy / (mass * scene.inertial_factor())).sqrt()
+            },
             radius,
             fixed,
             failure,
@@ -91,19 +95,18 @@ fn deepest(scene: &Scene, radius: f64, [one, other]: [FixedSphere; 2]) -> Option
     (above > 0.0).then(|| [x + above * normal[0], y, z + above * normal[1]])
 }
 
-/// The speed (m/s) at which the kinetic energy of a disc equals the elastic energy of its contacts
-/// with all `fixed` discs at a place.
-fn speed_to(scene: &Scene, radius: f64, place: [f64; 3], fixed: &[FixedSphere]) -> f64 {
+/// The elastic energy (J) of the contacts of a disc with all `fixed` discs, at a place:
+/// `of_contact` of each, by its overlap and effective radius.
+fn energy_at(
+    of_contact: &dyn Fn(f64, f64) -> f64,
+    radius: f64,
+    place: [f64; 3],
+    fixed: &[FixedSphere],
+) -> f64 {
     let contacts = fixed.iter().filter_map(|fixed| {
         let overlap = radius + fixed.radius - distance(fixed.position, place);
         let effective_radius = radius * fixed.radius / (radius + fixed.radius);
-        (overlap > 0.0).then(|| elastic_energy(scene, overlap, effective_radius))
+        (overlap > 0.0).then(|| of_contact(overlap, effective_radius))
     });
-    let mass = scene.spheres.shape.mass(scene.spheres.density, radius) * scene.inertial_factor();
-    (2.0 * contacts.sum::<f64>() / mass).sqrt()
-}
-
-fn elastic_energy(scene: &Scene, overlap: f64, effective_radius: f64) -> f64 {
-    let contact = scene.dem.contact.as_ref();
-    contact.map_or(0.0, |it| it.elastic_energy()(overlap, effective_radius))
+    contacts.sum()
 }

@@ -2,7 +2,7 @@
 
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
-use crate::scene::{Scene, Tank};
+use crate::scene::{Scene, Start, Tank};
 use crate::simulation::{Guard, Instability};
 
 /// Limits beyond which a run is ended.
@@ -35,10 +35,14 @@ impl Limits {
         let widest = reach.into_iter().flatten().reduce(f64::max);
         let all_around = reach.iter().all(Option::is_some);
         let floor = scene.tank.as_ref().and_then(|tank| tank.floor);
+        let fed = match &scene.start {
+            Start::Feed { position, .. } => position[2].abs(),
+            _ => 0.0,
+        };
         let highest = particles
             .position
             .iter()
-            .fold(0.0, |most: f64, centre| most.max(centre.z.abs()));
+            .fold(fed, |most: f64, centre| most.max(centre.z.abs()));
         let mut limits = Self {
             overlap: guards.overlap,
             slow: f64::MAX,
@@ -77,7 +81,7 @@ impl Limits {
     }
 
     /// Reports the first sphere whose spin has no finite square, or whose position is not a number
-    /// or out of bounds.
+    /// or out of bounds. Spheres that stay or keep to their paths may be anywhere.
     pub(super) fn check_positions(
         &self,
         particles: &Particles,
@@ -99,7 +103,9 @@ impl Limits {
                 && centre.y.abs() <= self.horizontal
                 && centre.z.abs() <= self.vertical)
         };
-        let Some(sphere) = particles.position.iter().position(outside) else {
+        let mut all = particles.position.iter().enumerate();
+        let found = all.find(|(i, centre)| outside(centre) && !particles.is_prescribed(*i));
+        let Some((sphere, _)) = found else {
             return Ok(());
         };
         let Vector { x, y, z, .. } = particles.position[sphere];

@@ -56,8 +56,8 @@ impl std::fmt::Display for Partner {
     }
 }
 
-/// Visits every overlap of the spheres that a scene lists, if they have contacts. Other starts
-/// have none.
+/// Visits every overlap of the spheres that a scene lists, if they have contacts; but for driven
+/// ones in walls, fixed spheres and one another, as they pass them. Other starts have none.
 pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
     let Some(contact) = &scene.dem.contact else {
         return;
@@ -91,8 +91,8 @@ pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
         let distance = (position[i] - position[j]).norm();
         let sum = radius[i] + radius[j];
         let depth = sum - distance;
-        if depth > 0.0 {
-            let inverse_mass = inverse_mass[i] + inverse_mass[j];
+        let inverse_mass = inverse_mass[i] + inverse_mass[j];
+        if depth > 0.0 && inverse_mass > 0.0 {
             let effective_radius = radius[i] * radius[j] / sum;
             let [x, y, z] = [position[i].x, position[i].y, position[i].z];
             visit(Overlap {
@@ -110,7 +110,7 @@ pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
         }
     });
     for wall in walls(scene) {
-        for i in fixed..particles.len() {
+        for i in (fixed..particles.len()).filter(|i| !particles.is_prescribed(*i)) {
             let contact = wall.contact(position[i], radius[i]);
             if contact.touches && contact.overlap > 0.0 {
                 visit(Overlap {

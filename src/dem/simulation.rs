@@ -148,16 +148,9 @@ impl Simulation {
             None => advance(),
         };
         // A guard names a sphere by its index in memory.
-        result.map_err(|instability| {
-            let (index, particles) = (instability.sphere, self.engine.particles());
-            let sphere = match &self.process {
-                Some(_) => particles.number[index] as usize,
-                None => particles.place_in_scene(index),
-            };
-            Instability {
-                sphere,
-                ..instability
-            }
+        result.map_err(|instability| Instability {
+            sphere: self.engine.particles().number_in_scene(instability.sphere),
+            ..instability
         })
     }
 
@@ -268,6 +261,7 @@ fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
         effects: scene.dem.effects.build(&Targets {
             radii: &particles.radius,
             scene: scene.facts(),
+            lag: scene.time.integrator.lag() * scene.time.dt,
         }),
         shielded: scene.dem.effects.updraught.is_some(),
         driven: driven(scene),

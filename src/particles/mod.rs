@@ -196,12 +196,18 @@ impl Particles {
         }
     }
 
-    /// The place in the scene of the sphere at an index: its number, those of fixed spheres first.
-    pub(crate) fn place_in_scene(&self, index: usize) -> usize {
+    /// The number in the scene's start of the sphere at an index. Fixed ones have none.
+    pub(crate) fn number_in_scene(&self, index: usize) -> usize {
         match self.number.get(index) {
-            Some(&number) if index >= self.fixed => self.fixed + number as usize,
-            _ => index,
+            Some(&number) => number as usize,
+            None => index.saturating_sub(self.fixed),
         }
+    }
+
+    /// Whether the sphere at an index stays, or keeps to its path, whatever acts on it.
+    #[inline(always)]
+    pub(crate) fn is_prescribed(&self, index: usize) -> bool {
+        self.inverse_mass[index] == 0.0
     }
 
     /// The least index of a partner that sphere `i` may have in a list of pairs: pairs stand with

@@ -185,7 +185,7 @@ mod tests {
             "9007199254740993",
             "18446744073709551615",
         ];
-        assert_eq!(names, expected.map(|seed| [format!("seed = {seed}")]));
+        assert_eq!(names, expected.map(|seed| [format!("$seed$ = {seed}")]));
         assert_eq!(differences(&scenes.each_ref(), &["seed"]), [[""; 0]; 3]);
     }
 

@@ -119,3 +119,32 @@ impl Figure for Map {
         .draw(source)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use plotters::style::BLACK;
+
+    /// Symptom: bars of rising spheres began below none, those of holes ended beyond the tank.
+    /// Cause: only measures that were called shares had their bars between 0 and 1.
+    #[test]
+    fn bars_of_parts_stay_between_0_and_1() {
+        let ends = |name: &str, values: &[f64]| {
+            let map = MAPS.iter().find(|map| map.name == name).unwrap();
+            map.bar(0.0, values, BLACK).unwrap().ends()
+        };
+        for name in [
+            "spout-count",
+            "hole-radius",
+            "packing-fraction",
+            "discharged-share",
+        ] {
+            assert_eq!(ends(name, &[0.1, 0.9]), [0.0, 1.0], "{name}");
+            assert_eq!(ends(name, &[0.4]), [0.4, 0.4], "{name}");
+        }
+        // No run without a spout has one by chance; grains may all leave by chance.
+        assert_eq!(ends("spout-count", &[0.0; 3]), [0.0, 0.0]);
+        assert!(ends("discharged-share", &[1.0; 3])[0] < 0.5);
+        assert!(ends("settle-time", &[0.1, 0.9])[0] < 0.0);
+    }
+}

@@ -62,8 +62,8 @@ impl Motion<'_> {
 
 impl Scene {
     /// Sixteen hexadecimal digits that stand for everything which determines the motion: all keys
-    /// but `title`, `neighbours` and `output`, and the [form](Friction::form) of the laws. Runs of equal identity have equal bits, and every
-    /// random number of a run derives from it.
+    /// but `title`, `neighbours` and `output`, and the form of the laws. Runs of equal identity
+    /// have equal bits. Every random number of a run derives from it, but for the form of a law.
     pub fn identity(&self) -> String {
         self.motion().identity()
     }

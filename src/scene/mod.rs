@@ -115,6 +115,19 @@ impl Scene {
         }
     }
 
+    /// The spheres that the start lists and that move freely, with their numbers. Driven ones keep
+    /// to their paths.
+    pub(crate) fn free_listed(&self) -> impl Iterator<Item = (usize, &StartSphere)> {
+        let listed: &[StartSphere] = match &self.start {
+            Start::List { spheres } => spheres,
+            _ => &[],
+        };
+        let driven = &self.dem.driven;
+        let is_free = |number: usize| driven.iter().all(|path| path.sphere != number);
+        let numbered = listed.iter().enumerate();
+        numbered.filter(move |(number, _)| is_free(*number))
+    }
+
     /// The friction law at the walls of the tank, whose coefficient may be another. None without
     /// friction.
     pub fn friction_at_walls(&self) -> Option<Friction> {

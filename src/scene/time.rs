@@ -92,6 +92,14 @@ impl Integrator {
         Self::AdaptiveVerlet,
     ];
 
+    /// How far the velocities at which it evaluates forces lag behind the positions, in steps.
+    pub(crate) const fn lag(self) -> f64 {
+        match self {
+            Self::SymplecticEuler | Self::VelocityVerlet => 0.5,
+            Self::SynchronisedVerlet | Self::AdaptiveVerlet => 0.0,
+        }
+    }
+
     /// Name, as in a scene file.
     pub const fn name(self) -> &'static str {
         match self {

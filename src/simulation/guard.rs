@@ -10,7 +10,8 @@ pub struct Instability {
     pub step: u64,
     /// Time of that step (s).
     pub time: f64,
-    /// Index of the sphere, from 0.
+    /// Number of the sphere among those of the scene's start, from 0; in the program while it is
+    /// found, its index in memory. Fixed spheres break no guard, and do not count.
     pub sphere: usize,
     /// The value that broke the limit, and the limit.
     pub detail: String,

@@ -238,6 +238,23 @@ mod tests {
         assert!(message.ends_with("; check the path"), "{message}");
     }
 
+    #[test]
+    fn what_cannot_be_replaced_is_known_before() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table.csv");
+        check_writable(&path).unwrap();
+        assert!(names(folder.path()).is_empty());
+        fs::create_dir(&path).unwrap();
+        for (path, reason) in [
+            (path, "a file, not a folder"),
+            (folder.path().join("no/x"), "path"),
+        ] {
+            let message = check_writable(&path).unwrap_err().to_string();
+            assert!(message.starts_with("cannot write "), "{message}");
+            assert!(message.ends_with(reason), "{message}");
+        }
+    }
+
     #[cfg(unix)]
     #[test]
     fn others_may_read_what_is_written() {

@@ -310,6 +310,69 @@ fn a_fall_ends_at_the_lowest_fixed_or_driven_sphere() {
     ]);
 }
 
+/// Spheres that start beside or below what stands in the way fall past it.
+#[test]
+fn what_stands_beside_or_above_a_start_ends_no_fall() {
+    let fixed = |z: f64, key: &str| {
+        format!(
+            "{GRAVITY}geometry = {{ kind = 'list', walls = [], {key} = [
+                {{ position = [0.5, 0.0, {z:?}], radius = 0.05 }},
+            ] }}\n"
+        )
+    };
+    let wall = |z: f64| fixed(z, "walls").replacen("walls = [], ", "", 1);
+    let driven = |path: &str| {
+        let tables = format!("{GRAVITY}driven = [{{ sphere = 0, {path} }}]");
+        let spheres = [
+            "{ position = [0.0, 0.0, 0.0] }",
+            "{ position = [0.0, 0.0, 1.0] }",
+        ];
+        listed(&spheres, &tables)
+    };
+    let start = "[0.0, 0.0, 1.0]";
+    let outlet = "outlet = { height = -4.0 }\n";
+    let door = format!("{}door = {{ opens = 0.5 }}\n", fixed(0.0, "door"));
+    let spread = listed(
+        &[
+            "{ position = [0.0, 0.0, -1.0] }",
+            "{ position = [0.0, 0.0, 1.0] }",
+        ],
+        &wall(0.0),
+    );
+    for text in [
+        at(start, &wall(1.0)),
+        at(start, &wall(2.0)),
+        spread.clone(),
+        // A door is gone when it has opened.
+        at(start, &door),
+        // Driven spheres that leave to a side, or stand above.
+        driven("velocity = [0.1, 0.0, 0.0]"),
+        driven("velocity = [0.0, 0.1, -3.0]"),
+        driven("").replacen("[0.0, 0.0, 0.0]", "[0.3, 0.0, 3.0]", 1),
+    ] {
+        let refused = load(&format!("{text}time.dt = 'auto'"))
+            .unwrap_err()
+            .to_string();
+        let expected = "spheres fall with nothing below them";
+        assert!(refused.contains(expected), "{refused}: {text}");
+    }
+    expect_speeds([
+        (at(start, &wall(0.0)), fall(1.0)),
+        // What moves along gravity is seen from there.
+        (driven("velocity = [0.0, 0.0, -0.1]"), fall(1.0)),
+        // The outlet bounds the fall through a door.
+        (at(start, &format!("{door}{outlet}")), fall(1.0)),
+        (
+            at(start, &format!("{}tank = {{ floor = -1.0 }}", wall(0.0))),
+            fall(2.0),
+        ),
+    ]);
+    let through = load(&at(start, &format!("{door}{outlet}time.dt = 1e-6"))).unwrap();
+    let limits = phase::dem::timestep::limits(&through);
+    let moved = limits.iter().find(|it| it.name == "displacement").unwrap();
+    close(0.05 / moved.seconds, fall(5.0), 1e-9);
+}
+
 /// A packing stands on its floor, wherever that is.
 #[test]
 fn a_packing_falls_from_its_top_to_its_floor() {

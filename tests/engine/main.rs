@@ -11,11 +11,13 @@ mod integrators;
 mod invariants;
 mod large;
 mod ledger;
+mod lift;
 mod motion;
 mod openings;
 mod order;
 mod packing;
 mod plane_sides;
+mod prescribed;
 mod reproduction;
 mod rolling;
 #[path = "../scenes/mod.rs"]

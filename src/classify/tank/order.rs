@@ -8,7 +8,7 @@ measures! {
     /// is undefined.
     struct OrderParameters {
         /// Mean radius of the hole about the axis, over R.
-        hole_radius: measured("hole radius / $R$", ""),
+        hole_radius: measured("hole radius / $R$", "").part(),
         /// Curvature of the paraboloid z = z0 + a rho^2 fitted to the mean surface profile, as the
         /// angular velocity sqrt(2 g a) (rad/s) of the fluid that has it (Rice, 2012, eq. 40);
         /// negative for a heap. Bins count that are occupied at least half of the time; empty if

@@ -23,7 +23,7 @@ impl Reach {
 
 impl Scene {
     /// Refuses starts beyond `guards.horizontal` or `guards.vertical`: the first step would end the
-    /// run. The defaults of these keys lie beyond every start.
+    /// run. The defaults of these keys lie beyond every start. Driven spheres may be anywhere.
     pub(super) fn check_bounds(&self, problems: &mut Vec<Problem>) {
         let guards = &self.dem.guards;
         let bounds = [
@@ -60,9 +60,8 @@ impl Scene {
         };
         let [x, y] = inside(&tank);
         match &self.start {
-            Start::List { spheres } => {
-                let numbered = spheres.iter().enumerate();
-                let reach = numbered.map(|(index, sphere)| {
+            Start::List { .. } => {
+                let reach = self.free_listed().map(|(index, sphere)| {
                     let path = format!("start.spheres[{index}].position");
                     Reach::of(path, sphere.position, 0.0)
                 });

@@ -1,13 +1,16 @@
 //! Whether the spheres of a feed have room where they come in, and leave it again.
 
 use crate::dem::overlap;
+use crate::dem::process::ROUNDING;
 use crate::dem::timestep::fastest_impact;
 use crate::dem::walls::Wall;
 use crate::document::{Problem, at_most, number, rounded_down, rounded_up};
-use crate::scene::{Geometry, Scene, Start, Tank, rounded};
+use crate::particles::vector::Vector;
+use crate::scene::{FixedSphere, Geometry, Scene, Start, Tank, rounded};
+use crate::start;
 
-/// Overlaps below this share of the radius come from rounded positions.
-const ROUNDING: f64 = 1e-9;
+/// Moves beside fixed spheres in search of a clear place: more than a corner of walls needs.
+const MOST_MOVES: usize = 100;
 
 /// Where the largest sphere of a feed may come in: anywhere within `spread` (m) of a position along
 /// x.
@@ -37,37 +40,66 @@ impl Scene {
             spread,
             radius: self.radius_range().1,
         };
+        let before = problems.len();
         self.check_fixed_spheres_at(place, problems);
-        if self.misfit().is_none() {
+        // One position at a time is proposed.
+        if problems.len() == before && self.misfit().is_none() {
             self.check_walls_at(place, problems);
         }
         self.check_room_for_the_second(problems);
+        self.check_driven_at_the_feed(problems);
     }
 
     fn check_fixed_spheres_at(&self, place: Place, problems: &mut Vec<Problem>) {
-        let Place {
-            position,
-            spread,
-            radius,
-        } = place;
         let fixed = self.dem.geometry.as_ref().map(Geometry::spheres);
         let fixed = fixed.unwrap_or_default();
-        let in_the_way = fixed.walls.iter().chain(&fixed.door).find(|sphere| {
-            let [x, y, z] = std::array::from_fn(|axis| sphere.position[axis] - position[axis]);
-            let aside = (x.abs() - spread).max(0.0);
-            let reach = (radius + sphere.radius) * (1.0 - ROUNDING);
-            aside * aside + y * y + z * z < reach * reach
-        });
-        if let Some(sphere) = in_the_way {
+        let fixed = [fixed.walls, fixed.door].concat();
+        if let Some(sphere) = place.in_the_way(&fixed) {
             let [x, _, z] = sphere.position;
             let message = format!(
                 "spheres of radius {} m come in where a fixed one stands, at ({}, {}) m",
-                number(radius),
+                number(place.radius),
                 rounded(x),
                 rounded(z)
             );
-            problems.push(Problem::new("start.position", message).help("move it away from there"));
+            let help = match self.clear_of_fixed(place, &fixed) {
+                Some(clear) => format!("use `position = [{}]`", clear.map(number).join(", ")),
+                None => "move it away from there".to_owned(),
+            };
+            problems.push(Problem::new("start.position", message).help(help));
         }
+    }
+
+    /// The nearest position beside, below or above a place at which neither fixed spheres nor walls
+    /// are in the way, if there is one with all of the spread; to six digits.
+    fn clear_of_fixed(&self, place: Place, fixed: &[FixedSphere]) -> Option<[f64; 3]> {
+        let mut start = place;
+        if let Some(tank) = self.tank.as_ref()
+            && self.fault_at(place.position, place.radius).is_some()
+        {
+            start.position = place.clear_of(tank);
+        }
+        let ways = [(0, -1.0), (0, 1.0), (2, -1.0), (2, 1.0)];
+        let found = ways.into_iter().filter_map(|(axis, sign)| {
+            let mut place = start;
+            for _ in 0..MOST_MOVES {
+                match place.in_the_way(fixed) {
+                    Some(sphere) => place.position[axis] = place.beyond(sphere, axis, sign),
+                    None => break,
+                }
+            }
+            let [x, y, z] = place.position;
+            let is_free = |x: f64| self.fault_at([x, y, z], place.radius).is_none();
+            let is_clear = place.in_the_way(fixed).is_none() && is_free(x);
+            let has_room = is_free(x - place.spread) && is_free(x + place.spread);
+            is_clear.then_some((has_room, place.position))
+        });
+        let way = |it: [f64; 3]| (Vector::from(it) - Vector::from(place.position)).norm();
+        let nearest = found.min_by(|(room, one), (other_room, other)| {
+            let order = other_room.cmp(room);
+            order.then(way(*one).total_cmp(&way(*other)))
+        });
+        nearest.map(|(_, position)| position)
     }
 
     fn check_walls_at(&self, place: Place, problems: &mut Vec<Problem>) {
@@ -154,9 +186,68 @@ impl Scene {
             problems.push(Problem::new("start", message).help(help));
         }
     }
+
+    /// Refuses driven spheres that stay where they came in until the end of the run, as they leave
+    /// no room for a later one.
+    fn check_driven_at_the_feed(&self, problems: &mut Vec<Problem>) {
+        let (Start::Feed { interval, .. }, false) = (&self.start, self.dem.driven.is_empty())
+        else {
+            return;
+        };
+        let Ok(spheres) = start::place(self) else {
+            return;
+        };
+        for (k, path) in self.dem.driven.iter().enumerate() {
+            let number = path.sphere;
+            let time = self.time.duration - number as f64 * interval;
+            let way = path.farthest(time);
+            let stays_in_the_way = |later: usize| {
+                let apart = (spheres.position[number] - spheres.position[later]).norm();
+                apart + way < spheres.radius[number] + spheres.radius[later]
+            };
+            if let Some(later) = (number + 1..spheres.len()).find(|it| stays_in_the_way(*it)) {
+                let message = format!(
+                    "the driven sphere {number} stays where sphere {later} is to come in, which \
+                     waits for ever"
+                );
+                let help = "give it a `velocity` that takes it away, or drive the last sphere";
+                problems.push(Problem::new(format!("driven[{k}]"), message).help(help));
+            }
+        }
+    }
 }
 
 impl Place {
+    /// The first of these spheres that overlaps what comes in.
+    fn in_the_way<'a>(&self, fixed: &'a [FixedSphere]) -> Option<&'a FixedSphere> {
+        fixed.iter().find(|sphere| {
+            let [aside, y, z] = self.offset(sphere);
+            let reach = (self.radius + sphere.radius) * (1.0 - ROUNDING);
+            aside * aside + y * y + z * z < reach * reach
+        })
+    }
+
+    /// How far a sphere is from the nearest centre of what comes in, along each axis (m).
+    fn offset(&self, sphere: &FixedSphere) -> [f64; 3] {
+        let [x, y, z] = [0, 1, 2].map(|axis| (sphere.position[axis] - self.position[axis]).abs());
+        [(x - self.spread).max(0.0), y, z]
+    }
+
+    /// The coordinate (m) along an axis at which what comes in is just beyond a sphere, on the side
+    /// of that sign.
+    fn beyond(&self, sphere: &FixedSphere, axis: usize, sign: f64) -> f64 {
+        let reach = self.radius + sphere.radius;
+        let mut offset = self.offset(sphere);
+        offset[axis] = 0.0;
+        let along = (reach * reach - Vector::from(offset).norm_squared()).max(0.0);
+        let spread = if axis == 0 { self.spread } else { 0.0 };
+        let place = sphere.position[axis] + sign * (along.sqrt() + spread);
+        match sign > 0.0 {
+            true => rounded_up(place),
+            false => rounded_down(place),
+        }
+    }
+
     /// The nearest position at which walls and floor are not in the way, with as much of the spread
     /// as there is room for; to six digits.
     fn clear_of(&self, tank: &Tank) -> [f64; 3] {

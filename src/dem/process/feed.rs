@@ -4,6 +4,10 @@ use crate::dem::system::Engine;
 use crate::particles::Sphere;
 use std::collections::VecDeque;
 
+/// Overlaps with fixed spheres below this share of the radii come from rounded positions, and do
+/// not hold back what comes in.
+pub(in crate::dem) const ROUNDING: f64 = 1e-9;
+
 /// Spheres that come in one after the other, at one place.
 #[derive(Default)]
 pub(in crate::dem) struct Feed {
@@ -57,12 +61,14 @@ impl Feed {
         }
         let particles = engine.particles();
         let is_free = |sphere: &Sphere| {
-            let spheres = particles.position.iter().zip(&particles.radius);
-            let mut apart = spheres.map(|(&centre, radius)| {
-                let reach = sphere.radius + radius;
-                (centre - sphere.position).norm_squared() >= reach * reach
-            });
-            apart.all(|apart| apart)
+            (0..particles.len()).all(|i| {
+                let share = match i < particles.fixed {
+                    true => 1.0 - ROUNDING,
+                    false => 1.0,
+                };
+                let reach = (sphere.radius + particles.radius[i]) * share;
+                (particles.position[i] - sphere.position).norm_squared() >= reach * reach
+            })
         };
         if let Some(sphere) = self.waiting.pop_front_if(|sphere| is_free(sphere)) {
             engine.insert(&sphere);

@@ -9,7 +9,7 @@ mod leak;
 mod rest;
 mod state;
 
-pub(super) use feed::Feed;
+pub(super) use feed::{Feed, ROUNDING};
 pub(super) use leak::wall_pairs;
 pub(super) use state::ProcessState;
 

@@ -12,6 +12,7 @@ mod walls;
 use super::contact_geometry::{ContactGeometry, Roots};
 use super::contact_laws::{ContactForce, Laws, LoadedContact};
 use super::contact_state::{ContactState, EarlierMotion, SphereProperties};
+use super::contact_task::TooDeep;
 use super::lanes::{PropertyColumns, WallContactColumns};
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{History, TangentialLaw, Turning};
@@ -262,16 +263,20 @@ impl<H: History> ContactBlock<H> {
         }
     }
 
-    /// The first of these contacts that is beyond the overlap limit: its lane and overlap.
+    /// The first of these contacts that is beyond the overlap limit: its sphere and overlap.
+    /// `sphere_of` tells the sphere of a lane, if it has one that yields.
     #[inline(always)]
-    pub(super) fn first_too_deep(&self, contacts: usize) -> Option<(usize, f64)> {
+    pub(super) fn first_too_deep(
+        &self,
+        contacts: usize,
+        sphere_of: impl Fn(usize) -> Option<usize>,
+    ) -> TooDeep {
         let any = |any, &overlap: &f64| any | (overlap != NOT_DEEP);
         if !self.too_deep.iter().fold(false, any) {
             return None;
         }
-        (0..contacts)
-            .find(|&k| self.too_deep[k] != NOT_DEEP)
-            .map(|k| (k, self.too_deep[k]))
+        let mut deep = (0..contacts).filter(|&k| self.too_deep[k] != NOT_DEEP);
+        deep.find_map(|k| Some((sphere_of(k)?, self.too_deep[k])))
     }
 }
 

@@ -24,23 +24,12 @@ use fearless_simd::{Level, Simd};
 #[derive(Clone, Copy)]
 pub(super) struct ContactSettings<N, T> {
     pub(super) laws: Laws<N, T>,
-    /// Number of spheres that never move: the first ones.
-    pub(super) fixed: u32,
     /// The properties of all spheres, if they are alike.
     pub(super) alike: Option<SphereProperties>,
     /// Whether nearly all near pairs touch. The others are then computed too, with a force of zero.
     pub(super) mostly_touch: bool,
     /// Whether the histories of pairs exceed the caches, and are prefetched.
     pub(super) prefetched: bool,
-}
-
-impl<N, T> ContactSettings<N, T> {
-    /// The sphere of a pair that moves: the first, if both do.
-    fn moving_sphere(&self, partners: &Partners<'_>, pair: NearPair) -> usize {
-        let [i, j] = pair.sides().map(|it| it + partners.first);
-        let sphere = if i < self.fixed { j } else { i };
-        sphere as usize
-    }
 }
 
 /// Candidates for contacts, each with its history.
@@ -224,11 +213,10 @@ impl<'a, H: History> ContactTask<'a, H> {
                 block.store_pair_histories(simd, histories, lanes.entries);
                 block.scatter_to_pairs::<S, T>(simd, lanes, &mut self.sums);
                 // The thread of the first sphere reports a pair that crosses.
-                if let (Some((k, overlap)), PairKind::Own) =
-                    (block.first_too_deep(lanes.count), kind)
-                {
-                    let sphere = settings.moving_sphere(partners, lanes.pairs[k]);
-                    self.too_deep[0].get_or_insert((sphere, overlap));
+                if kind == PairKind::Own {
+                    let sphere_of = |k: usize| partners.first_to_yield(&lanes.pairs[k].sides());
+                    let found = block.first_too_deep(lanes.count, sphere_of);
+                    self.too_deep[0] = self.too_deep[0].or(found);
                 }
             }
         }
@@ -270,9 +258,9 @@ impl<'a, H: History> ContactTask<'a, H> {
             block.apply_laws_at_wall(&laws);
             block.store_histories(simd, histories, |k| k);
             block.scatter_to_spheres::<S, T>(simd, lanes, spheres.len(), &mut self.sums);
-            if let Some((k, overlap)) = block.first_too_deep(spheres.len()) {
-                self.too_deep[1 + place].get_or_insert((spheres[k].i as usize, overlap));
-            }
+            let sphere_of = |k: usize| partners.first_to_yield(&[lanes[k].i]);
+            let found = block.first_too_deep(spheres.len(), sphere_of);
+            self.too_deep[1 + place] = self.too_deep[1 + place].or(found);
         }
     }
 }

@@ -1,7 +1,9 @@
 //! Spheres that move along prescribed paths.
 //!
 //! Such a sphere has infinite inertia, so that forces leave its velocity alone. In every step it
-//! has the velocity that takes it to where its path is at the end of the step.
+//! has the velocity that takes it to where its path is at the end of the step. It passes walls,
+//! fixed spheres and others of its kind: forces between them are computed, and move nothing, so
+//! that no guard looks at their overlaps.
 //!
 //! A path names its sphere by the number in the scene. The index in memory changes when spheres
 //! come, go or are sorted, so it is found again then.
@@ -18,11 +20,10 @@ pub(super) fn find(paths: &[Driven], particles: &mut Particles) -> Vec<(usize, u
     if paths.is_empty() {
         return Vec::new();
     }
-    let number = |i: usize| match particles.number.get(i) {
-        Some(&number) => number as usize,
-        None => i - particles.fixed,
+    let path_of = |i| {
+        let number = particles.number_in_scene(i);
+        paths.binary_search_by_key(&number, |path| path.sphere)
     };
-    let path_of = |i| paths.binary_search_by_key(&number(i), |path| path.sphere);
     let moving = particles.fixed..particles.len();
     let found: Vec<_> = moving.filter_map(|i| Some((i, path_of(i).ok()?))).collect();
     for &(sphere, _) in &found {

@@ -187,7 +187,6 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     pub(super) fn settings(&self) -> ContactSettings<N, T> {
         ContactSettings {
             laws: self.laws(),
-            fixed: self.particles.fixed as u32,
             alike: self.alike,
             mostly_touch: self.neighbours.near.mostly_touch(),
             prefetched: exceed_caches(&self.pair_history),

@@ -79,6 +79,15 @@ impl<'a> Partners<'a> {
         (partners, [spheres.force, spheres.torque])
     }
 
+    /// The first of these spheres, with indices counted from the first of these partners, that
+    /// forces move, and its index among all. A contact of others moves nothing, however deep it is.
+    #[inline(always)]
+    pub(super) fn first_to_yield(&self, spheres: &[u32]) -> Option<usize> {
+        let mut all = spheres.iter();
+        let yielding = all.find(|sphere| self.inverse_mass[**sphere as usize] > 0.0);
+        yielding.map(|sphere| (sphere + self.first) as usize)
+    }
+
     /// Pairs with indices counted from the first of these partners. `buffer` holds them, if they
     /// differ from the given ones.
     #[inline(always)]

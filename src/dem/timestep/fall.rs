@@ -1,6 +1,5 @@
 //! The fall along gravity: from the highest start to what ends it.
 
-use super::fastest::free_spheres;
 use crate::scene::{Driven, Gravity, Scene, Start, StartSphere};
 
 /// Where nothing bounds the speeds of spheres.
@@ -164,9 +163,9 @@ impl Way {
         let side = self.side.unwrap_or(0.0);
         match &scene.start {
             Start::Random { z_min, z_max, .. } => self.top(side, [*z_min, *z_max]),
-            Start::List { spheres } => {
-                let free = free_spheres(scene, spheres);
-                let heights = free.map(|it| self.height(it.position[0], it.position[2]));
+            Start::List { .. } => {
+                let free = scene.free_listed();
+                let heights = free.map(|(_, it)| self.height(it.position[0], it.position[2]));
                 heights.reduce(f64::max).unwrap_or(0.0)
             }
             Start::Feed {

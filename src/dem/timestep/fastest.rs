@@ -46,17 +46,6 @@ impl Fastest {
     }
 }
 
-/// The spheres that a scene lists, without the driven ones, which keep to their paths.
-pub(super) fn free_spheres<'a>(
-    scene: &'a Scene,
-    spheres: &'a [StartSphere],
-) -> impl Iterator<Item = &'a StartSphere> {
-    let driven = &scene.dem.driven;
-    let is_free = |k: usize| driven.iter().all(|path| path.sphere != k);
-    let numbered = spheres.iter().enumerate();
-    numbered.filter_map(move |(k, sphere)| is_free(k).then_some(sphere))
-}
-
 fn norm(vector: [f64; 3]) -> f64 {
     vector.iter().map(|part| part * part).sum::<f64>().sqrt()
 }
@@ -66,10 +55,10 @@ fn start_speed(scene: &Scene) -> f64 {
     match &scene.start {
         // Two spheres may meet with opposite velocities.
         Start::Random { speed, .. } => 2.0 * 3.0_f64.sqrt() * speed,
-        Start::List { spheres } => {
+        Start::List { .. } => {
             let (mut low, mut high) = ([f64::MAX; 3], [f64::MIN; 3]);
             let mut fastest = None;
-            for StartSphere { velocity, .. } in free_spheres(scene, spheres) {
+            for (_, StartSphere { velocity, .. }) in scene.free_listed() {
                 fastest = Some(norm(*velocity).max(fastest.unwrap_or(0.0)));
                 for axis in 0..3 {
                     low[axis] = low[axis].min(velocity[axis]);

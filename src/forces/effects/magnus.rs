@@ -38,15 +38,18 @@ impl Magnus {
     }
 }
 
-/// Largest angle (rad) by which the lift should turn a velocity in a step. The lift should not
-/// change the speed; in schemes that use the velocity of half a step before, it grows by 1 % per
-/// radian at this angle.
+/// Largest angle t (rad) by which the lift should turn a velocity in a step. Symplectic Euler and
+/// velocity Verlet then keep the speed, and turn by t^2 / 12 of the angle too little. In the other
+/// schemes the speed grows by t^3 / 4 per radian, 2 millionths at this angle.
 const LARGEST_TURN: f64 = 0.02;
 
 impl EffectKeys for Magnus {
     fn effect(&self, all: &Effects, targets: &Targets<'_>) -> Option<Box<dyn Effect>> {
+        let density = targets.scene.density;
         Some(Box::new(Lift {
-            ratio: self.ratio(targets.scene.density),
+            ratio: self.ratio(density),
+            inertial_factor: 1.0 + all.added_mass_ratio(density),
+            lag: targets.lag,
             rotation: all.swirl.as_ref().map_or(0.0, |swirl| swirl.omega),
         }))
     }
@@ -63,7 +66,8 @@ impl EffectKeys for Magnus {
                           of the smallest sphere that rolls at the speed of the fastest impact; \
                           and of the air",
             consequence: Some(
-                "the lift, which should only turn velocities, makes spinning spheres faster",
+                "the lift turns velocities by wrong angles, and in schemes that predict velocities \
+                 it makes spinning spheres faster",
             ),
         })
     }
@@ -82,11 +86,31 @@ impl EffectKeys for Magnus {
 /// the viscous torque, which is [`SpinDamping`](super::SpinDamping)'s. Lift beyond small Re:
 /// Oesterlé and Bui Dinh, Exp. Fluids 25, 16 (1998), C = C_L / 2 where r |w| = |u|. Air in rigid
 /// rotation has at each place the velocity Omega x r and the spin Omega.
+///
+/// The lift does no work. Where velocities lag behind the forces, it takes the mean of those before
+/// and after the kick, which keeps this so (Boris, Proc. 4th Conf. Num. Sim. Plasmas, 3 (1970)). It
+/// comes after all other forces on centres, which it needs for this mean.
 struct Lift {
     /// C pi r^3 rho / m.
     ratio: f64,
+    /// Inertial mass over mass.
+    inertial_factor: f64,
+    /// How far velocities lag behind the forces (s): half a kick, or zero.
+    lag: f64,
     /// Omega (rad/s).
     rotation: f64,
+}
+
+impl Lift {
+    /// The velocity u (m/s) after the time h of the lag: u = `velocity` + h (`force` / m + W x u),
+    /// with W for a spin of `spin` (rad/s), the forces so far (N) and the inertial mass m (kg).
+    #[inline(always)]
+    fn mean_velocity(&self, velocity: Vector, spin: Vector, force: Vector, mass: f64) -> Vector {
+        let pushed = velocity + force * (self.lag / mass);
+        let turn = spin * (self.lag * self.ratio / self.inertial_factor);
+        let turned = pushed + turn.cross(pushed) + turn * turn.dot(pushed);
+        turned * (1.0 / (1.0 + turn.norm_squared()))
+    }
 }
 
 impl OneBody for Lift {
@@ -103,8 +127,13 @@ impl OneBody for Lift {
             let air = Vector::new(-self.rotation * y[k], self.rotation * x[k], 0.0);
             let air_spin = Vector::new(0.0, 0.0, self.rotation);
             let (velocity, spin) = (bodies.velocity.vector(k), bodies.spin.vector(k));
-            let across = (spin - air_spin).cross(velocity - air);
-            let force = across * (self.ratio * bodies.mass[k]);
+            let (spin, mut velocity) = (spin - air_spin, velocity - air);
+            if self.lag > 0.0 {
+                let (force, mass) = (Vector::new(fx[k], fy[k], fz[k]), bodies.mass[k]);
+                let mass = mass * self.inertial_factor;
+                velocity = self.mean_velocity(velocity, spin, force, mass);
+            }
+            let force = spin.cross(velocity) * (self.ratio * bodies.mass[k]);
             fx[k] += force.x;
             fy[k] += force.y;
             fz[k] += force.z;

@@ -114,6 +114,8 @@ pub(crate) struct Targets<'a> {
     pub(crate) radii: &'a [f64],
     /// The scene that the spheres are in.
     pub(crate) scene: SceneFacts,
+    /// How far the velocities that effects read lag behind their forces (s).
+    pub(crate) lag: f64,
 }
 
 /// The table of an effect in a scene.
@@ -426,6 +428,7 @@ mod tests {
                 density: 1.0,
                 rotates: true,
             },
+            lag: 0.0,
         });
         let particles = Particles::default();
         let energies = built.iter().map(|(_, effect)| effect.energy(&particles));

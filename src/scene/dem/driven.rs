@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 
 /// A sphere that moves along a prescribed path, whatever acts on it:
 /// x(t) = x(0) + v t + A (sin(w t + p) - sin p). It keeps the spin of its start. Others feel it as
-/// any sphere. It is never removed, and does not count when spheres are to be at rest. One that a
-/// feed lets in moves along its path from then on.
+/// any sphere; it passes walls, fixed spheres and other driven ones. It is never removed, may leave
+/// the bounds of `guards`, and does not count when spheres are to be at rest. One that a feed lets
+/// in moves along its path from then on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Driven {
@@ -38,6 +39,13 @@ impl Driven {
         let sine = |time: f64| libm::sin(self.angular_frequency * time + self.phase);
         let swing = (sine(to) - sine(from)) / (to - from);
         Vector::from(self.velocity) + Vector::from(self.amplitude) * swing
+    }
+
+    /// How far from its start it may come within a time (s), at most (m).
+    pub(crate) fn farthest(&self, time: f64) -> f64 {
+        let swings = self.angular_frequency != 0.0;
+        let swing = if swings { 2.0 } else { 0.0 } * Vector::from(self.amplitude).norm();
+        Vector::from(self.velocity).norm() * time + swing
     }
 
     /// The fastest that it may be (m/s).

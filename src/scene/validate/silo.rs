@@ -182,12 +182,10 @@ impl Scene {
         };
         let start = match &self.start {
             Start::Feed { position, .. } => Some(position[2]),
-            Start::List { spheres } => {
-                // Driven spheres never leave.
-                let is_free =
-                    |number: &usize| self.dem.driven.iter().all(|path| path.sphere != *number);
-                let free = spheres.iter().enumerate().filter(|(k, _)| is_free(k));
-                free.map(|(_, it)| it.position[2]).reduce(f64::min)
+            // Driven spheres never leave.
+            Start::List { .. } => {
+                let heights = self.free_listed().map(|(_, it)| it.position[2]);
+                heights.reduce(f64::min)
             }
             Start::Random { z_min, .. } => Some(*z_min),
             Start::Packing {} | Start::File { .. } => None,
