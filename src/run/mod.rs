@@ -4,23 +4,22 @@ mod edits;
 mod load;
 mod models;
 mod packed;
+mod recorder;
 mod state;
 mod steady;
 
 pub use edits::Edits;
 pub(crate) use load::{Reading, base_of_completed, base_of_document, base_of_tree, load_base_with};
 pub use models::model_of;
+pub use recorder::{EndOfRun, FrameInfo, Recorder};
 pub use state::frame_of_state;
 
 use crate::cpu_time;
-use crate::observe::{Observer, Snapshot};
-use crate::record::{Outcome, Program, RunRecord};
+use crate::record::{Outcome, RunRecord};
 use crate::scene::Scene;
-use crate::simulation::{BuildError, Counts, Milestone, MilestoneKind, Profile, Simulation};
+use crate::simulation::{BuildError, Counts, Profile, Simulation};
 use rayon::ThreadPoolBuildError;
-use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
-use steady::SteadyTest;
 
 /// How far a run is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +74,8 @@ pub fn run(
     Ok(run.finish())
 }
 
-/// A run under way, to be advanced frame by frame; on one thread, if it is not asked to use more.
+/// A run under way: a simulation and the recorder of its frames, to be advanced frame by frame; on
+/// one thread, if it is not asked to use more.
 ///
 /// ```
 /// # let scene: phase::scene::Scene = toml::from_str(r#"
@@ -101,30 +101,15 @@ pub fn run(
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Run {
-    scene: Scene,
     simulation: Box<dyn Simulation>,
-    results: Results,
+    recorder: Recorder,
     outcome: Outcome,
     frame: u64,
     frames: u64,
-    /// Present in a scene that ends when it is steady.
-    steady_test: Option<SteadyTest>,
-    /// Since when the run is steady, once it is (s).
-    steady_since: Option<f64>,
-    /// Absent where none but that of the end is asked for.
-    frames_per_snapshot: Option<u64>,
     /// Processor time that the run took before `started` (s).
     cpu_seconds_before: f64,
     /// Processor time of this thread when the run began or was restored (s).
     started: f64,
-}
-
-/// What a run has found so far.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-struct Results {
-    observer: Observer,
-    snapshots: Vec<Snapshot>,
-    trajectory: Vec<Snapshot>,
 }
 
 impl Run {
@@ -145,22 +130,13 @@ impl Run {
     }
 
     fn begin(scene: &Scene, simulation: Box<dyn Simulation>, started: f64) -> Self {
-        let ratio = scene.output.snapshot_interval / scene.time.frame_interval;
-        let frames_per_snapshot = (ratio > 0.0).then(|| (ratio.round() as u64).max(1));
+        let (radius, mass) = (simulation.radius(), simulation.mass());
         let mut run = Self {
-            scene: scene.clone(),
-            results: Results {
-                observer: Observer::new(scene, simulation.radius()).with_own(simulation.columns()),
-                snapshots: Vec::new(),
-                trajectory: Vec::new(),
-            },
-            steady_test: SteadyTest::new(scene, simulation.radius(), simulation.mass()),
-            steady_since: None,
+            recorder: Recorder::new(scene, radius, mass, simulation.columns()),
             simulation,
             outcome: Outcome::Completed,
             frame: 0,
             frames: scene.time.frames(),
-            frames_per_snapshot,
             cpu_seconds_before: 0.0,
             started,
         };
@@ -170,7 +146,7 @@ impl Run {
 
     /// The scene.
     pub fn scene(&self) -> &Scene {
-        &self.scene
+        self.recorder.scene()
     }
 
     /// Advances to the next frame, or to the guard that is broken before it. A run that has ended
@@ -214,7 +190,7 @@ impl Run {
     /// is broken, or nothing more will happen.
     pub fn ended(&self) -> bool {
         self.frame == self.frames
-            || self.steady_since.is_some()
+            || self.recorder.is_steady()
             || self.is_unstable()
             || self.simulation.ended()
     }
@@ -242,38 +218,20 @@ impl Run {
     /// The record of the run, of all frames so far.
     pub fn finish(mut self) -> RunRecord {
         if self.ended() {
-            // A large scene takes most memory now, before the last snapshot.
+            // A large scene takes most memory now, before the last state is kept.
             self.simulation.release_memory();
-            self.take_snapshot();
+            let (time, recorder) = (self.simulation.time(), &mut self.recorder);
+            self.simulation.look(&mut |frame| recorder.end(time, frame));
         }
-        let cpu_seconds = self.cpu_seconds();
-        let milestones = self.milestones();
-        let Results {
-            observer,
-            snapshots,
-            trajectory,
-        } = self.results;
-        RunRecord {
-            scene: self.scene,
-            program: Program::current(),
-            outcome: self.outcome,
+        let end = EndOfRun {
+            cpu_seconds: self.cpu_seconds(),
             radius: self.simulation.radius().to_vec(),
             mass: self.simulation.mass().to_vec(),
-            milestones,
-            observations: observer.finish(),
-            snapshots,
-            trajectory,
+            milestones: self.simulation.milestones().to_vec(),
             work: self.simulation.work(),
-            cpu_seconds,
-        }
-    }
-
-    /// Scenes that end when they are steady have no others.
-    fn milestones(&self) -> Vec<Milestone> {
-        let kind = MilestoneKind::Steady;
-        let steady = self.steady_since.map(|time| Milestone { kind, time });
-        let milestones = self.simulation.milestones().iter().copied();
-        milestones.chain(steady).collect()
+            outcome: self.outcome,
+        };
+        self.recorder.finish(end)
     }
 
     fn cpu_seconds(&self) -> f64 {
@@ -281,36 +239,20 @@ impl Run {
         self.cpu_seconds_before + (cpu_time::of_this_thread() - self.started) + of_others
     }
 
-    fn take_snapshot(&mut self) {
-        let time = self.simulation.time();
-        let snapshots = &mut self.results.snapshots;
-        self.simulation
-            .look(&mut |frame| snapshots.push(Snapshot::take(time, frame)));
-    }
-
-    /// Looks at the present frame, and keeps of it what the scene's output asks for.
+    /// Shows the present frame to the recorder.
     pub(crate) fn look(&mut self) {
-        let (broken, mut ended) = (self.is_unstable(), self.ended());
-        let time = self.simulation.time();
+        let is_broken = self.is_unstable();
         let own = self.simulation.values();
-        let results = &mut self.results;
-        self.simulation.look(&mut |frame| {
-            if !broken {
-                results.observer.observe_own(&own);
-                results.observer.observe(time, frame);
-                if let Some(test) = &self.steady_test {
-                    self.steady_since = test.since(self.frame, results.observer.observations());
-                    ended |= self.steady_since.is_some();
-                }
-            }
-            // That of the end is taken last of all.
-            let due = |frames| self.frame.is_multiple_of(frames);
-            if !ended && self.frames_per_snapshot.is_some_and(due) {
-                results.snapshots.push(Snapshot::take(time, frame));
-            }
-            if self.scene.output.trajectory {
-                results.trajectory.push(Snapshot::take(time, frame));
-            }
+        let info = FrameInfo {
+            frame: self.frame,
+            time: self.simulation.time(),
+            own: &own,
+            is_last: self.ended(),
+        };
+        let recorder = &mut self.recorder;
+        self.simulation.look(&mut |frame| match is_broken {
+            true => recorder.record_broken(info.time, frame),
+            false => recorder.record(info, frame),
         });
     }
 }

@@ -1,9 +1,10 @@
 //! The state of a run between two frames, as a checkpoint keeps it.
 //!
-//! The run's own part comes first (frame, processor time, results so far), then that of the
+//! The run's own part comes first (frame, processor time, what is kept so far), then that of the
 //! simulation, which alone knows its form.
 
-use super::{Results, Run};
+use super::Run;
+use super::recorder::Recorded;
 use crate::cpu_time;
 use crate::record::Outcome;
 use crate::simulation::StateError;
@@ -24,7 +25,7 @@ impl Run {
         if self.is_unstable() {
             return Err(io::Error::other("a guard ended the run"));
         }
-        let own = (self.frame, self.cpu_seconds(), &self.results);
+        let own = (self.frame, self.cpu_seconds(), self.recorder.recorded());
         postcard::to_io(&own, &mut *to).map_err(io::Error::other)?;
         self.simulation.save(to)
     }
@@ -35,14 +36,13 @@ impl Run {
     /// # Errors
     /// If the state cannot be one of this scene. The run is then as it was.
     pub fn restore(&mut self, state: &[u8]) -> Result<(), StateError> {
-        let own: (u64, f64, Results);
+        let own: (u64, f64, Recorded);
         let simulation;
         (own, simulation) = postcard::take_from_bytes(state).map_err(|_| StateError::OTHER_FORM)?;
         self.simulation.restore(simulation)?;
-        (self.frame, self.cpu_seconds_before, self.results) = own;
-        let observations = self.results.observer.observations();
-        let test = self.steady_test.as_ref();
-        self.steady_since = test.and_then(|it| it.since(self.frame, observations));
+        let recorded;
+        (self.frame, self.cpu_seconds_before, recorded) = own;
+        self.recorder.restore(self.frame, recorded);
         self.started = cpu_time::of_this_thread();
         Ok(())
     }

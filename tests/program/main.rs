@@ -26,6 +26,7 @@ mod model;
 mod packing_fraction;
 mod plot;
 mod published;
+mod recorder;
 mod records;
 mod refine;
 mod resume;
