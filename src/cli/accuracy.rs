@@ -9,7 +9,7 @@ use phase::record::{Program, RunRecord};
 use phase::store;
 use phase::study::accuracy::{self, AccuracyStudy, Evaluation, Subject, write_accuracy};
 use phase::study::comparison::{Comparing, Comparison, KnownRuns, Report, read_runs};
-use phase::sweep::{Axis, Job, describe};
+use phase::sweep::{Axis, Job, LocalThreads, describe};
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -146,9 +146,8 @@ pub(super) fn run(
                 comparison,
                 folder: &place.folder,
                 others: &others,
-                workers: options.workers(),
-                stop: place.stop,
-                watch,
+                backend: &LocalThreads::new(options.workers()),
+                wishes: place.wishes(watch),
             };
             comparing.run(rows)
         });

@@ -8,7 +8,7 @@ use phase::plot::stability as figure;
 use phase::record::{Program, RunRecord};
 use phase::scene::Integrator;
 use phase::study::stability::{self, Label, Report, Row, Study, Trials};
-use phase::sweep::{Job, describe};
+use phase::sweep::{Job, LocalThreads, Wishes, describe};
 use serde::Serialize;
 use std::collections::{BTreeMap, HashSet};
 use std::path::{Path, PathBuf};
@@ -52,9 +52,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         study: &study,
         jobs: &jobs,
         table: &table,
-        workers: options.workers(),
-        stop: place.stop,
-        watch: &|_| {},
+        backend: &LocalThreads::new(options.workers()),
+        wishes: place.wishes(&|_| {}),
     };
     let (report, seconds) = run(&trials, known, console)?;
     let tried = Tried::all(&study, &report.rows);
@@ -192,7 +191,13 @@ fn run(trials: &Trials<'_>, known: Vec<Row>, console: &Console) -> Result<(Repor
     let rows = known.clone();
     let (report, seconds) =
         study::with_progress(trials.jobs, &is_known, &name, &ended, console, |watch| {
-            let trials = Trials { watch, ..*trials };
+            let trials = Trials {
+                wishes: Wishes {
+                    watch,
+                    ..trials.wishes
+                },
+                ..*trials
+            };
             trials.run(rows)
         });
     Ok((report.map_err(Failure::failed)?, seconds))

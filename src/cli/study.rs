@@ -9,7 +9,7 @@ use phase::cost::{Forecast, Leaves, forecast};
 use phase::record::RunRecord;
 use phase::store::{self, Lock};
 use phase::study::comparison::Comparison;
-use phase::sweep::{self as sweeps, Axis, Event, Folder, FolderError, Job, describe, work};
+use phase::sweep::{self as sweeps, Axis, Event, Folder, FolderError, Job, Wishes, describe, work};
 use serde::Serialize;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -90,6 +90,15 @@ impl Place {
     /// A file of the folder.
     pub(super) fn file(&self, name: &str) -> PathBuf {
         self.folder.root().join(name)
+    }
+
+    /// What is wished of the runs.
+    pub(super) fn wishes<'a>(&self, watch: &'a (dyn Fn(Event<'_>) + Sync)) -> Wishes<'a> {
+        Wishes {
+            stop: self.stop,
+            resume: true,
+            watch,
+        }
     }
 
     /// Whether runs are left because the command was told to end.

@@ -260,6 +260,7 @@ impl Run {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::observe::Snapshot;
 
     /// Symptom: a run that was asked for the last snapshot alone stored the first one too. Cause:
     /// frame 0 is a multiple of any number.

@@ -3,9 +3,8 @@
 use crate::record::{Program, RunRecord};
 use crate::resume::{Checkpoints, DEFAULT_INTERVAL};
 use crate::store::StoreError;
-use crate::sweep::{Event, Failure, Folder, Job, Report, Results, Workers};
-use std::collections::BTreeMap;
-use std::sync::atomic::AtomicBool;
+use crate::sweep::{Backend, BackendError, Batch, Failure, Folder, Job, Report, Results, Wishes};
+use std::collections::{BTreeMap, HashMap};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -33,6 +32,8 @@ pub(super) trait Table: Sync {
 pub(super) struct Rows<'a, T: Table> {
     table: &'a T,
     jobs: &'a [Job],
+    /// Places of the jobs, by identity.
+    places: HashMap<&'a str, usize>,
     /// Where runs leave checkpoints.
     folder: Folder,
     state: Mutex<State<T::Row>>,
@@ -67,40 +68,29 @@ impl<'a, T: Table> Rows<'a, T> {
             makers,
             written: Instant::now(),
         };
+        let ids = jobs.iter().map(|job| job.id.as_str()).enumerate();
         Self {
             table,
             jobs,
+            places: ids.map(|(place, id)| (id, place)).collect(),
             folder,
             state: Mutex::new(state),
         }
     }
 
-    /// Makes the runs whose row is not known, with that many workers, and returns all rows.
+    /// Has a backend make the runs whose row is not known, and returns all rows.
     ///
     /// # Errors
-    /// If the system gives no threads.
+    /// Those of the backend.
     pub(super) fn complete(
         self,
-        workers: usize,
-        stop: &AtomicBool,
-        watch: &(dyn Fn(Event<'_>) + Sync),
-    ) -> Result<Completed<T::Row>, rayon::ThreadPoolBuildError> {
-        let rows = self
-            .lock()
-            .rows
-            .iter()
-            .map(Option::is_some)
-            .collect::<Vec<_>>();
-        let pending = self.jobs.iter().zip(rows).filter(|(_, known)| !known);
-        let pending: Vec<&Job> = pending.map(|(job, _)| job).collect();
-        let workers = Workers {
-            results: &self,
-            count: workers,
-            stop,
-            resume: true,
-            watch,
-        };
-        let mut report = workers.run(&pending, &|job| crate::run::Run::new(&job.scene))?;
+        backend: &dyn Backend,
+        wishes: Wishes<'_>,
+    ) -> Result<Completed<T::Row>, BackendError> {
+        let known: Vec<bool> = self.lock().rows.iter().map(Option::is_some).collect();
+        let pending = self.jobs.iter().zip(known).filter(|(_, known)| !known);
+        let batch = Batch::new(pending.map(|(job, _)| job), &self, wishes);
+        let mut report = batch.run_on(backend)?;
         let written = self.write(&self.lock());
         report.halted = report.halted.or(written.err());
         let state = self.state.into_inner();
@@ -128,8 +118,8 @@ impl<T: Table> Results for Rows<'_, T> {
         let row = self.table.row(job, record);
         let mut state = self.lock();
         state.makers.insert(job.id.clone(), Program::current());
-        let place = self.jobs.iter().position(|it| it.id == job.id);
-        if let Some(place) = place.and_then(|at| state.rows.get_mut(at)) {
+        let place = self.places.get(job.id.as_str());
+        if let Some(place) = place.and_then(|at| state.rows.get_mut(*at)) {
             *place = Some(row);
         }
         if state.written.elapsed() >= BETWEEN_WRITINGS {
@@ -143,7 +133,7 @@ impl<T: Table> Results for Rows<'_, T> {
         self.folder.checkpoints(&job.id, DEFAULT_INTERVAL)
     }
 
-    fn note_failures(&self, _: &[Failure]) -> Result<(), StoreError> {
+    fn note_failures(&self, _: &[&Failure]) -> Result<(), StoreError> {
         // They have no row, so that the same command tries them again.
         Ok(())
     }

@@ -10,7 +10,11 @@ use std::path::Path;
 ///
 /// # Errors
 /// If the file cannot be written.
-pub fn write_failures(axes: &[Axis], failures: &[Failure], path: &Path) -> Result<(), StoreError> {
+pub fn write_failures<'a>(
+    axes: &[Axis],
+    failures: impl IntoIterator<Item = &'a Failure>,
+    path: &Path,
+) -> Result<(), StoreError> {
     let mut table = csv::Writer::from_writer(Vec::new());
     let names = axes.iter().map(|axis| axis.name.as_str());
     let fail = |error: csv::Error| StoreError::content(path, error);

@@ -1,6 +1,7 @@
 //! Sweeps: a scene, the axes it is varied over, and the jobs that follow.
 
 mod axis;
+mod backend;
 mod dumps;
 mod failure;
 mod failures;
@@ -16,11 +17,13 @@ mod select;
 mod spacing;
 mod status;
 pub mod work;
-mod workers;
 
 pub use crate::document::differing_keys;
 pub use axis::Axis;
 pub(crate) use axis::AxisEntry;
+pub use backend::{
+    Backend, BackendError, Batch, Begin, Event, LocalThreads, Report, Results, Wishes,
+};
 pub use dumps::find_dumps;
 pub use failure::{Failure, describe};
 pub use failures::{read_failures, write_failures};
@@ -37,12 +40,13 @@ pub(crate) use load::{
 pub use load::{from_str, load};
 pub use plan::{Done, ForeignRecord, Plan, Standing};
 pub use pool::{Pool, PoolError};
-pub use refining::{FAILED, Learnt, Refinement, RefinementError, Refining, Step, label_name};
+pub use refining::{
+    FAILED, Learnt, Refined, Refinement, RefinementError, Refining, RoundsError, Step, WatchRounds,
+    label_name,
+};
 pub(crate) use seeds::{SeedsEntry, expand_seeds};
 pub use select::{SelectError, Selection, parse_point};
 pub use status::{Status, UnderWay};
-pub use workers::{Begin, Event, Report};
-pub(crate) use workers::{Results, Workers};
 
 use crate::classify::Sieves;
 use crate::refine::Settings;

@@ -1,31 +1,26 @@
-//! Runs the jobs of a sweep on all cores.
+//! Runs the jobs of a sweep.
 
-use super::workers::{Begin, Event, Report, Results, Workers};
+use super::backend::{Backend, BackendError, Batch, Report, Results, Wishes};
 use super::{Failure, Folder, FolderError, ForeignRecord, Job, Plan, Sweep, write_failures};
 use crate::record::RunRecord;
 use crate::resume::Checkpoints;
-use crate::run::Run;
 use crate::store::{self, StoreError};
-use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// How, where and with which callbacks the jobs of a sweep are run.
+/// Where, how and by whom the jobs of a sweep are run.
 pub struct Pool<'a> {
     /// Where records go. The folder must exist, and the caller hold its lock.
     pub folder: &'a Folder,
     /// The sweep that the jobs belong to.
     pub sweep: &'a Sweep,
-    /// Number of simulations at the same time.
+    /// Who runs the jobs.
+    pub backend: &'a dyn Backend,
+    /// Number of threads that read and label records.
     pub workers: usize,
-    /// When set, runs under way end soon, with a checkpoint and without a record, and no more are
-    /// started.
-    pub stop: &'a AtomicBool,
     /// Time between two checkpoints of a run.
     pub checkpoint_interval: Duration,
-    /// Whether runs go on from checkpoints that are there.
-    pub resume: bool,
-    /// Called for every event.
-    pub watch: &'a (dyn Fn(Event<'_>) + Sync),
+    /// What is wished of them.
+    pub wishes: Wishes<'a>,
 }
 
 /// Why a sweep does not begin.
@@ -34,32 +29,22 @@ pub enum PoolError {
     /// A record under a job's name holds another scene.
     #[error(transparent)]
     Foreign(#[from] ForeignRecord),
-    /// The system gives no threads.
-    #[error("cannot start the workers: {0}")]
-    Threads(#[from] rayon::ThreadPoolBuildError),
+    /// No job can be run.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
     /// The results folder cannot be used.
     #[error(transparent)]
     Folder(#[from] FolderError),
 }
 
 impl Pool<'_> {
-    /// Runs what is pending in the plan, and stores each record as soon as it is there.
-    ///
-    /// A job that fails does not stop the others; one whose record cannot be written has failed. A
-    /// full disk ends the sweep: runs under way may end, and no more are started.
+    /// Runs what is pending in the plan, and stores each record as soon as it is there. A job that
+    /// fails does not stop the others.
     ///
     /// # Errors
     /// Before anything is run, if a record of another scene is in the way or the folder
     /// cannot be written.
     pub fn run(&self, plan: &Plan) -> Result<Report, PoolError> {
-        self.run_with(plan, &|job| Run::new(&job.scene))
-    }
-
-    /// The same with runs that `begin` makes. Those with a good checkpoint go on from it.
-    ///
-    /// # Errors
-    /// Those of [`run`](Self::run).
-    pub fn run_with(&self, plan: &Plan, begin: Begin<'_>) -> Result<Report, PoolError> {
         plan.check()?;
         self.folder.remove_leftovers()?;
         self.folder.write_sweep(self.sweep)?;
@@ -74,15 +59,8 @@ impl Pool<'_> {
             // removed does no harm: the job is done.
             let _ = records.checkpoints(job).remove();
         }
-        let pending: Vec<&Job> = plan.pending().collect();
-        let workers = Workers {
-            results: &records,
-            count: self.workers,
-            stop: self.stop,
-            resume: self.resume,
-            watch: self.watch,
-        };
-        Ok(workers.run(&pending, begin)?)
+        let batch = Batch::new(plan.pending(), &records, self.wishes);
+        Ok(batch.run_on(self.backend)?)
     }
 }
 
@@ -106,8 +84,12 @@ impl Results for Records<'_> {
         self.folder.checkpoints(&job.id, self.interval)
     }
 
-    fn note_failures(&self, failures: &[Failure]) -> Result<(), StoreError> {
-        write_failures(&self.sweep.axes, failures, &self.folder.failures())
+    fn note_failures(&self, failures: &[&Failure]) -> Result<(), StoreError> {
+        write_failures(
+            &self.sweep.axes,
+            failures.iter().copied(),
+            &self.folder.failures(),
+        )
     }
 }
 
@@ -116,10 +98,12 @@ mod tests {
     use super::*;
     use crate::dem;
     use crate::resume;
+    use crate::run::Run;
     use crate::simulation::BuildError;
     use crate::sweep::{Axis, read_failures};
+    use crate::sweep::{Begin, Event, LocalThreads};
     use std::sync::Mutex;
-    use std::sync::atomic::Ordering;
+    use std::sync::atomic::{AtomicBool, Ordering};
 
     fn sweep() -> (Sweep, Vec<Job>) {
         let falling = Sweep::of_falling_sphere();
@@ -156,11 +140,14 @@ mod tests {
         let pool = Pool {
             folder: &folder,
             sweep: &sweep,
+            backend: &LocalThreads::new(2),
             workers: 2,
-            stop: &AtomicBool::new(false),
             checkpoint_interval: resume::DEFAULT_INTERVAL,
-            resume: true,
-            watch: &|_| {},
+            wishes: Wishes {
+                stop: &AtomicBool::new(false),
+                resume: true,
+                watch: &|_| {},
+            },
         };
         let faulty: Begin<'_> = &|job| match job.values[0] {
             1.0 => panic!("one is too few"),
@@ -168,7 +155,11 @@ mod tests {
             _ => Run::new(&job.scene),
         };
         let plan = Plan::new(&folder, jobs.clone(), 2).unwrap();
-        let report = pool.run_with(&plan, faulty).unwrap();
+        let faulty = Pool {
+            backend: &LocalThreads::new(2).beginning(faulty),
+            ..pool
+        };
+        let report = faulty.run(&plan).unwrap();
         assert_eq!((report.finished, report.left), (2, 0));
         let failed: Vec<_> = report
             .failures
@@ -207,14 +198,17 @@ mod tests {
         let pool = Pool {
             folder: &folder,
             sweep: &sweep,
+            backend: &LocalThreads::new(1),
             workers: 1,
-            stop: &AtomicBool::new(false),
             checkpoint_interval: resume::DEFAULT_INTERVAL,
-            resume: true,
-            watch: &|event| {
-                if let Event::Started(job) = event {
-                    begun.lock().unwrap().push(job.values[0]);
-                }
+            wishes: Wishes {
+                stop: &AtomicBool::new(false),
+                resume: true,
+                watch: &|event| {
+                    if let Event::Started(job) = event {
+                        begun.lock().unwrap().push(job.values[0]);
+                    }
+                },
             },
         };
         let plan = Plan::new(&folder, jobs, 1).unwrap();
@@ -238,11 +232,14 @@ mod tests {
         let pool = Pool {
             folder: &folder,
             sweep: &sweep,
+            backend: &LocalThreads::new(1),
             workers: 1,
-            stop: &stop,
             checkpoint_interval: resume::DEFAULT_INTERVAL,
-            resume: true,
-            watch: &watch,
+            wishes: Wishes {
+                stop: &stop,
+                resume: true,
+                watch: &watch,
+            },
         };
         let plan = Plan::new(&folder, jobs.clone(), 1).unwrap();
         let report = pool.run(&plan).unwrap();

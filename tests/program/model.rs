@@ -11,7 +11,7 @@ use phase::simulation::{
     Simulation, StateError,
 };
 use phase::store::{content_digest, read_record};
-use phase::sweep::{Folder, Plan, Pool};
+use phase::sweep::{Folder, LocalThreads, Plan, Pool, Wishes};
 use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -284,14 +284,17 @@ fn a_pool_runs_it_with_the_bits_of_single_runs() {
     let pool = Pool {
         folder: &folder,
         sweep: &sweep,
+        backend: &LocalThreads::new(2).beginning(&|job| begin(&job.scene)),
         workers: 2,
-        stop: &AtomicBool::new(false),
         checkpoint_interval: Duration::from_secs(1000),
-        resume: true,
-        watch: &|_| {},
+        wishes: Wishes {
+            stop: &AtomicBool::new(false),
+            resume: true,
+            watch: &|_| {},
+        },
     };
     let plan = Plan::new(&folder, sweep.jobs().unwrap(), 2).unwrap();
-    let report = pool.run_with(&plan, &|job| begin(&job.scene)).unwrap();
+    let report = pool.run(&plan).unwrap();
     assert_eq!((report.finished, report.work), (3, 3 * 600));
     for (job, _) in &plan.jobs {
         let stored = read_record(&folder.record(&job.id)).unwrap();

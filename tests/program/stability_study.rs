@@ -5,7 +5,7 @@ use crate::support::Workplace;
 use phase::scene::Integrator;
 use phase::study::stability::read_stability;
 use phase::study::stability::{self, Label, Report, Row, Study, Theory, Trials};
-use phase::sweep::Event;
+use phase::sweep::{Event, LocalThreads, Wishes};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -23,9 +23,12 @@ fn run_into(study: &Study, table: &Path, known: Vec<Row>) -> Report {
         study,
         jobs: &study.jobs().unwrap(),
         table,
-        workers: 2,
-        stop: &AtomicBool::new(false),
-        watch: &|_| {},
+        backend: &LocalThreads::new(2),
+        wishes: Wishes {
+            stop: &AtomicBool::new(false),
+            resume: true,
+            watch: &|_| {},
+        },
     };
     trials.run(known).unwrap()
 }
@@ -194,12 +197,16 @@ fn a_study_that_is_stopped_goes_on_where_it_was() {
         study: &study,
         jobs: &jobs,
         table: &cut,
-        workers: 1,
-        stop: &stop,
-        watch: &|event| {
-            if matches!(event, Event::Finished(..)) && ended.fetch_add(1, Ordering::Relaxed) == 4 {
-                stop.store(true, Ordering::Relaxed);
-            }
+        backend: &LocalThreads::new(1),
+        wishes: Wishes {
+            stop: &stop,
+            resume: true,
+            watch: &|event| {
+                let is_end = matches!(event, Event::Finished(..));
+                if is_end && ended.fetch_add(1, Ordering::Relaxed) == 4 {
+                    stop.store(true, Ordering::Relaxed);
+                }
+            },
         },
     };
     let report = stopping.run(Vec::new()).unwrap();

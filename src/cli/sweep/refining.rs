@@ -1,11 +1,12 @@
-//! The rounds of a refined sweep: a coarse grid, then runs where the label is least certain.
+//! The rounds of a refined sweep, as people see them.
 
-use super::rounds::{Part, Rounds, Run};
+use super::rounds::{Part, Rounds, Run, tell_of_plan};
 use crate::cli::exit::Failure;
 use crate::cli::{format, plot, refined};
 use phase::refine::{Finish, Settings};
-use phase::sweep::{Job, Plan, Refinement, RefinementError, Refining, Standing, Step, Sweep};
-use std::sync::atomic::Ordering;
+use phase::sweep::{
+    Plan, Pool, PoolError, Refinement, RefinementError, Report, RoundsError, Sweep, WatchRounds,
+};
 use std::time::{Duration, Instant};
 
 /// Time between two notes while rounds are chosen.
@@ -14,140 +15,36 @@ const BETWEEN_NOTES: Duration = Duration::from_secs(5);
 impl Rounds<'_> {
     /// Runs the rounds. Gives the plan of all jobs, what was run, and how far refining is.
     pub(super) fn refine(&self, sweep: &Sweep) -> Result<(Plan, Run, Refinement), Failure> {
-        let Rounds {
-            folder,
-            workers,
-            console,
-            ..
-        } = *self;
-        let mut refinement =
-            Refinement::new(folder, sweep, self.force, workers).map_err(refused_or_failed)?;
-        let mut run: Option<Run> = None;
-        let mut told = Instant::now();
-        let end = loop {
-            let jobs = match refinement.next_step(sweep).map_err(refused_or_failed)? {
-                Step::Finished(end) => break Some(end),
-                Step::Known if self.stop.load(Ordering::Relaxed) => break None,
-                Step::Known => {
-                    self.tell_of_known(&refinement, &mut told);
-                    continue;
-                }
-                Step::Run(jobs) => jobs,
-            };
-            let refining = refinement.refining();
-            folder.write_refining(refining).map_err(Failure::failed)?;
-            let plan = self.plan_of_round(sweep, refining, &jobs)?;
-            if run.is_none() {
-                super::rounds::tell_of_plan(&plan, console);
-            }
-            let round = self.run_part(&plan, sweep, self.part(sweep, &refinement))?;
-            let mut all = match run {
-                Some(run) => run.and(round),
-                None => round,
-            };
-            all.note_failures(sweep, folder);
-            let is_whole = all.report.left == 0 && all.report.halted.is_none();
-            run = Some(all);
-            if !is_whole {
-                break None;
-            }
-            refinement
-                .learn(folder, sweep, &jobs, workers)
-                .map_err(refused_or_failed)?;
-            let refining = refinement.refining();
-            folder.write_refining(refining).map_err(Failure::failed)?;
-            self.show(sweep, &mut refinement)?;
+        let mut watcher = Watcher {
+            rounds: self,
+            run: None,
+            told: Instant::now(),
         };
-        if end.is_some() {
-            let refining = refinement.refining();
-            folder.write_refining(refining).map_err(Failure::failed)?;
-        }
-        // Stopped before anything was run: the folder stays as it was.
-        let refining = folder.read_refining(sweep).map_err(Failure::failed)?;
-        let jobs = sweep.jobs_so_far(refining.as_ref());
-        let jobs = jobs.map_err(Failure::refused)?;
-        let plan = Plan::new(folder, jobs, workers).map_err(Failure::failed)?;
-        let run = match run {
-            Some(run) => run,
-            None => self.run_part(&plan, sweep, Part::default())?,
+        let done = self.with_pool(sweep, |pool| pool.refine(&mut watcher))?;
+        self.tell_of_end(sweep, &done.refinement, done.end);
+        let report = done.report;
+        let done_before = done.plan.labelled().count();
+        let run = Run {
+            done_before: done_before.saturating_sub(report.finished),
+            report,
+            ..watcher.run.unwrap_or_default()
         };
-        self.tell_of_end(sweep, &refinement, end);
-        let done_before = plan.labelled().count().saturating_sub(run.report.finished);
-        let run = Run { done_before, ..run };
-        Ok((plan, run, refinement))
-    }
-
-    /// Says now and then how far the choosing of rounds is whose runs are there already.
-    fn tell_of_known(&self, refinement: &Refinement, told: &mut Instant) {
-        if told.elapsed() >= BETWEEN_NOTES {
-            *told = Instant::now();
-            self.console.note(format_args!(
-                "round {} chosen again: {}",
-                refinement.rounds(),
-                format::count(refinement.runs(), "run")
-            ));
-        }
-    }
-
-    /// The plan of all jobs that have not failed, of which only those of the round are to be run.
-    fn plan_of_round(
-        &self,
-        sweep: &Sweep,
-        refining: &Refining,
-        round: &[Job],
-    ) -> Result<Plan, Failure> {
-        let jobs = sweep.jobs_so_far(Some(refining));
-        let mut jobs = jobs.map_err(Failure::refused)?;
-        let has_failed = |job: &Job| {
-            let mut failed = refining.failed.iter();
-            failed.any(|run| run.values == job.values && run.seed == job.seed)
-        };
-        jobs.retain(|job| !has_failed(job));
-        let mut plan = Plan::new(self.folder, jobs, self.workers).map_err(Failure::failed)?;
-        if self.force {
-            let of_round = |job: &Job| round.iter().any(|other| other.id == job.id);
-            let again = plan.jobs.iter_mut().filter(|(job, _)| of_round(job));
-            again.for_each(|(_, standing)| *standing = Standing::Missing);
-        }
-        Ok(plan)
+        Ok((done.plan, run, done.refinement))
     }
 
     /// What the progress of a round is part of.
     fn part(&self, sweep: &Sweep, refinement: &Refinement) -> Part {
-        let Some(settings) = &sweep.refine else {
+        let (Some(settings), true) = (&sweep.refine, refinement.rounds() > 0) else {
             return Part::default();
         };
         let widest = match refinement.rounds() {
-            0 | 1 => "coarse grid".to_owned(),
+            1 => "coarse grid".to_owned(),
             _ => refined::describe_widest(sweep, refinement.refining()),
         };
         Part {
             head: format!("round {}, {widest}", refinement.rounds()),
             jobs: Some(settings.budget),
         }
-    }
-
-    /// Says what a round has told, and writes tables and figure anew.
-    fn show(&self, sweep: &Sweep, refinement: &mut Refinement) -> Result<(), Failure> {
-        if let Some(settings) = &sweep.refine {
-            self.console.note(format_args!(
-                "round {}: {} of at most {}; {}",
-                refinement.rounds(),
-                format::count(refinement.runs(), "run"),
-                settings.budget,
-                refined::describe_widest(sweep, refinement.refining())
-            ));
-        }
-        if let Some(learnt) = refinement.learnt().map_err(refused_or_failed)? {
-            let family = refinement.table().family;
-            learnt
-                .write(self.folder, sweep, family)
-                .map_err(Failure::failed)?;
-            if self.draws {
-                plot::draw_round(self.folder, sweep, refinement.table())?;
-            }
-        }
-        Ok(())
     }
 
     fn tell_of_end(&self, sweep: &Sweep, refinement: &Refinement, end: Option<Finish>) {
@@ -166,10 +63,82 @@ impl Rounds<'_> {
     }
 }
 
-fn refused_or_failed(error: RefinementError) -> Failure {
-    match error {
-        RefinementError::Threads(_) => Failure::failed(error),
-        _ => Failure::refused(error),
+/// Shows rounds to people.
+struct Watcher<'a> {
+    rounds: &'a Rounds<'a>,
+    /// What was run so far, but for the report.
+    run: Option<Run>,
+    /// When the choosing of rounds was told last.
+    told: Instant,
+}
+
+impl WatchRounds for Watcher<'_> {
+    type Error = Failure;
+
+    fn run(
+        &mut self,
+        pool: &Pool<'_>,
+        plan: &Plan,
+        refinement: &Refinement,
+    ) -> Result<Report, Failure> {
+        if self.run.is_none() {
+            tell_of_plan(plan, self.rounds.console);
+        }
+        let part = self.rounds.part(pool.sweep, refinement);
+        let mut round = self.rounds.run_part(plan, pool, part)?;
+        let report = std::mem::take(&mut round.report);
+        round.seconds += self.run.take().map_or(0.0, |before| before.seconds);
+        self.run = Some(round);
+        Ok(report)
+    }
+
+    /// Says now and then how far the choosing of rounds is whose runs are there already.
+    fn known(&mut self, refinement: &Refinement) {
+        if self.told.elapsed() >= BETWEEN_NOTES {
+            self.told = Instant::now();
+            self.rounds.console.note(format_args!(
+                "round {} chosen again: {}",
+                refinement.rounds(),
+                format::count(refinement.runs(), "run")
+            ));
+        }
+    }
+
+    /// Says what a round has told, and draws the figure anew.
+    fn learnt(&mut self, pool: &Pool<'_>, refinement: &Refinement) -> Result<(), Failure> {
+        if let Some(settings) = &pool.sweep.refine {
+            self.rounds.console.note(format_args!(
+                "round {}: {} of at most {}; {}",
+                refinement.rounds(),
+                format::count(refinement.runs(), "run"),
+                settings.budget,
+                refined::describe_widest(pool.sweep, refinement.refining())
+            ));
+        }
+        if self.rounds.draws && refinement.runs() > 0 {
+            plot::draw_round(pool.folder, pool.sweep, refinement.table())?;
+        }
+        Ok(())
+    }
+}
+
+impl From<PoolError> for Failure {
+    fn from(error: PoolError) -> Self {
+        match error {
+            PoolError::Foreign(_) => Self::refused(error),
+            _ => Self::failed(error),
+        }
+    }
+}
+
+impl From<RoundsError> for Failure {
+    fn from(error: RoundsError) -> Self {
+        match error {
+            RoundsError::Pool(error) => error.into(),
+            RoundsError::Refinement(RefinementError::Threads(_)) => Self::failed(error),
+            RoundsError::Refinement(_) => Self::refused(error),
+            RoundsError::Folder(_) | RoundsError::Store(_) => Self::failed(error),
+        }
     }
 }
 

@@ -7,8 +7,8 @@ use crate::cli::{builds, format, job};
 use phase::record::{Outcome, RunRecord};
 use phase::run::model_of;
 use phase::sweep::{
-    Event, Failure as JobFailure, Folder, Job, Plan, Pool, PoolError, Report, Standing, Sweep,
-    describe, write_failures,
+    Event, Failure as JobFailure, Folder, Job, LocalThreads, Plan, Pool, Report, Standing, Sweep,
+    Wishes, describe,
 };
 use std::collections::HashMap;
 use std::sync::Mutex;
@@ -36,22 +36,34 @@ impl Rounds<'_> {
             Plan::new(self.folder, jobs, self.workers).map_err(Failure::failed)?
         };
         tell_of_plan(&plan, self.console);
-        let run = self.run_part(&plan, sweep, Part::default())?;
+        let run = self.with_pool(sweep, |pool| self.run_part(&plan, pool, Part::default()))?;
         Ok((plan, run))
     }
 
-    /// Runs a plan that is part of more.
-    pub(super) fn run_part(&self, plan: &Plan, sweep: &Sweep, part: Part) -> Result<Run, Failure> {
-        let pool = Pool {
+    /// Calls `act` with the pool that runs the jobs of a sweep.
+    pub(super) fn with_pool<T>(&self, sweep: &Sweep, act: impl FnOnce(&Pool<'_>) -> T) -> T {
+        act(&Pool {
             folder: self.folder,
             sweep,
+            backend: &LocalThreads::new(self.workers),
             workers: self.workers,
-            stop: self.stop,
             checkpoint_interval: self.checkpoint_interval,
-            resume: !self.force,
-            watch: &|_| {},
-        };
-        run(plan, pool, part, self.console)
+            wishes: Wishes {
+                stop: self.stop,
+                resume: !self.force,
+                watch: &|_| {},
+            },
+        })
+    }
+
+    /// Runs a plan that is part of more.
+    pub(super) fn run_part(
+        &self,
+        plan: &Plan,
+        pool: &Pool<'_>,
+        part: Part,
+    ) -> Result<Run, Failure> {
+        run(plan, pool, part, self.workers, self.console)
     }
 }
 
@@ -65,6 +77,7 @@ pub(super) struct Part {
 }
 
 /// What was run now.
+#[derive(Default)]
 pub(super) struct Run {
     pub(super) report: Report,
     /// Jobs whose record, or label that counts without one, was there before.
@@ -76,8 +89,14 @@ pub(super) struct Run {
 }
 
 /// Runs what is to be run of a plan and watches it.
-fn run(plan: &Plan, pool: Pool<'_>, part: Part, console: &Console) -> Result<Run, Failure> {
-    let (sweep, workers) = (pool.sweep, pool.workers);
+fn run(
+    plan: &Plan,
+    pool: &Pool<'_>,
+    part: Part,
+    workers: usize,
+    console: &Console,
+) -> Result<Run, Failure> {
+    let sweep = pool.sweep;
     let steps = Job::work;
     let planned: u64 = plan.jobs.iter().map(|(job, _)| steps(job)).sum();
     let jobs = part.jobs.unwrap_or(plan.jobs.len());
@@ -112,13 +131,13 @@ fn run(plan: &Plan, pool: Pool<'_>, part: Part, console: &Console) -> Result<Run
     };
     let watch = |event: Event<'_>| job::tell(event, &progress, &name, &ended);
     let pool = Pool {
-        watch: &watch,
-        ..pool
+        wishes: Wishes {
+            watch: &watch,
+            ..pool.wishes
+        },
+        ..*pool
     };
-    let report = pool.run(plan).map_err(|error| match error {
-        PoolError::Foreign(_) => Failure::refused(error),
-        _ => Failure::failed(error),
-    });
+    let report = pool.run(plan);
     let seconds = progress.finish();
     let mut unstable = unstable.into_inner().unwrap_or_default();
     let unstable = plan
@@ -136,38 +155,6 @@ fn run(plan: &Plan, pool: Pool<'_>, part: Part, console: &Console) -> Result<Run
 }
 
 impl Run {
-    /// This and a later round, whose plan has all jobs of this one that have not failed. What was
-    /// done before is that of the later round.
-    pub(super) fn and(self, later: Self) -> Self {
-        let mut failures = self.report.failures;
-        failures.extend(later.report.failures);
-        Self {
-            report: Report {
-                finished: self.report.finished + later.report.finished,
-                resumed: self.report.resumed + later.report.resumed,
-                work: self.report.work + later.report.work,
-                cpu_seconds: self.report.cpu_seconds + later.report.cpu_seconds,
-                failures,
-                ..later.report
-            },
-            seconds: self.seconds + later.seconds,
-            ..later
-        }
-    }
-
-    /// Writes the table of the failures of all rounds: each round writes its own.
-    pub(super) fn note_failures(&mut self, sweep: &Sweep, folder: &Folder) {
-        let report = &mut self.report;
-        if report.failures.is_empty() {
-            return;
-        }
-        let written = write_failures(&sweep.axes, &report.failures, &folder.failures());
-        match written.err() {
-            Some(error) if error.concerns_all_files() => report.halted = Some(error),
-            other => report.unnoted = other,
-        }
-    }
-
     /// Prints what was done and names what went wrong.
     pub(super) fn print(
         &self,

@@ -5,10 +5,9 @@ use crate::classify::Label;
 use crate::record::{Program, RunRecord};
 use crate::store::StoreError;
 use crate::study::rows::{Completed, Rows, Table};
-use crate::sweep::{Event, Failure, Folder, Job};
+use crate::sweep::{Backend, BackendError, Failure, Folder, Job, Wishes};
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
-use std::sync::atomic::AtomicBool;
 
 /// How, where and with which callbacks the runs of a comparison are made.
 pub struct Comparing<'a> {
@@ -18,12 +17,10 @@ pub struct Comparing<'a> {
     pub folder: &'a Folder,
     /// Lines of the table that belong to other settings or seeds, and are kept.
     pub others: &'a [csv::StringRecord],
-    /// Number of runs at the same time.
-    pub workers: usize,
-    /// When set, runs under way are given up, and no more are started.
-    pub stop: &'a AtomicBool,
-    /// Is told what happens.
-    pub watch: &'a (dyn Fn(Event<'_>) + Sync),
+    /// Who makes the runs.
+    pub backend: &'a dyn Backend,
+    /// What is wished of them.
+    pub wishes: Wishes<'a>,
 }
 
 /// What became of the runs.
@@ -47,16 +44,16 @@ pub enum ComparingError {
     /// The table cannot be written.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// The system gives no threads.
-    #[error("cannot start the workers: {0}")]
-    Threads(#[from] rayon::ThreadPoolBuildError),
+    /// No run can be made.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
 }
 
 impl Comparing<'_> {
     /// Makes the runs of which `known` has no row, and keeps the table up to date.
     ///
     /// # Errors
-    /// If the table cannot be written, or there are no threads.
+    /// If the table cannot be written, or no run be made.
     pub fn run(&self, known: Vec<RunRow>) -> Result<Report, ComparingError> {
         let mut known: HashMap<String, RunRow> =
             known.into_iter().map(|row| (row.id.clone(), row)).collect();
@@ -64,7 +61,7 @@ impl Comparing<'_> {
         let rows: Vec<Option<RunRow>> = jobs.iter().map(|job| known.remove(&job.id)).collect();
         let count = rows.iter().flatten().count();
         let rows = Rows::new(self, jobs, self.folder.clone(), rows, BTreeMap::new());
-        let Completed { rows, report } = rows.complete(self.workers, self.stop, self.watch)?;
+        let Completed { rows, report } = rows.complete(self.backend, self.wishes)?;
         if let Some(error) = report.halted {
             return Err(error.into());
         }

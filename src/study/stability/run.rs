@@ -6,10 +6,9 @@ use crate::record::{Guard, Outcome, Program, RunRecord};
 use crate::scene::Integrator;
 use crate::store::StoreError;
 use crate::study::rows::{Completed, Rows, Table};
-use crate::sweep::{Event, Failure, Folder, Job};
+use crate::sweep::{Backend, BackendError, Failure, Folder, Job, Wishes};
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
 /// What became of one run of a study.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,9 +52,9 @@ pub enum TrialsError {
     /// The table cannot be written.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// The system gives no threads.
-    #[error("cannot start the workers: {0}")]
-    Threads(#[from] rayon::ThreadPoolBuildError),
+    /// No run can be made.
+    #[error(transparent)]
+    Backend(#[from] BackendError),
 }
 
 /// How, where and with which callbacks a study is run.
@@ -66,12 +65,10 @@ pub struct Trials<'a> {
     pub jobs: &'a [Job],
     /// The table that is kept.
     pub table: &'a Path,
-    /// Number of runs at the same time.
-    pub workers: usize,
-    /// When set, runs under way are given up, and no more are started.
-    pub stop: &'a AtomicBool,
-    /// Is told what happens.
-    pub watch: &'a (dyn Fn(Event<'_>) + Sync),
+    /// Who makes the runs.
+    pub backend: &'a dyn Backend,
+    /// What is wished of them.
+    pub wishes: Wishes<'a>,
 }
 
 impl Trials<'_> {
@@ -80,7 +77,7 @@ impl Trials<'_> {
     /// threshold.
     ///
     /// # Errors
-    /// If the files cannot be read or written, or there are no threads.
+    /// If the files cannot be read or written, or no run be made.
     pub fn run(&self, known: Vec<Row>) -> Result<Report, TrialsError> {
         let mut known: HashMap<String, Row> =
             known.into_iter().map(|row| (row.id.clone(), row)).collect();
@@ -91,7 +88,7 @@ impl Trials<'_> {
         makers.retain(|id, _| rows.iter().flatten().any(|row| row.id == *id));
         let folder = Folder::new(self.table.parent().unwrap_or(Path::new("")));
         let rows = Rows::new(self, self.jobs, folder, rows, makers);
-        let Completed { rows, report } = rows.complete(self.workers, self.stop, self.watch)?;
+        let Completed { rows, report } = rows.complete(self.backend, self.wishes)?;
         if let Some(error) = report.halted {
             return Err(error.into());
         }

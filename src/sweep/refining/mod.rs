@@ -4,11 +4,13 @@ mod borders;
 mod entry;
 mod learnt;
 mod refinement;
+mod rounds;
 mod scale;
 
 pub(super) use entry::RefineEntry;
 pub use learnt::{FAILED, Learnt, label_name};
 pub use refinement::{Refinement, RefinementError, Step};
+pub use rounds::{Refined, RoundsError, WatchRounds};
 
 use super::Sweep;
 use super::job::{Job, PointError};
