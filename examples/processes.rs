@@ -65,6 +65,9 @@ impl Backend for Processes {
             if batch.is_over() {
                 return;
             }
+            let Some(_claim) = batch.claim(job) else {
+                return;
+            };
             batch.tell(Event::Started(job));
             match self.run_job(batch, job) {
                 Ok(Some(record)) => batch.finish(job, &record, false, job.work()),

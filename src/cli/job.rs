@@ -52,6 +52,11 @@ pub(super) fn tell(
     let named = |job: &Job| format!("{} (job {})", name(job), job.id);
     match event {
         Event::Started(_) => {}
+        Event::Elsewhere(job) => {
+            let name = named(job);
+            progress.detail(format_args!("another process makes it: {name}"));
+            progress.job_done(job.work());
+        }
         Event::Resumed(job, work) => {
             progress.skip(work);
             let job = named(job);

@@ -11,7 +11,7 @@ use phase::classify::Family;
 use phase::resume::DEFAULT_INTERVAL;
 use phase::store;
 use phase::sweep::{
-    Folder, FolderError, Job, Plan, Sweep, differing_keys, refuse_to_lose_labels, work,
+    Access, Folder, FolderError, Job, Plan, Sweep, differing_keys, refuse_to_lose_labels, work,
 };
 use rounds::{Rounds, Run};
 use serde::Serialize;
@@ -110,10 +110,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let stop = interrupt::stop_on_signal(console)?;
 
     folder.create().map_err(Failure::failed)?;
-    let _lock = folder.lock().map_err(|error| match error {
-        FolderError::Locked(_) => Failure::refused(error),
-        _ => Failure::failed(error),
-    })?;
+    let access = enter(&folder, &sweep, arguments)?;
     if !arguments.no_classify {
         let again = jobs_made_again(&folder, &sweep);
         let kept = jobs.iter().chain(&again).map(|job| job.id.as_str());
@@ -125,6 +122,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if !arguments.no_classify {
         warn_of_windows(&sweep, &jobs, console);
     }
+    let _lock = match arguments.force {
+        true => access,
+        false => Access::Shared(folder.open(access, &sweep).map_err(Failure::failed)?),
+    };
     let rounds = Rounds {
         folder: &folder,
         workers,
@@ -163,6 +164,19 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.answer(&answer);
         return Err(Failure::failed(error));
     }
+    let others = plan
+        .jobs
+        .iter()
+        .filter(|(job, _)| folder.is_made_elsewhere(&job.id));
+    let others = others.count();
+    if others > 0 {
+        console.note(format_args!(
+            "another process is making {}, and writes tables and figures when it is done",
+            format::count(others, "job")
+        ));
+        console.answer(&answer);
+        return Ok(Exit::Done);
+    }
     let mut failed = !run.report.failures.is_empty();
     if !arguments.no_classify {
         let labelled = classify::label_folder(&folder, &sweep, &jobs, workers, console);
@@ -184,6 +198,19 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     answer.files = console.files();
     console.answer(&answer);
     Ok(if failed { Exit::Failed } else { Exit::Done })
+}
+
+/// Takes the right to run a sweep into a folder, beside other processes that run the same one
+/// unless everything is to be run again.
+fn enter(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Result<Access, Failure> {
+    let access = match arguments.force {
+        true => folder.lock().map(Access::Alone),
+        false => folder.enter(sweep),
+    };
+    access.map_err(|error| match error {
+        FolderError::Locked(_) => Failure::refused(error),
+        _ => Failure::failed(error),
+    })
 }
 
 /// Refuses to keep labels that cannot be read, or that other thresholds gave.

@@ -1,6 +1,6 @@
 //! The right to write where another process may want to write too.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -41,10 +41,35 @@ impl Lock {
         Ok(file.map(|file| Self { file, passing }))
     }
 
-    /// Whether another process has locked a file.
+    /// Locks a file beside others, none of which has [taken](Self::take) it alone. None if another
+    /// process has.
+    ///
+    /// # Errors
+    /// If the file cannot be made or locked.
+    pub fn share(path: &Path) -> io::Result<Option<Self>> {
+        let file = locked(path, File::try_lock_shared)?;
+        let passing = None;
+        Ok(file.map(|file| Self { file, passing }))
+    }
+
+    /// Lets others share a file that was taken alone.
+    ///
+    /// # Errors
+    /// If it cannot be locked again.
+    pub fn into_shared(self, path: &Path) -> io::Result<Option<Self>> {
+        drop(self);
+        Self::share(path)
+    }
+
+    /// Whether another process has locked a file, alone or beside others.
     pub fn is_taken(path: &Path) -> bool {
-        let lock = File::open(path).map(|file| file.try_lock_shared());
+        let lock = File::open(path).map(|file| file.try_lock());
         matches!(lock, Ok(Err(TryLockError::WouldBlock)))
+    }
+
+    /// The file.
+    pub(super) fn file(&self) -> &File {
+        &self.file
     }
 
     /// Unlocks the file. If it is to be removed, it is removed first, so that no other process can
@@ -64,12 +89,31 @@ impl Drop for Lock {
     }
 }
 
-/// Makes and locks a file. None if another process has it locked.
+/// Takes a file that this process has locked, unless it has lost its name since it was opened. It
+/// is removed with the lock.
+pub(super) fn hold(file: File, path: &Path) -> io::Result<Option<Lock>> {
+    let passing = Some(path.to_owned());
+    Ok(has_name(&file)?.then_some(Lock { file, passing }))
+}
+
+/// Makes and locks a file alone. None if another process has it locked.
 fn lock(path: &Path) -> io::Result<Option<File>> {
+    locked(path, File::try_lock)
+}
+
+/// Makes a file and locks it in one of two ways. None if another process is in the way.
+fn locked(
+    path: &Path,
+    try_lock: impl Fn(&File) -> Result<(), TryLockError>,
+) -> io::Result<Option<File>> {
     // `is_taken` of another process holds the lock for an instant, so one look is not enough.
     for _ in 0..10 {
-        let file = File::create(path)?;
-        match file.try_lock() {
+        let file = OpenOptions::new()
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(path)?;
+        match try_lock(&file) {
             // Else its owner removed it since it was opened: another file has its name.
             Ok(()) if has_name(&file)? => return Ok(Some(file)),
             Ok(()) => {}

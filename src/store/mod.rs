@@ -11,6 +11,7 @@ mod export;
 mod hashed;
 mod import;
 mod labels;
+mod lease;
 mod lock;
 mod own;
 mod record;
@@ -31,6 +32,7 @@ pub use export::{
 };
 pub use import::read_states;
 pub use labels::{read_labels, write_labels, write_points};
+pub use lease::{Holder, Lease};
 pub use lock::Lock;
 pub use own::is_own_file;
 pub use record::{
@@ -202,7 +204,7 @@ impl StoreError {
         }
     }
 
-    fn writing(path: &Path, source: io::Error) -> Self {
+    pub(crate) fn writing(path: &Path, source: io::Error) -> Self {
         use io::ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
         let path = path.to_owned();
         match source.kind() {

@@ -3,7 +3,9 @@
 use crate::record::{Program, RunRecord};
 use crate::resume::{Checkpoints, DEFAULT_INTERVAL};
 use crate::store::StoreError;
-use crate::sweep::{Backend, BackendError, Batch, Failure, Folder, Job, Report, Results, Wishes};
+use crate::sweep::{
+    Backend, BackendError, Batch, Claim, Failure, Folder, Job, Report, Results, Wishes,
+};
 use std::collections::{BTreeMap, HashMap};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -112,6 +114,11 @@ impl<T: Table> Results for Rows<'_, T> {
     fn have_own_files(&self) -> bool {
         // They are rows of one table.
         false
+    }
+
+    fn claim(&self, _: &Job) -> Result<Option<Claim>, StoreError> {
+        // The folder of a study has one process at a time.
+        Ok(Some(Claim::Alone))
     }
 
     fn keep(&self, job: &Job, record: &RunRecord) -> Result<(), StoreError> {

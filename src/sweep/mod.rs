@@ -22,12 +22,12 @@ pub use crate::document::differing_keys;
 pub use axis::Axis;
 pub(crate) use axis::AxisEntry;
 pub use backend::{
-    Backend, BackendError, Batch, Begin, Event, LocalThreads, Report, Results, Wishes,
+    Backend, BackendError, Batch, Begin, Claim, Event, LocalThreads, Report, Results, Wishes,
 };
 pub use dumps::find_dumps;
 pub use failure::{Failure, describe};
 pub use failures::{read_failures, write_failures};
-pub use folder::{Folder, FolderError};
+pub use folder::{Access, Folder, FolderError};
 pub use job::{Job, PointError};
 pub(crate) use job::{PointScenes, grid, points};
 pub use labelling::{

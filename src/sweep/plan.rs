@@ -135,7 +135,7 @@ impl Plan {
     }
 }
 
-fn standing(job: &Job, path: &Path) -> Standing {
+pub(super) fn standing(job: &Job, path: &Path) -> Standing {
     if !path.exists() {
         return Standing::Missing;
     }

@@ -1,10 +1,12 @@
 //! Runs the jobs of a sweep.
 
-use super::backend::{Backend, BackendError, Batch, Report, Results, Wishes};
-use super::{Failure, Folder, FolderError, ForeignRecord, Job, Plan, Sweep, write_failures};
+use super::backend::{Backend, BackendError, Batch, Claim, Report, Results, Wishes};
+use super::plan::{ForeignRecord, Plan, Standing, standing};
+use super::{Failure, Folder, FolderError, Job, Sweep, read_failures, write_failures};
 use crate::record::RunRecord;
 use crate::resume::Checkpoints;
-use crate::store::{self, StoreError};
+use crate::store::{self, Lease, StoreError};
+use std::collections::HashSet;
 use std::time::Duration;
 
 /// Where, how and by whom the jobs of a sweep are run.
@@ -46,13 +48,13 @@ impl Pool<'_> {
     /// cannot be written.
     pub fn run(&self, plan: &Plan) -> Result<Report, PoolError> {
         plan.check()?;
-        self.folder.remove_leftovers()?;
         self.folder.write_sweep(self.sweep)?;
         self.folder.forget_failures()?;
         let records = Records {
             folder: self.folder,
             sweep: self.sweep,
             interval: self.checkpoint_interval,
+            is_afresh: !self.wishes.resume,
         };
         for (job, _) in plan.done() {
             // Left by a process that was killed between record and removal. One that cannot be
@@ -69,11 +71,24 @@ struct Records<'a> {
     folder: &'a Folder,
     sweep: &'a Sweep,
     interval: Duration,
+    /// Whether records that are there do not count.
+    is_afresh: bool,
 }
 
 impl Results for Records<'_> {
     fn have_own_files(&self) -> bool {
         true
+    }
+
+    fn claim(&self, job: &Job) -> Result<Option<Claim>, StoreError> {
+        let path = self.folder.record(&job.id);
+        let lease = Lease::take(&path).map_err(|error| StoreError::writing(&path, error))?;
+        let is_done = || matches!(standing(job, &path), Standing::Done(_));
+        match lease {
+            // Made since it was planned.
+            Some(_) if !self.is_afresh && is_done() => Ok(None),
+            lease => Ok(lease.map(Claim::Lease)),
+        }
     }
 
     fn keep(&self, job: &Job, record: &RunRecord) -> Result<(), StoreError> {
@@ -84,12 +99,16 @@ impl Results for Records<'_> {
         self.folder.checkpoints(&job.id, self.interval)
     }
 
+    /// Those stay that another process has noted meanwhile.
     fn note_failures(&self, failures: &[&Failure]) -> Result<(), StoreError> {
-        write_failures(
-            &self.sweep.axes,
-            failures.iter().copied(),
-            &self.folder.failures(),
-        )
+        let path = self.folder.failures();
+        let ours: HashSet<&str> = failures.iter().map(|it| it.id.as_str()).collect();
+        let noted = read_failures(&path).unwrap_or_default();
+        let others = noted.iter().filter(|other| {
+            !ours.contains(other.id.as_str()) && !self.folder.record(&other.id).is_file()
+        });
+        let all = failures.iter().copied().chain(others);
+        write_failures(&self.sweep.axes, all, &path)
     }
 }
 

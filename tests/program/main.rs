@@ -34,6 +34,7 @@ mod rooms;
 mod scene_files;
 #[path = "../scenes/mod.rs"]
 mod scenes;
+mod shared;
 mod silo_figures;
 mod silo_sweep;
 mod spot;

@@ -125,32 +125,6 @@ fn an_interrupted_sweep_ends_soon_and_says_how_to_go_on() {
 }
 
 #[test]
-fn two_sweeps_do_not_share_a_folder() {
-    let place = Workplace::new();
-    let slow = TinySweep {
-        duration: 3000.0,
-        ..TinySweep::slow()
-    };
-    place.write("tiny.toml", &slow.text());
-    let mut child = place.start(&["sweep", "tiny.toml", "--out", "results"]);
-    wait_until(|| place.path("results/sweep.json").exists());
-    place
-        .phase(&["sweep", "tiny.toml", "--out", "results"])
-        .code(2)
-        .complains("another `phase` is at work");
-    place
-        .phase(&["status", "results"])
-        .code(0)
-        .says("running    yes");
-    child.kill().unwrap();
-    child.wait().unwrap();
-    place
-        .phase(&["status", "results"])
-        .code(0)
-        .says("running    no");
-}
-
-#[test]
 fn only_new_parameters_are_run() {
     let place = Workplace::new();
     sweep(&place, &TinySweep::default()).code(0);

@@ -180,6 +180,7 @@ impl Run {
         for (number, what) in [
             (*resumed, "of them from a checkpoint"),
             (self.done_before, "done before"),
+            (self.report.elsewhere, "made by another process"),
             (self.unstable.len(), "unstable"),
             (failures.len(), "failed"),
             (*left, "left"),

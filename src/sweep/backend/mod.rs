@@ -7,7 +7,7 @@ pub use threads::{Begin, LocalThreads};
 use super::{Failure, Job};
 use crate::record::RunRecord;
 use crate::resume::Checkpoints;
-use crate::store::{CheckpointError, StoreError};
+use crate::store::{CheckpointError, Lease, StoreError};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, HashMap};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,8 +16,8 @@ use std::time::{Duration, Instant};
 
 /// Who runs jobs: threads of this process, other processes, a device, a cluster.
 pub trait Backend: Sync {
-    /// Runs the jobs of a batch, in their order as far as it can, and hands in each as soon as it
-    /// has ended: [`Batch::finish`] or [`Batch::fail`]. Once the batch [is over](Batch::is_over),
+    /// Runs the jobs of a batch, in their order as far as it can: [claims](Batch::claim) each, and
+    /// hands it in as soon as it has ended ([`Batch::finish`] or [`Batch::fail`]). Once the batch [is over](Batch::is_over),
     /// no more are begun, and those under way may be given up.
     ///
     /// # Errors
@@ -36,6 +36,13 @@ pub trait Results: Sync {
     /// job alone.
     fn have_own_files(&self) -> bool;
 
+    /// Takes the right to make a run: none if another process has it, or has made the run
+    /// meanwhile.
+    ///
+    /// # Errors
+    /// If the right cannot be taken.
+    fn claim(&self, job: &Job) -> Result<Option<Claim>, StoreError>;
+
     /// Stores the result of a run that has ended.
     ///
     /// # Errors
@@ -50,6 +57,15 @@ pub trait Results: Sync {
     /// # Errors
     /// If the note cannot be written.
     fn note_failures(&self, failures: &[&Failure]) -> Result<(), StoreError>;
+}
+
+/// The right to make a run, given back when it is dropped.
+#[derive(Debug)]
+pub enum Claim {
+    /// Against other processes.
+    Lease(Lease),
+    /// No other process is let in.
+    Alone,
 }
 
 /// What is wished of a batch of jobs.
@@ -69,6 +85,8 @@ pub struct Wishes<'a> {
 pub enum Event<'a> {
     /// A job has begun.
     Started(&'a Job),
+    /// Another process makes a job, or has made it meanwhile.
+    Elsewhere(&'a Job),
     /// A job goes on from its checkpoint, where it had done this much work.
     Resumed(&'a Job, u64),
     /// A job cannot go on from its checkpoint, and starts from the beginning.
@@ -92,7 +110,9 @@ pub struct Report {
     pub resumed: usize,
     /// Jobs that failed, in the sweep's order.
     pub failures: Vec<Failure>,
-    /// Jobs left to do, neither finished nor failed.
+    /// Jobs that another process is making, or has made meanwhile.
+    pub elsewhere: usize,
+    /// Jobs left to do: not finished, not failed, not elsewhere.
     pub left: usize,
     /// Work of the finished runs, in the unit of their model.
     pub work: u64,
@@ -144,6 +164,7 @@ pub struct Batch<'a> {
 struct Tally {
     finished: usize,
     resumed: usize,
+    elsewhere: usize,
     /// Failures by places of their jobs.
     failures: BTreeMap<usize, Failure>,
     /// When the failures were noted last.
@@ -199,6 +220,27 @@ impl<'a> Batch<'a> {
         self.results.checkpoints(job)
     }
 
+    /// Takes the right to run a job, to be kept until it is handed in. None if it is not to be run:
+    /// another process has it, or the right cannot be taken, which fails the job.
+    pub fn claim(&self, job: &Job) -> Option<Claim> {
+        match self.results.claim(job) {
+            Ok(Some(claim)) => Some(claim),
+            Ok(None) => {
+                self.tally().elsewhere += 1;
+                self.tell(Event::Elsewhere(job));
+                None
+            }
+            Err(error) if self.concerns_all_jobs(&error) => {
+                self.tally().halted = Some(error);
+                None
+            }
+            Err(error) => {
+                self.fail(job, error.to_string());
+                None
+            }
+        }
+    }
+
     /// Tells of something that happened to a job, but for its end.
     pub fn tell(&self, event: Event<'_>) {
         (self.wishes.watch)(event);
@@ -251,7 +293,8 @@ impl<'a> Batch<'a> {
         Ok(Report {
             finished: tally.finished,
             resumed: tally.resumed,
-            left: self.jobs.len() - tally.finished - failures.len(),
+            elsewhere: tally.elsewhere,
+            left: self.jobs.len() - tally.finished - failures.len() - tally.elsewhere,
             failures,
             work: tally.work,
             cpu_seconds: tally.cpu_seconds,
@@ -301,6 +344,10 @@ mod tests {
     impl Results for Faulty {
         fn have_own_files(&self) -> bool {
             self.have_own_files
+        }
+
+        fn claim(&self, _: &Job) -> Result<Option<Claim>, StoreError> {
+            Ok(Some(Claim::Alone))
         }
 
         fn keep(&self, job: &Job, _: &RunRecord) -> Result<(), StoreError> {

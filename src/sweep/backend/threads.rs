@@ -35,6 +35,9 @@ impl<'a> LocalThreads<'a> {
     }
 
     fn run_job(&self, batch: &Batch<'_>, job: &Job) {
+        let Some(_claim) = batch.claim(job) else {
+            return;
+        };
         batch.tell(Event::Started(job));
         let run = || (self.begin)(job).map(|run| drive(batch, job, resumed(batch, job, run)));
         match catch_unwind(AssertUnwindSafe(run)) {

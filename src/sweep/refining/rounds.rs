@@ -5,6 +5,11 @@ use crate::refine::Finish;
 use crate::store::StoreError;
 use crate::sweep::{FolderError, Job, Plan, Pool, PoolError, Report, Standing, write_failures};
 use std::sync::atomic::Ordering;
+use std::thread;
+use std::time::Duration;
+
+/// Time between two looks at what other processes are making.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(100);
 
 /// Who watches a sweep while it is refined. All methods may be left as they are: then rounds are
 /// run without a word.
@@ -94,8 +99,7 @@ impl Pool<'_> {
                 Step::Run(jobs) => jobs,
             };
             self.keep_progress(&refinement)?;
-            let plan = self.plan_of_round(refinement.refining(), &jobs)?;
-            let round = watcher.run(self, &plan, &refinement)?;
+            let round = self.run_round(&refinement, &jobs, watcher)?;
             let is_whole = round.left == 0 && round.halted.is_none();
             report = Some(self.added(report, round));
             if !is_whole {
@@ -107,8 +111,11 @@ impl Pool<'_> {
         if end.is_some() {
             self.keep_progress(&refinement)?;
         }
-        // Stopped before anything was run, the folder stays as it was.
-        let refining = folder.read_refining(sweep).map_err(RoundsError::from)?;
+        let refining = match end {
+            Some(_) => Some(refinement.refining().clone()),
+            // Stopped before anything was run, the folder stays as it was.
+            None => folder.read_refining(sweep).map_err(RoundsError::from)?,
+        };
         let plan = self.plan_of(refining.as_ref())?;
         let report = match report {
             Some(report) => report,
@@ -120,6 +127,45 @@ impl Pool<'_> {
             refinement,
             end,
         })
+    }
+
+    /// Runs the jobs of a round, those included that another process has begun and not ended.
+    fn run_round<W: WatchRounds>(
+        &self,
+        refinement: &Refinement,
+        jobs: &[Job],
+        watcher: &mut W,
+    ) -> Result<Report, W::Error> {
+        let plan = self.plan_of_round(refinement.refining(), jobs)?;
+        let mut report = watcher.run(self, &plan, refinement)?;
+        while report.elsewhere > 0 && report.left == 0 && report.halted.is_none() {
+            if !self.wait_for_others(jobs) {
+                report.left = report.elsewhere;
+                break;
+            }
+            let failed: Vec<&str> = report.failures.iter().map(|it| it.id.as_str()).collect();
+            let mut plan = self.plan_of_round(refinement.refining(), jobs)?;
+            plan.jobs
+                .retain(|(job, _)| !failed.contains(&job.id.as_str()));
+            report.elsewhere = 0;
+            if plan.pending().next().is_some() {
+                let more = watcher.run(self, &plan, refinement)?;
+                report = report.and(more);
+            }
+        }
+        Ok(report)
+    }
+
+    /// Waits until no other process makes one of these jobs. False if it is to stop meanwhile.
+    fn wait_for_others(&self, jobs: &[Job]) -> bool {
+        let is_made = |job: &Job| self.folder.is_made_elsewhere(&job.id);
+        while jobs.iter().any(is_made) {
+            if self.wishes.stop.load(Ordering::Relaxed) {
+                return false;
+            }
+            thread::sleep(BETWEEN_LOOKS);
+        }
+        true
     }
 
     fn keep_progress(&self, refinement: &Refinement) -> Result<(), RoundsError> {

@@ -1,0 +1,162 @@
+//! Several processes that work on one results folder.
+
+use crate::support::{Answer, TinySweep, Workplace, end, signal, wait_until};
+use std::fs;
+
+/// Runs of some tenths of a second each.
+fn slow() -> TinySweep {
+    TinySweep {
+        omegas: vec![0.0, 2.0, 4.0, 6.0, 8.0],
+        ..TinySweep::slow()
+    }
+}
+
+const SWEEP: [&str; 6] = ["sweep", "tiny.toml", "--out", "shared", "--jobs", "1"];
+
+/// Number of jobs that a sweep has run.
+fn run_now(answer: &Answer) -> usize {
+    let text = answer.stdout.split(" run now").next().unwrap();
+    let number = text.rsplit([' ', '\n']).next().unwrap();
+    number
+        .parse()
+        .unwrap_or_else(|_| panic!("{}", answer.stdout))
+}
+
+fn leases(place: &Workplace) -> usize {
+    let files = fs::read_dir(place.path("shared/records")).unwrap();
+    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+    names.filter(|name| name.ends_with(".lease")).count()
+}
+
+/// Each run is made once, and the last process to end writes the tables.
+#[test]
+fn processes_share_the_runs_of_a_sweep() {
+    let place = Workplace::new();
+    place.write("tiny.toml", &slow().text());
+    let children: Vec<_> = (0..3).map(|_| place.start(&SWEEP)).collect();
+    let answers: Vec<Answer> = children.into_iter().map(end).collect();
+    for answer in &answers {
+        assert_eq!(answer.code, Some(0), "{}{}", answer.stdout, answer.stderr);
+    }
+    let made: Vec<usize> = answers.iter().map(run_now).collect();
+    assert_eq!(made.iter().sum::<usize>(), slow().jobs(), "{made:?}");
+    assert!(made.iter().filter(|it| **it > 0).count() > 1, "{made:?}");
+    assert_eq!(leases(&place), 0);
+    place
+        .phase(&["sweep", "tiny.toml", "--out", "alone"])
+        .code(0);
+    assert_eq!(place.digests("shared"), place.digests("alone"));
+    for file in ["labels.csv", "points.csv", "sweep.json", "phase.svg"] {
+        let [one, other] =
+            ["shared", "alone"].map(|folder| place.read(&format!("{folder}/{file}")));
+        assert!(one == other, "{file}");
+    }
+    place
+        .phase(&["status", "shared"])
+        .code(0)
+        .says("10 done, 0 failed, 0 left")
+        .says("running    no");
+}
+
+/// While a process is at work others may not run another sweep, run everything again, or change
+/// labels.
+#[test]
+fn a_folder_at_work_is_not_changed() {
+    let place = Workplace::new();
+    let long = TinySweep {
+        duration: 3000.0,
+        ..slow()
+    };
+    place.write("tiny.toml", &long.text());
+    place.write("other.toml", &slow().text());
+    let mut child = place.start(&SWEEP);
+    wait_until(|| leases_there(&place));
+    for arguments in [
+        &["sweep", "other.toml", "--out", "shared"][..],
+        &["sweep", "tiny.toml", "--out", "shared", "--force"],
+        &["classify", "shared", "--sweep", "tiny.toml"],
+    ] {
+        place
+            .phase(arguments)
+            .code(2)
+            .complains("another `phase` is at work");
+    }
+    place
+        .phase(&["status", "shared"])
+        .code(0)
+        .says("running    yes");
+    child.kill().unwrap();
+    child.wait().unwrap();
+    place
+        .phase(&["status", "shared"])
+        .code(0)
+        .says("running    no");
+}
+
+fn leases_there(place: &Workplace) -> bool {
+    place.path("shared/records").exists() && leases(place) > 0
+}
+
+/// What a killed process had begun is made by another one, beside it or later.
+#[test]
+fn the_runs_of_a_killed_process_are_taken_over() {
+    let place = Workplace::new();
+    place.write("tiny.toml", &slow().text());
+    let mut killed = place.start(&SWEEP);
+    wait_until(|| leases_there(&place));
+    let other = place.start(&SWEEP);
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    let answer = end(other);
+    assert_eq!(answer.code, Some(0), "{}{}", answer.stdout, answer.stderr);
+    // The one that was begun may have been passed by.
+    place.phase(&SWEEP).code(0);
+    assert_eq!(place.records("shared").len(), slow().jobs());
+    assert_eq!(leases(&place), 0);
+}
+
+/// One that is asked to end gives its leases back.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_process_leaves_no_lease() {
+    let place = Workplace::new();
+    let long = TinySweep {
+        duration: 3000.0,
+        ..slow()
+    };
+    place.write("tiny.toml", &long.text());
+    let child = place.start(&SWEEP);
+    wait_until(|| leases_there(&place));
+    signal(&child, "TERM");
+    end(child).code(130);
+    assert_eq!(leases(&place), 0);
+}
+
+/// Processes that refine one sweep choose the same rounds, and wait for each other.
+#[test]
+fn processes_share_the_rounds_of_a_refined_sweep() {
+    let place = Workplace::new();
+    let sweep = TinySweep {
+        omegas: (0..16).map(f64::from).collect(),
+        duration: 30.0,
+        ..TinySweep::slow()
+    };
+    let text = sweep.text().replace("[seeds]\nlist = [1, 2]\n", "");
+    let text = text + "[refine]\nbudget = 14\nstart = [6]\nround = 4\nreplicates = 2\n";
+    place.write("tiny.toml", &text);
+    let children: Vec<_> = (0..2).map(|_| place.start(&SWEEP)).collect();
+    let answers: Vec<Answer> = children.into_iter().map(end).collect();
+    for answer in &answers {
+        assert_eq!(answer.code, Some(0), "{}{}", answer.stdout, answer.stderr);
+    }
+    let made: Vec<usize> = answers.iter().map(run_now).collect();
+    assert_eq!(made.iter().sum::<usize>(), 14, "{made:?}");
+    place
+        .phase(&["sweep", "tiny.toml", "--out", "alone"])
+        .code(0);
+    for file in ["labels.csv", "borders.csv", "sweep.json", "progress.json"] {
+        let [one, other] =
+            ["shared", "alone"].map(|folder| place.read(&format!("{folder}/{file}")));
+        assert_eq!(one, other, "{file}");
+    }
+}
