@@ -96,17 +96,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if !arguments.no_classify {
         sweep.check_sieves(&jobs).map_err(classify::cannot_label)?;
     }
-    let mut folder = Folder::new(
-        arguments
-            .out
-            .clone()
-            .unwrap_or_else(|| default_folder(&arguments.file)),
-    );
-    if arguments.keep_labels {
-        check_kept_labels(&folder, &sweep)?;
-        folder = folder.keeping_labels();
-    }
-    refuse_foreign(&folder, &sweep, arguments)?;
+    let folder = folder_of(&sweep, arguments)?;
     let stop = interrupt::stop_on_signal(console)?;
 
     folder.create().map_err(Failure::failed)?;
@@ -164,16 +154,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.answer(&answer);
         return Err(Failure::failed(error));
     }
-    let others = plan
-        .jobs
-        .iter()
-        .filter(|(job, _)| folder.is_made_elsewhere(&job.id));
-    let others = others.count();
-    if others > 0 {
-        console.note(format_args!(
-            "another process is making {}, and writes tables and figures when it is done",
-            format::count(others, "job")
-        ));
+    if leaves_rest_to_others(&folder, &plan, console) {
         console.answer(&answer);
         return Ok(Exit::Done);
     }
@@ -187,17 +168,47 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             failed |= !problems.is_empty();
             answer.problems = problems;
         }
-        if sweep.refine.is_none() && folder.borders().exists() {
-            console.note(format_args!(
-                "{} and `refined` are of an earlier, refined sweep in this folder",
-                folder.borders().display()
-            ));
-        }
+        tell_of_earlier_borders(&folder, &sweep, console);
         answer.labels = Some(classify::Summary::new(&folder, &labelled));
     }
     answer.files = console.files();
     console.answer(&answer);
     Ok(if failed { Exit::Failed } else { Exit::Done })
+}
+
+/// The results folder, in which no file of another program is in the way.
+fn folder_of(sweep: &Sweep, arguments: &Arguments) -> Result<Folder, Failure> {
+    let root = arguments.out.clone();
+    let mut folder = Folder::new(root.unwrap_or_else(|| default_folder(&arguments.file)));
+    if arguments.keep_labels {
+        check_kept_labels(&folder, sweep)?;
+        folder = folder.keeping_labels();
+    }
+    refuse_foreign(&folder, sweep, arguments)?;
+    Ok(folder)
+}
+
+/// Says which files of the folder are not of this sweep.
+fn tell_of_earlier_borders(folder: &Folder, sweep: &Sweep, console: &Console) {
+    if sweep.refine.is_none() && folder.borders().exists() {
+        console.note(format_args!(
+            "{} and `refined` are of an earlier, refined sweep in this folder",
+            folder.borders().display()
+        ));
+    }
+}
+
+/// Whether other processes still make runs of the plan: then they write tables and figures.
+fn leaves_rest_to_others(folder: &Folder, plan: &Plan, console: &Console) -> bool {
+    let is_made = |job: &Job| folder.is_made_elsewhere(&job.id);
+    let others = plan.jobs.iter().filter(|(job, _)| is_made(job)).count();
+    if others > 0 {
+        console.note(format_args!(
+            "another process is making {}, and writes tables and figures when it is done",
+            format::count(others, "job")
+        ));
+    }
+    others > 0
 }
 
 /// Takes the right to run a sweep into a folder, beside other processes that run the same one

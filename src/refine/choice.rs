@@ -3,8 +3,8 @@
 use super::lattice::square_distance;
 use super::{Lattice, Observations, ProbabilityMap, Run, Settings};
 
-/// How much a run at a place is wanted: the less the two most probable labels differ, the more, from
-/// 0 to 1.
+/// How much a run at a place is wanted, from 0 to 1: the more, the less the two most probable
+/// labels differ.
 fn score(map: &ProbabilityMap, place: usize) -> f64 {
     let at = map.at(place);
     let best = map.best(place);

@@ -62,8 +62,8 @@ pub struct EndOfRun {
 }
 
 impl Recorder {
-    /// A recorder before the first frame, of spheres with these radii (m) and masses (kg); `columns`
-    /// are those that the model itself declares.
+    /// A recorder before the first frame, of spheres with these radii (m) and masses (kg).
+    /// `columns` are those that the model itself declares.
     pub fn new(scene: &Scene, radius: &[f64], mass: &[f64], columns: &[Column]) -> Self {
         let ratio = scene.output.snapshot_interval / scene.time.frame_interval;
         Self {

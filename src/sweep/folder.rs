@@ -268,8 +268,8 @@ impl Folder {
         fs::create_dir_all(&path).map_err(|source| FolderError::Io { path, source })
     }
 
-    /// Removes the temporary files and leases that killed processes left behind. Only a process that
-    /// has the folder alone may call this.
+    /// Removes the temporary files and leases that killed processes left behind. Only a process
+    /// that has the folder alone may call this.
     ///
     /// # Errors
     /// If the folder cannot be read or a file not be removed.

@@ -16,9 +16,9 @@ use std::time::{Duration, Instant};
 
 /// Who runs jobs: threads of this process, other processes, a device, a cluster.
 pub trait Backend: Sync {
-    /// Runs the jobs of a batch, in their order as far as it can: [claims](Batch::claim) each, and
-    /// hands it in as soon as it has ended ([`Batch::finish`] or [`Batch::fail`]). Once the batch [is over](Batch::is_over),
-    /// no more are begun, and those under way may be given up.
+    /// Runs the jobs of a batch, in their order as far as it can. It [claims](Batch::claim) each,
+    /// and hands it in as soon as it has ended ([`Batch::finish`] or [`Batch::fail`]). Once the
+    /// batch [is over](Batch::is_over), no more are begun, and those under way may be given up.
     ///
     /// # Errors
     /// If no job can be run at all.
