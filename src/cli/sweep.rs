@@ -101,6 +101,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 
     folder.create().map_err(Failure::failed)?;
     let access = enter(&folder, &sweep, arguments)?;
+    refuse_another_file(&folder, &sweep, arguments)?;
     if !arguments.no_classify {
         let again = jobs_made_again(&folder, &sweep);
         let kept = jobs.iter().chain(&again).map(|job| job.id.as_str());
@@ -111,6 +112,11 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     overlaps::warn_of_jobs(&jobs, &sweep.axes, console);
     if !arguments.no_classify {
         warn_of_windows(&sweep, &jobs, console);
+    }
+    if matches!(access, Access::Alone(_)) {
+        folder
+            .note_source(&arguments.file)
+            .map_err(Failure::failed)?;
     }
     let _lock = match arguments.force {
         true => access,
@@ -186,6 +192,28 @@ fn folder_of(sweep: &Sweep, arguments: &Arguments) -> Result<Folder, Failure> {
     }
     refuse_foreign(&folder, sweep, arguments)?;
     Ok(folder)
+}
+
+/// Refuses the folder that the name of the file gives if another file of that name has other runs
+/// there.
+fn refuse_another_file(
+    folder: &Folder,
+    sweep: &Sweep,
+    arguments: &Arguments,
+) -> Result<(), Failure> {
+    let (Some(source), Ok(stored)) = (folder.source(), folder.read_sweep()) else {
+        return Ok(());
+    };
+    let is_same = arguments.file.canonicalize().is_ok_and(|it| it == source);
+    if arguments.out.is_some() || is_same || stored.keys_of_other_runs(sweep).is_empty() {
+        return Ok(());
+    }
+    Err(Failure::refused(format_args!(
+        "{}: this folder has the results of {}, another sweep of the same name; choose another \
+         folder with --out",
+        folder.root().display(),
+        source.display()
+    )))
 }
 
 /// Says which files of the folder are not of this sweep.

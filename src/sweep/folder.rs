@@ -350,6 +350,24 @@ impl Folder {
         shared.ok_or_else(|| FolderError::Locked(self.root.clone()))
     }
 
+    /// The sweep file that was last run into the folder on this machine, if it is known and there.
+    pub fn source(&self) -> Option<PathBuf> {
+        let text = fs::read_to_string(self.lock_file()).ok()?;
+        let path = PathBuf::from(text.trim_end());
+        path.is_file().then_some(path)
+    }
+
+    /// Notes which sweep file is run into the folder. Only a process that has the folder alone may
+    /// call this. Of a path that no text can name nothing is noted.
+    ///
+    /// # Errors
+    /// If the note cannot be written.
+    pub fn note_source(&self, file: &Path) -> Result<(), FolderError> {
+        let path = file.canonicalize().ok();
+        let text = path.as_deref().and_then(Path::to_str).unwrap_or_default();
+        fs::write(self.lock_file(), text).map_err(self.io_error())
+    }
+
     /// Whether another process writes to the folder.
     pub fn is_locked(&self) -> bool {
         Lock::is_taken(&self.lock_file())

@@ -97,6 +97,44 @@ fn leases_there(place: &Workplace) -> bool {
     place.path("shared/records").exists() && leases(place) > 0
 }
 
+/// Symptom: two sweep files of one name in two folders shared their results without a word. Cause:
+/// the folder has the name of the file alone.
+#[test]
+fn files_of_one_name_do_not_share_a_folder() {
+    let place = Workplace::new();
+    let (one, other) = (TinySweep::default(), slow());
+    for (folder, sweep) in [("one", &one), ("other", &other), ("same", &one)] {
+        fs::create_dir(place.path(folder)).unwrap();
+        place.write(&format!("{folder}/tiny.toml"), &sweep.text());
+    }
+    place.phase(&["sweep", "one/tiny.toml"]).code(0);
+    place
+        .phase(&["sweep", "other/tiny.toml"])
+        .code(2)
+        .complains("results/tiny: this folder has the results of ")
+        .complains(
+            "one/tiny.toml, another sweep of the same name; choose another folder with --out",
+        );
+    // The same runs are no other sweep, an edited file is itself, and --out is a wish.
+    place
+        .phase(&["sweep", "same/tiny.toml"])
+        .code(0)
+        .says("6 jobs: 0 run now");
+    let edited = TinySweep {
+        seeds: vec![1],
+        ..one
+    };
+    place.write("same/tiny.toml", &edited.text());
+    place
+        .phase(&["sweep", "same/tiny.toml"])
+        .code(0)
+        .says("3 jobs: 0 run now");
+    place
+        .phase(&["sweep", "one/tiny.toml", "--out", "results/tiny"])
+        .code(0)
+        .says("6 jobs: 0 run now");
+}
+
 /// What a killed process had begun is made by another one, beside it or later.
 #[test]
 fn the_runs_of_a_killed_process_are_taken_over() {
