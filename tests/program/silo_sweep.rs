@@ -54,7 +54,9 @@ fn the_quick_sweep_has_all_states_and_its_figures() {
     assert!(!place.path(&format!("{FOLDER}/settle-time.png")).exists());
 
     let list = place.phase(&["plot", "--list", FOLDER]).code(0).stdout;
-    assert!(list.contains("packing-fraction") && list.contains("beverloo"));
+    assert!(list.contains("packing-fraction"), "{list}");
+    // Too few openings let grains out for a fit.
+    assert!(!list.contains("beverloo"), "{list}");
     assert!(
         !list.contains("hole-radius") && !list.contains("tracks"),
         "{list}"
