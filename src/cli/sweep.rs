@@ -205,7 +205,8 @@ fn refuse_another_file(
         return Ok(());
     };
     let is_same = arguments.file.canonicalize().is_ok_and(|it| it == source);
-    if arguments.out.is_some() || is_same || stored.keys_of_other_runs(sweep).is_empty() {
+    let is_namesake = !is_same && arguments.file.file_name() == source.file_name();
+    if arguments.out.is_some() || !is_namesake || stored.keys_of_other_runs(sweep).is_empty() {
         return Ok(());
     }
     Err(Failure::refused(format_args!(
