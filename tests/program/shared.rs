@@ -3,10 +3,11 @@
 use crate::support::{Answer, TinySweep, Workplace, end, signal, wait_until};
 use std::fs;
 
-/// Runs of some tenths of a second each.
+/// Runs of a tenth of a second each.
 fn slow() -> TinySweep {
     TinySweep {
         omegas: vec![0.0, 2.0, 4.0, 6.0, 8.0],
+        duration: 40.0,
         ..TinySweep::slow()
     }
 }
@@ -176,7 +177,7 @@ fn processes_share_the_rounds_of_a_refined_sweep() {
     let place = Workplace::new();
     let sweep = TinySweep {
         omegas: (0..16).map(f64::from).collect(),
-        duration: 30.0,
+        duration: 10.0,
         ..TinySweep::slow()
     };
     let text = sweep.text().replace("[seeds]\nlist = [1, 2]\n", "");
