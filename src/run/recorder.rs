@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// program, a device. It observes every frame, keeps the states that the scene's output asks for,
 /// and tests whether the run is steady.
 ///
-/// Frames come in order, from that of the start on; the last one [comes twice](Self::end).
+/// Frames come in order, the start first; the last one [comes twice](Self::end).
 pub struct Recorder {
     scene: Scene,
     recorded: Recorded,
@@ -19,7 +19,7 @@ pub struct Recorder {
     steady_test: Option<SteadyTest>,
     /// Since when the run is steady, once it is (s).
     steady_since: Option<f64>,
-    /// Absent where no state but that of the end is asked for.
+    /// Absent if only the last state is asked for.
     frames_per_snapshot: Option<u64>,
 }
 
@@ -34,7 +34,7 @@ pub(super) struct Recorded {
 /// What a frame is, besides its spheres.
 #[derive(Clone, Copy, Debug)]
 pub struct FrameInfo<'a> {
-    /// Number of the frame, that of the start 0.
+    /// Number of the frame; the start has 0.
     pub frame: u64,
     /// Time (s).
     pub time: f64,

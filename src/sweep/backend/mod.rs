@@ -9,7 +9,7 @@ use crate::record::RunRecord;
 use crate::resume::Checkpoints;
 use crate::store::{CheckpointError, Lease, StoreError};
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -126,7 +126,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// What became of these jobs and of those of a later batch. What is left, and why no more jobs
+    /// What became of these jobs and the jobs of a later batch. What is left, and why no more jobs
     /// were started, is what the later one says.
     #[must_use]
     pub fn and(self, later: Self) -> Self {
@@ -162,6 +162,8 @@ pub struct Batch<'a> {
 /// What is added up of the jobs that have ended.
 #[derive(Default)]
 struct Tally {
+    /// Jobs that were handed in, or are made elsewhere, by identity.
+    settled: HashSet<String>,
     finished: usize,
     resumed: usize,
     elsewhere: usize,
@@ -226,8 +228,10 @@ impl<'a> Batch<'a> {
         match self.results.claim(job) {
             Ok(Some(claim)) => Some(claim),
             Ok(None) => {
-                self.tally().elsewhere += 1;
-                self.tell(Event::Elsewhere(job));
+                if self.settle(job) {
+                    self.tally().elsewhere += 1;
+                    self.tell(Event::Elsewhere(job));
+                }
                 None
             }
             Err(error) if self.concerns_all_jobs(&error) => {
@@ -247,8 +251,12 @@ impl<'a> Batch<'a> {
     }
 
     /// Hands in the record of a job that has ended. `is_resumed` says whether it went on from a
-    /// checkpoint, and `left` how much of its work has not been [told](Event::Advanced).
+    /// checkpoint, and `left` how much of its work has not been [told](Event::Advanced). Each job
+    /// is handed in once: nothing that follows counts.
     pub fn finish(&self, job: &Job, record: &RunRecord, is_resumed: bool, left: u64) {
+        if !self.settle(job) {
+            return;
+        }
         match self.results.keep(job, record) {
             Ok(()) => {
                 // If it cannot be removed now, the next run of the sweep removes it.
@@ -261,12 +269,24 @@ impl<'a> Batch<'a> {
                 tally.cpu_seconds += record.cpu_seconds;
             }
             Err(error) if self.concerns_all_jobs(&error) => self.tally().halted = Some(error),
-            Err(error) => self.fail(job, error.to_string()),
+            Err(error) => self.note_failure(job, error.to_string()),
         }
     }
 
-    /// Hands in a job that has failed, and why.
+    /// Hands in a job that has failed, and why. Each job is handed in once: nothing that follows
+    /// counts.
     pub fn fail(&self, job: &Job, reason: impl Into<String>) {
+        if self.settle(job) {
+            self.note_failure(job, reason.into());
+        }
+    }
+
+    /// Whether a job has not been settled before; it is by now.
+    fn settle(&self, job: &Job) -> bool {
+        self.tally().settled.insert(job.id.clone())
+    }
+
+    fn note_failure(&self, job: &Job, reason: String) {
         let failure = Failure::new(job, reason);
         self.tell(Event::Failed(job, &failure));
         let place = self.places.get(job.id.as_str());
@@ -329,8 +349,10 @@ impl<'a> Batch<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run;
     use crate::sweep::Sweep;
     use std::io::{Error, ErrorKind};
+    use std::ops::ControlFlow;
     use std::path::{Path, PathBuf};
     use std::time::Duration;
 
@@ -418,6 +440,42 @@ mod tests {
             // That the failure could not be noted stops nothing.
             assert_eq!(report.unnoted.is_some(), kind == ErrorKind::IsADirectory);
         }
+    }
+
+    /// A backend that hands every job in as failed, and then its record.
+    struct Twice;
+
+    impl Backend for Twice {
+        fn run(&self, batch: &Batch<'_>) -> Result<(), BackendError> {
+            for job in batch.jobs() {
+                let record = run::run(&job.scene, &mut |_| ControlFlow::Continue(()));
+                batch.fail(job, "first");
+                batch.finish(job, &record.unwrap(), false, 0);
+            }
+            Ok(())
+        }
+    }
+
+    /// Symptom: a job that failed and was handed in again made the number of those left overflow.
+    #[test]
+    fn a_job_is_handed_in_once() {
+        let place = tempfile::tempdir().unwrap();
+        let sweep = Sweep::of_falling_sphere();
+        let jobs = sweep.jobs().unwrap();
+        let results = Faulty {
+            folder: place.path().to_owned(),
+            kind: ErrorKind::Other,
+            have_own_files: true,
+        };
+        let wishes = Wishes {
+            stop: &AtomicBool::new(false),
+            resume: true,
+            watch: &|_| {},
+        };
+        let report = Batch::new(&jobs, &results, wishes).run_on(&Twice).unwrap();
+        assert_eq!((report.failures.len(), report.left), (jobs.len(), 0));
+        assert_eq!(report.finished, 0);
+        assert!(report.failures.iter().all(|it| it.reason == "first"));
     }
 
     #[test]
