@@ -9,6 +9,9 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
+/// What may be done where figures of another program are in the way.
+pub(super) const ANOTHER_FOLDER: &str = "choose another folder with --out";
+
 /// What became of a results folder, as `--json` prints it.
 #[derive(Serialize)]
 #[serde(tag = "outcome", rename_all = "kebab-case")]

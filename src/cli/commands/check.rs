@@ -4,19 +4,19 @@ mod accuracy;
 mod study;
 mod walls;
 
-use super::classify;
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::options::Workers;
 use crate::cli::time_step::{self, Tightest, tightest_limits};
 use crate::cli::values;
-use crate::cli::{format, job, overlaps};
+use crate::cli::{format, job, labels, overlaps};
 use phase::cost::{Forecast, Leaves, forecast};
 use phase::dem::timestep::{Limit, Standing};
 use phase::document::LoadError;
 use phase::run::Edits;
 use phase::scene::{FileKind, Scene, Start, Tank};
 use phase::study::{AnyFile, AnyStudy};
-use phase::sweep::{Axis, Job, Sweep, describe, work};
+use phase::sweep::{Axis, Job, Sweep, describe};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -36,9 +36,8 @@ Example: what will the full diagram cost on 16 cores?
 pub(crate) struct Arguments {
     /// The scene, sweep or study file (TOML).
     file: PathBuf,
-    /// Simulations at the same time [default: all cores].
-    #[arg(short, long, value_name = "N", value_parser = values::at_least_one)]
-    jobs: Option<usize>,
+    #[command(flatten)]
+    workers: Workers,
     /// A key of the scene with another value, as of `phase run`; may be given several times.
     #[arg(long, value_name = "KEY=VALUE", value_parser = values::setting)]
     set: Vec<String>,
@@ -48,13 +47,10 @@ pub(crate) struct Arguments {
     /// Only validate: no trial, no forecast.
     #[arg(long)]
     no_trial: bool,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    let workers = arguments.jobs.unwrap_or_else(work::default_workers);
+    let workers = arguments.workers.count();
     let (sweep, kind) = match arguments.load().map_err(Failure::refused)? {
         AnyFile::Scene(scene) => (Sweep::of_scene(*scene), FileKind::Scene),
         AnyFile::Sweep(sweep) => (*sweep, FileKind::Sweep),
@@ -67,7 +63,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     };
     let jobs = sweep.jobs().map_err(Failure::refused)?;
     if kind == FileKind::Sweep {
-        sweep.check_sieves(&jobs).map_err(classify::cannot_label)?;
+        sweep.check_sieves(&jobs).map_err(labels::cannot_label)?;
     }
     console.result(describe_sweep(&sweep, jobs.len()));
     console.result(line("effects", effects(&sweep.scene).join(", ")));
@@ -82,7 +78,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     time_step::warn_of_jobs(&tightest, &sweep.axes, console);
     overlaps::warn_of_jobs(&jobs, &sweep.axes, console);
     if kind == FileKind::Sweep {
-        super::sweep::warn_of_windows(&sweep, &jobs, console);
+        labels::warn_of_windows(&sweep, &jobs, console);
     }
     let walls = walls::weakest(&jobs);
     if let Some(wall) = &walls {

@@ -4,11 +4,12 @@ mod inputs;
 mod sweeps;
 mod table;
 
+use crate::cli::columns::{in_columns, written};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders;
+use crate::cli::options::Measured;
 use crate::cli::runs::check_labels;
-use crate::cli::values;
 use inputs::Column;
 use phase::compare::{Row, are_of_one_run};
 use phase::scene::Units;
@@ -42,23 +43,11 @@ pub(crate) struct Arguments {
     /// Records (HDF5, LAMMPS dump, extended XYZ, VTK) or tables (CSV), one or more; or two folders.
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
-    /// First and last time (s) of the states that count, since the opening [default: from a fifth
-    /// of the drainage to its end].
-    #[arg(long, value_name = "FROM,TO", value_parser = values::times)]
-    times: Option<[f64; 2]>,
-    /// The scene of files of other programs [default: that of the first record].
-    #[arg(long, value_name = "TOML")]
-    scene: Option<PathBuf>,
-    /// What names a record, in the order of the records [default: its file, and the keys in which
-    /// they differ].
-    #[arg(long = "label", value_name = "TEXT")]
-    labels: Vec<String>,
+    #[command(flatten)]
+    measured: Measured,
     /// A table to write (CSV).
     #[arg(short, long, value_name = "CSV")]
     out: Option<PathBuf>,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
@@ -67,7 +56,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         folders::make_for(table)?;
     }
     if arguments.paths.iter().any(|path| path.is_dir()) {
-        check_labels(&arguments.labels, arguments.paths.len(), true)?;
+        check_labels(&arguments.measured.labels, arguments.paths.len(), true)?;
         if let Some(file) = arguments.paths.iter().find(|path| !path.is_dir()) {
             return Err(Failure::refused(format_args!(
                 "{}: this is no folder, and folders are compared with folders; compare records \
@@ -77,14 +66,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         }
         return sweeps::main(arguments, console);
     }
-    let inputs = inputs::read(&arguments.paths, arguments.scene.as_deref())?;
+    let inputs = inputs::read(&arguments.paths, arguments.measured.scene.as_deref())?;
     let units = inputs::units(&inputs)?;
-    let columns = inputs::columns(&inputs, arguments.times)?;
-    let names = names(&columns, &arguments.labels)?;
+    let columns = inputs::columns(&inputs, arguments.measured.window.times)?;
+    let names = names(&columns, &arguments.measured.labels)?;
     if arguments.out.is_some() {
         table::check(&names)?;
     }
-    warn_of_windows(&columns, arguments.times, units, console);
+    warn_of_windows(&columns, arguments.measured.window.times, units, console);
     let rows = inputs::rows(&columns);
     let is_of_one_run = are_of_one_run(&rows);
     for (index, name) in names.iter().enumerate() {
@@ -167,48 +156,6 @@ fn lines(rows: &[Row], records: usize, units: Units, is_of_one_run: bool) -> Vec
     });
     let cells: Vec<Vec<String>> = std::iter::once(head).chain(cells).collect();
     in_columns(&cells)
-}
-
-/// Rows of as many cells as lines of text, in columns.
-pub(super) fn in_columns<R: AsRef<[String]>>(rows: &[R]) -> Vec<String> {
-    let columns = rows.first().map_or(0, |row| row.as_ref().len());
-    let width = |column: usize| {
-        let cells = rows.iter().filter_map(|row| row.as_ref().get(column));
-        cells.map(|cell| cell.chars().count()).max()
-    };
-    let widths: Vec<usize> = (0..columns).filter_map(width).collect();
-    let line = |row: &R| {
-        let cells = row.as_ref().iter().zip(&widths);
-        let padded = cells.map(|(cell, &width)| format!("{cell:<width$}"));
-        padded.collect::<Vec<_>>().join("  ").trim_end().to_owned()
-    };
-    rows.iter().map(line).collect()
-}
-
-/// A value with its interval, if that is known.
-pub(super) fn written(estimate: Estimate) -> String {
-    match estimate.half_width.is_finite() {
-        true => format!(
-            "{:.4} ± {:.2}",
-            Short(estimate.value),
-            Short(estimate.half_width)
-        ),
-        false => format!("{:.4}", Short(estimate.value)),
-    }
-}
-
-/// A number with so many significant digits as the precision says.
-struct Short(f64);
-
-impl std::fmt::Display for Short {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let digits = formatter.precision().unwrap_or(4).saturating_sub(1);
-        let rounded: f64 = format!("{:.digits$e}", self.0).parse().unwrap_or(self.0);
-        match rounded.abs() {
-            0.0 | 1e-3..1e6 => write!(formatter, "{rounded}"),
-            _ => write!(formatter, "{rounded:e}"),
-        }
-    }
 }
 
 /// What `--json` prints.

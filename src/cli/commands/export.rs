@@ -1,8 +1,8 @@
 //! `phase export`: writes the spheres of records for other programs, browsers among them.
 
-use super::plot::ANOTHER_FOLDER;
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::folders::ANOTHER_FOLDER;
 use crate::cli::values;
 use crate::cli::{folders, format};
 use phase::observe::Snapshot;
@@ -57,9 +57,6 @@ pub(crate) struct Arguments {
     /// Write one state in N, from the first on.
     #[arg(long, value_name = "N", value_parser = values::at_least_one)]
     every: Option<usize>,
-    /// Print the files written as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 /// A format to write.

@@ -1,9 +1,10 @@
 //! `phase fit`: the parameters of a simpler model that a run follows.
 
+use crate::cli::columns::{in_columns, written};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders;
-use crate::cli::values;
+use crate::cli::options::Window;
 use phase::compare::{Drainage, SpotFit};
 use phase::scene::{Scene, Units};
 use phase::statistics::Estimate;
@@ -30,16 +31,11 @@ pub(crate) struct Arguments {
     /// The model.
     #[arg(long, default_value = "spot")]
     model: Model,
-    /// First and last time (s) of the states that count, since the opening [default: from a fifth
-    /// of the drainage to its end].
-    #[arg(long, value_name = "FROM,TO", value_parser = values::times)]
-    times: Option<[f64; 2]>,
+    #[command(flatten)]
+    window: Window,
     /// The scene to write (TOML).
     #[arg(short, long, value_name = "TOML")]
     out: Option<PathBuf>,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -121,12 +117,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let path = arguments.record.display();
     let record = store::read_record(&arguments.record).map_err(Failure::refused)?;
     let lacks = |needs: &str| Failure::refused(format_args!("{path}: a fit needs {needs}"));
-    let drainage = Drainage::new(&record, arguments.times).map_err(lacks)?;
+    let drainage = Drainage::new(&record, arguments.window.times).map_err(lacks)?;
     let fit = SpotFit::of(&drainage).map_err(lacks)?;
     let head = ["key", "symbol", "fit", "paper", "from"].map(str::to_owned);
     let rows = PARAMETERS.iter().map(|it| row(it, &fit, &record.scene));
     let rows: Vec<[String; 5]> = std::iter::once(head).chain(rows).collect();
-    for line in super::compare::in_columns(&rows) {
+    for line in in_columns(&rows) {
         console.result(line);
     }
     console.note(
@@ -175,7 +171,7 @@ fn row(parameter: &Parameter, fit: &SpotFit, scene: &Scene) -> [String; 5] {
     [
         format!("spot.{}", parameter.key),
         parameter.symbol.to_owned(),
-        super::compare::written((parameter.value)(fit)),
+        written((parameter.value)(fit)),
         paper.map_or_else(|| "-".to_owned(), |paper| rounded(paper).to_string()),
         parameter.from.to_owned(),
     ]

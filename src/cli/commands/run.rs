@@ -90,9 +90,6 @@ pub(crate) struct Arguments {
     /// stay on one. The bits do not depend on it.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::threads)]
     threads: usize,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 impl Arguments {

@@ -4,7 +4,7 @@ use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders::{self, Entry};
 use crate::cli::job::{self, NamedJob};
-use crate::cli::values;
+use crate::cli::options::Workers;
 use crate::cli::{format, refined};
 use phase::refine::Finish;
 use phase::sweep::{Axis, Folder, Plan, Refining, Status, Sweep, UnderWay, describe, work};
@@ -21,16 +21,12 @@ Example: all sweeps in ./results
 pub(crate) struct Arguments {
     /// A results folder of `phase sweep`, or a folder that holds several.
     dir: PathBuf,
-    /// Simulations at the same time, to tell the time left [default: all cores].
-    #[arg(short, long, value_name = "N", value_parser = values::at_least_one)]
-    jobs: Option<usize>,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
+    #[command(flatten)]
+    workers: Workers,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    let workers = arguments.jobs.unwrap_or_else(work::default_workers);
+    let workers = arguments.workers.count();
     let found = Folder::find(&arguments.dir).map_err(Failure::refused)?;
     let folders = folders::go_through(&arguments.dir, found, console, |folder| {
         Ok(FolderAnswer::of(folder, workers, console)?)

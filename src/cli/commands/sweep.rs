@@ -3,17 +3,18 @@
 mod refining;
 mod rounds;
 
-use super::{classify, plot};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use crate::cli::job::NamedJob;
+use crate::cli::options::Workers;
 use crate::cli::values;
+use crate::cli::{figures, labels};
 use crate::cli::{folders, format, interrupt, overlaps, refined, time_step};
 use phase::classify::Family;
 use phase::resume::DEFAULT_INTERVAL;
 use phase::store;
 use phase::sweep::{
-    Access, Folder, FolderError, Job, Plan, Sweep, differing_keys, refuse_to_lose_labels, work,
+    Access, Folder, FolderError, Job, Plan, Sweep, differing_keys, refuse_to_lose_labels,
 };
 use rounds::{Rounds, Run};
 use serde::Serialize;
@@ -41,9 +42,8 @@ pub(crate) struct Arguments {
     /// The results folder [default: results/NAME, the sweep file's name without .toml].
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Simulations at the same time [default: all cores].
-    #[arg(short, long, value_name = "N", value_parser = values::at_least_one)]
-    jobs: Option<usize>,
+    #[command(flatten)]
+    workers: Workers,
     /// Run every job again, whatever the results folder holds.
     #[arg(short, long)]
     force: bool,
@@ -68,18 +68,15 @@ pub(crate) struct Arguments {
     /// Draw no figures.
     #[arg(long)]
     no_plot: bool,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let mut sweep = phase::sweep::load(&arguments.file).map_err(Failure::refused)?;
     choose_runs(&mut sweep, arguments)?;
-    let workers = arguments.jobs.unwrap_or_else(work::default_workers);
+    let workers = arguments.workers.count();
     let jobs = sweep.jobs().map_err(Failure::refused)?;
     if !arguments.no_classify {
-        sweep.check_sieves(&jobs).map_err(classify::cannot_label)?;
+        sweep.check_sieves(&jobs).map_err(labels::cannot_label)?;
     }
     let folder = folder_of(&sweep, arguments)?;
     let stop = interrupt::stop_on_signal(console)?;
@@ -90,13 +87,13 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if !arguments.no_classify {
         let again = jobs_made_again(&folder, &sweep);
         let kept = jobs.iter().chain(&again).map(|job| job.id.as_str());
-        refuse_to_lose_labels(&folder, kept).map_err(classify::cannot_write)?;
+        refuse_to_lose_labels(&folder, kept).map_err(labels::cannot_write)?;
     }
     tell_of_other_sweep(&folder, &sweep, console);
     time_step::tell_of_jobs(&jobs, &sweep.axes, console);
     overlaps::warn_of_jobs(&jobs, &sweep.axes, console);
     if !arguments.no_classify {
-        warn_of_windows(&sweep, &jobs, console);
+        labels::warn_of_windows(&sweep, &jobs, console);
     }
     if matches!(access, Access::Alone(_)) {
         folder
@@ -151,16 +148,16 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     let mut failed = !run.report.failures.is_empty();
     if !arguments.no_classify {
-        let labelled = classify::label_folder(&folder, &sweep, &jobs, workers, console);
+        let labelled = labels::label_folder(&folder, &sweep, &jobs, workers, console);
         let labelled = labelled.inspect_err(|_| console.answer(&answer))?;
         failed |= !labelled.problems.is_empty();
         if !arguments.no_plot {
-            let problems = plot::draw_default_figures(&folder, &sweep, &labelled.table, console);
+            let problems = figures::draw_default_figures(&folder, &sweep, &labelled.table, console);
             failed |= !problems.is_empty();
             answer.problems = problems;
         }
         tell_of_earlier_borders(&folder, &sweep, console);
-        answer.labels = Some(classify::Summary::new(&folder, &labelled));
+        answer.labels = Some(labels::Summary::new(&folder, &labelled));
     }
     answer.files = console.files();
     console.answer(&answer);
@@ -266,7 +263,7 @@ fn check_kept_labels(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
 fn refuse_foreign(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Result<(), Failure> {
     let root = folder.root();
     if folder.sweep().exists() {
-        return folders::refuse_foreign(root, ["sweep.json"], plot::ANOTHER_FOLDER);
+        return folders::refuse_foreign(root, ["sweep.json"], folders::ANOTHER_FOLDER);
     }
     let mut names = vec![PathBuf::from("failed.csv")];
     if !arguments.no_classify {
@@ -277,11 +274,11 @@ fn refuse_foreign(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Resu
             .flat_map(|_| ["refined.csv", "borders.csv"]);
         names.extend(refined.map(PathBuf::from));
         if !arguments.no_plot && !sweep.axes.is_empty() {
-            let figures = plot::figures_of_sweep(sweep, Family::of(&sweep.scene));
+            let figures = figures::figures_of_sweep(sweep, Family::of(&sweep.scene));
             names.extend(folders::files_of_figures(figures));
         }
     }
-    folders::refuse_foreign(root, names, plot::ANOTHER_FOLDER)
+    folders::refuse_foreign(root, names, folders::ANOTHER_FOLDER)
 }
 
 /// The jobs of the sweep that the folder keeps, if this one makes the same, and those that a
@@ -320,25 +317,6 @@ fn choose_runs(sweep: &mut Sweep, arguments: &Arguments) -> Result<(), Failure> 
         ));
     }
     Ok(())
-}
-
-/// Warns of sieves that find nothing in some runs, or in all, as these are too short.
-pub(super) fn warn_of_windows(sweep: &Sweep, jobs: &[Job], console: &Console) {
-    for sieve in sweep.sieves_without_room(jobs) {
-        let (name, window, longest) = (sieve.sieve, sieve.window, sieve.longest);
-        let which = match sieve.runs == jobs.len() {
-            true => format!("the runs, {longest} s: it finds nothing in any of them"),
-            false => format!(
-                "{} of {}, which last {longest} s at most: it finds nothing in these",
-                sieve.runs,
-                format::count(jobs.len(), "run")
-            ),
-        };
-        console.warning(format_args!(
-            "the window of the sieve {name}, {window} s, is longer than {which}; lengthen \
-             time.duration, or shorten `window` in [sieves.{name}]"
-        ));
-    }
 }
 
 /// Seeds, each of which is there once.
@@ -389,7 +367,7 @@ struct Answer {
     seconds: f64,
     cpu_seconds: f64,
     sphere_steps: u64,
-    labels: Option<classify::Summary>,
+    labels: Option<labels::Summary>,
     /// How well borders are known; none if the whole grid is run.
     refined: Option<refined::Answer>,
     /// Figures that could not be drawn, and why.

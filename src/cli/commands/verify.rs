@@ -1,10 +1,10 @@
 //! `phase verify`: runs the verification cases and says how far each is from its number.
 
-use super::plot;
-use super::plot::ANOTHER_FOLDER;
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
-use crate::cli::values;
+use crate::cli::figures;
+use crate::cli::folders::ANOTHER_FOLDER;
+use crate::cli::options::Workers;
 use crate::cli::{folders, format};
 use phase::plot::verification::{self, CaseError};
 use phase::record::Program;
@@ -36,12 +36,8 @@ pub(crate) struct Arguments {
     /// Folder for the table (CSV) and the figure (SVG, PNG) [default: print only].
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Cases at the same time [default: all cores].
-    #[arg(short, long, value_name = "N", value_parser = values::at_least_one)]
-    jobs: Option<usize>,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
+    #[command(flatten)]
+    workers: Workers,
 }
 
 /// A quantity of a case with one integrator.
@@ -79,7 +75,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         .iter()
         .flat_map(|case| case.integrators.iter().map(move |&it| (*case, it)))
         .collect();
-    let workers = arguments.jobs.unwrap_or_else(work::default_workers);
+    let workers = arguments.workers.count();
     let outcomes = work::map(workers, &runs, |(case, integrator)| {
         verify::run(case, *integrator)
     });
@@ -256,5 +252,5 @@ fn write(
     store::write_rows(rows, &place("csv")).map_err(Failure::failed)?;
     console.file(&place("csv"));
     let figure = verification::draw(errors, &Program::current()).map_err(Failure::failed)?;
-    plot::write(&figure, place, console)
+    figures::write(&figure, place, console)
 }

@@ -100,9 +100,6 @@ pub(crate) struct Arguments {
     /// Write the picture in 256 colours: a smaller file. Animations always are.
     #[arg(long, conflicts_with_all = ["animate", "each"])]
     palette: bool,
-    /// Print the files written as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 /// What the colours of the spheres stand for.

@@ -1,9 +1,9 @@
 //! Labels of a folder of dumps.
 
-use super::{cannot_write, tell_of_labels, tell_of_problems};
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
 use crate::cli::folders;
+use crate::cli::labels::{cannot_write, tell_of_labels, tell_of_problems};
 use phase::classify::Sieves;
 use phase::scene::Scene;
 use phase::sweep::{Folder, FolderError, Labelled, Labelling, find_dumps};

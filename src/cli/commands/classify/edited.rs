@@ -1,10 +1,11 @@
 //! Labels of other thresholds, which the folder keeps.
 
-use super::{Summary, jobs_to_label, labelling_of, sweep_with_records, write};
+use super::{jobs_to_label, sweep_with_records};
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
 use crate::cli::folders::{self, Entry, Undone};
 use crate::cli::format;
+use crate::cli::labels::{Summary, labelling_of, write};
 use phase::store::{self, Lock};
 use phase::sweep::{Folder, Job, Labelling, Learnt, Sweep};
 use std::path::Path;

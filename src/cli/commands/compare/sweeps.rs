@@ -1,6 +1,7 @@
 //! The labels and measures of two sweeps beside each other.
 
-use super::{Answer, Arguments, Entry, in_columns, table, written};
+use super::{Answer, Arguments, Entry, table};
+use crate::cli::columns::{in_columns, written};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
 use phase::classify::{Agreement, MeasureDifference};
@@ -16,8 +17,8 @@ pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         ));
     };
     let unused = [
-        (arguments.times.is_some(), "--times"),
-        (arguments.scene.is_some(), "--scene"),
+        (arguments.measured.window.times.is_some(), "--times"),
+        (arguments.measured.scene.is_some(), "--scene"),
     ];
     if let Some((_, option)) = unused.iter().find(|(given, _)| *given) {
         return Err(Failure::refused(format_args!(

@@ -87,8 +87,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         Kind::Sweep => "sweep",
     };
     console.note(format_args!(
-        "for help from an editor: `phase schema {kind} > {kind}.json`, and `#:schema {kind}.json` \
-         as the first line of the file"
+        "for help from an editor: `phase generate schema {kind} > {kind}.json`, and `#:schema \
+         {kind}.json` as the first line of the file"
     ));
     Ok(Exit::Done)
 }

@@ -1,8 +1,10 @@
 //! Figures of a results folder.
 
-use super::{ANOTHER_FOLDER, default_figures, draw, name_all, refused_or_failed};
+use super::name_all;
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
+use crate::cli::figures::{default_figures, draw, refused_or_failed};
+use crate::cli::folders::ANOTHER_FOLDER;
 use crate::cli::{folders, format};
 use phase::classify::LabelTable;
 use phase::plot;

@@ -1,8 +1,10 @@
 //! Figures of the records of single runs.
 
-use super::{Arguments, Listed, name_all, write};
+use super::{Arguments, Listed, name_all};
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
+use crate::cli::figures::write;
+use crate::cli::options::Measured;
 use crate::cli::{folders, runs};
 use phase::classify::{DRAINAGE, Family};
 use phase::plot::{self, About, PlotError, Svg};
@@ -98,7 +100,7 @@ pub(super) fn draw(
             "--point {point} is for a results folder: a record is of one run"
         )));
     }
-    let records: Vec<RunRecord> = runs::read(paths, arguments.scene.as_deref())?;
+    let records: Vec<RunRecord> = runs::read(paths, arguments.measured.scene.as_deref())?;
     let (Some(first), Some(record)) = (paths.first(), records.first()) else {
         return Ok(Vec::new());
     };
@@ -167,13 +169,15 @@ fn image(
 ) -> Result<Svg, PlotError> {
     let of_one = OF_ONE.iter().find(|figure| figure.name == name);
     match (of_one, records) {
-        (Some(figure), [_]) if arguments.times.is_some() => Err(PlotError::NoTimes(figure.name)),
+        (Some(figure), [_]) if arguments.measured.window.times.is_some() => {
+            Err(PlotError::NoTimes(figure.name))
+        }
         (Some(figure), [_]) if !data.is_empty() => Err(PlotError::NoData(figure.name)),
         (Some(figure), [record]) => (figure.draw)(record),
         (Some(figure), _) => Err(PlotError::OfOneRecord(figure.name)),
         (None, _) => {
-            let Arguments { times, labels, .. } = arguments;
-            plot::draw_records(name, records, *times, labels, data)
+            let Measured { window, labels, .. } = &arguments.measured;
+            plot::draw_records(name, records, window.times, labels, data)
         }
     }
 }

@@ -1,8 +1,8 @@
 //! The rounds of a refined sweep, as people see them.
 
 use super::rounds::{Part, Rounds, Run, tell_of_plan};
-use crate::cli::commands::plot;
 use crate::cli::exit::Failure;
+use crate::cli::figures;
 use crate::cli::{format, refined};
 use phase::refine::{Finish, Settings};
 use phase::sweep::{
@@ -117,7 +117,7 @@ impl WatchRounds for Watcher<'_> {
             ));
         }
         if self.rounds.draws && refinement.runs() > 0 {
-            plot::draw_round(pool.folder, pool.sweep, refinement.table())?;
+            figures::draw_round(pool.folder, pool.sweep, refinement.table())?;
         }
         Ok(())
     }
