@@ -100,6 +100,7 @@ pub mod plot;
 pub mod record;
 pub mod reference;
 pub mod refine;
+pub mod refusal;
 pub mod render;
 pub mod replay;
 pub mod resume;

@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::exit::Failure;
 use phase::classify::{Family, LabelTable};
-use phase::plot::{self, PlotError, Svg};
+use phase::plot::{self, Svg};
 use phase::record::Program;
 use phase::store;
 use phase::sweep::{Folder, Selection, Sweep};
@@ -65,7 +65,7 @@ pub(super) fn draw_round(
     let figure = drawn(REFINED, (folder, sweep, table), (&[], None))?;
     for (extension, bytes) in images(&figure)? {
         let path = folder.root().join(format!("{REFINED}.{extension}"));
-        store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
+        store::write_atomic(&path, &bytes)?;
     }
     Ok(())
 }
@@ -91,7 +91,7 @@ pub(super) fn drawn(
     (folder, sweep, table): (&Folder, &Sweep, &LabelTable),
     (points, times): (&[Selection], Option<[f64; 2]>),
 ) -> Result<Svg, Failure> {
-    let refining = folder.read_refining(sweep).map_err(Failure::failed)?;
+    let refining = folder.read_refining(sweep)?;
     let source = plot::Source {
         sweep,
         refining: refining.as_ref(),
@@ -103,23 +103,14 @@ pub(super) fn drawn(
         data: &[],
         program: &Program::current(),
     };
-    plot::draw(name, &source).map_err(|error| refused_or_failed(folder, error))
-}
-
-/// Why a figure of a folder is not drawn.
-pub(super) fn refused_or_failed(folder: &Folder, error: PlotError) -> Failure {
-    let text = format!("{}: {error}", folder.root().display());
-    match error.is_of_request() {
-        true => Failure::refused(text),
-        false => Failure::failed(text),
-    }
+    plot::draw(name, &source).map_err(|error| Failure::from(error).at(folder.root()))
 }
 
 /// The files of a figure, by the ends of their names.
 fn images(figure: &Svg) -> Result<[(&'static str, Vec<u8>); 2], Failure> {
     Ok([
         ("svg", figure.to_svg_bytes()),
-        ("png", figure.to_png_bytes().map_err(Failure::failed)?),
+        ("png", figure.to_png_bytes()?),
     ])
 }
 
@@ -131,7 +122,7 @@ pub(super) fn write(
 ) -> Result<(), Failure> {
     for (extension, bytes) in images(figure)? {
         let path = place(extension);
-        store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
+        store::write_atomic(&path, &bytes)?;
         console.file(&path);
     }
     for warning in figure.warnings() {

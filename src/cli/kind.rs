@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// Reads a scene or a sweep, a scene as the sweep of just one; and which it is.
 pub(super) fn load_scene_or_sweep(file: &Path) -> Result<(Sweep, FileKind), Failure> {
-    match AnyFile::load(file).map_err(Failure::refused)? {
+    match AnyFile::load(file)? {
         AnyFile::Scene(scene) => Ok((Sweep::of_scene(*scene), FileKind::Scene)),
         AnyFile::Sweep(sweep) => Ok((*sweep, FileKind::Sweep)),
         AnyFile::Study(_) => Err(Failure::refused(format_args!(

@@ -107,7 +107,7 @@ pub(super) fn labelling_of(
     workers: usize,
     console: &Console,
 ) -> Result<Labelling, Failure> {
-    let labelling = Labelling::new(folder, sweep, jobs, workers).map_err(Failure::failed)?;
+    let labelling = Labelling::new(folder, sweep, jobs, workers)?;
     if labelling.missing > 0 {
         console.note(format_args!(
             "{}: {} of {} not yet run, and without a label",
@@ -127,7 +127,7 @@ pub(super) fn write(
     labelling: Labelling,
     console: &Console,
 ) -> Result<Labelled, Failure> {
-    let labelled = labelling.write(folder).map_err(cannot_write)?;
+    let labelled = labelling.write(folder)?;
     tell_of_labels(&labelled, folder, console);
     write_refined(folder, sweep, &labelled.table, console)?;
     Ok(labelled)
@@ -143,11 +143,11 @@ fn write_refined(
     if table.rows.is_empty() {
         return Ok(());
     }
-    let refining = folder.read_refining(sweep).map_err(Failure::failed)?;
+    let refining = folder.read_refining(sweep)?;
     let learnt = Learnt::of(sweep, refining.as_ref(), table).map_err(Failure::failed)?;
     if let Some(learnt) = learnt {
         let written = learnt.write(folder, sweep, table.family);
-        written.map_err(Failure::failed)?;
+        written?;
         console.file(&folder.refined());
         console.file(&folder.borders());
     }

@@ -40,7 +40,7 @@ pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<RunRec
         )));
     }
     let mut scene = match scene {
-        Some(path) => Some(Scene::load(path).map_err(Failure::refused)?),
+        Some(path) => Some(Scene::load(path)?),
         None => None,
     };
     let mut records: Vec<Option<RunRecord>> = Vec::new();
@@ -49,7 +49,7 @@ pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<RunRec
             records.push(None);
             continue;
         }
-        let record = store::read_record(path).map_err(Failure::refused)?;
+        let record = store::read_record(path)?;
         scene.get_or_insert_with(|| record.scene.clone());
         records.push(Some(record));
     }
@@ -86,7 +86,7 @@ fn replayed(path: &Path, scene: Option<&Scene>) -> Result<RunRecord, Failure> {
             path.display()
         ))
     })?;
-    let states = store::read_states(path).map_err(Failure::refused)?;
+    let states = store::read_states(path)?;
     replay_states(&states, scene)
         .map_err(|error| Failure::refused(format_args!("{}: {error}", path.display())))
 }

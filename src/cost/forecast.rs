@@ -66,6 +66,8 @@ pub enum ForecastError {
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
+crate::refusal::always!(false: ForecastError);
+
 /// Cost of one job, as tried.
 struct Trial {
     /// Seconds per unit of work.

@@ -42,6 +42,7 @@ pub use record::{
 pub use refined::{BorderRow, write_borders, write_probabilities};
 pub use rows::write_rows;
 
+use crate::refusal::Refusal;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -184,6 +185,16 @@ pub enum StoreError {
         /// The file.
         path: PathBuf,
     },
+}
+
+/// What cannot be read was asked for; what cannot be written is no fault of who asked.
+impl Refusal for StoreError {
+    fn is_refusal(&self) -> bool {
+        !matches!(
+            self,
+            Self::Write { .. } | Self::DiskFull { .. } | Self::Content { .. }
+        )
+    }
 }
 
 impl StoreError {

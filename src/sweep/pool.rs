@@ -4,6 +4,7 @@ use super::backend::{Backend, BackendError, Batch, Claim, Report, Results, Wishe
 use super::plan::{ForeignRecord, Plan, Standing, standing};
 use super::{Failure, Folder, FolderError, Job, Sweep, read_failures, write_failures};
 use crate::record::RunRecord;
+use crate::refusal::Refusal;
 use crate::resume::Checkpoints;
 use crate::store::{self, Lease, StoreError};
 use std::collections::HashSet;
@@ -37,6 +38,12 @@ pub enum PoolError {
     /// The results folder cannot be used.
     #[error(transparent)]
     Folder(#[from] FolderError),
+}
+
+impl Refusal for PoolError {
+    fn is_refusal(&self) -> bool {
+        matches!(self, Self::Foreign(_))
+    }
 }
 
 impl Pool<'_> {

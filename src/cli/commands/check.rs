@@ -51,7 +51,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.workers.count();
-    let (sweep, kind) = match arguments.load().map_err(Failure::refused)? {
+    let (sweep, kind) = match arguments.load()? {
         AnyFile::Scene(scene) => (Sweep::of_scene(*scene), FileKind::Scene),
         AnyFile::Sweep(sweep) => (*sweep, FileKind::Sweep),
         AnyFile::Study(AnyStudy::Stability(study)) => {
@@ -61,7 +61,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             return accuracy::main(&study, arguments, workers, console);
         }
     };
-    let jobs = sweep.jobs().map_err(Failure::refused)?;
+    let jobs = sweep.jobs()?;
     if kind == FileKind::Sweep {
         sweep.check_sieves(&jobs).map_err(labels::cannot_label)?;
     }
@@ -268,7 +268,7 @@ fn print_forecast(
     console: &Console,
 ) -> Result<Forecast, Failure> {
     console.note("running the first part of a few jobs ...");
-    let forecast = forecast(jobs, workers, TRIAL_TIME, leaves).map_err(Failure::failed)?;
+    let forecast = forecast(jobs, workers, TRIAL_TIME, leaves)?;
     console.result(line(
         "forecast",
         format_args!(

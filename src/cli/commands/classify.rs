@@ -47,7 +47,7 @@ pub(crate) struct Arguments {
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.workers.count();
     let edited = match &arguments.sweep {
-        Some(file) => Some(phase::sweep::load(file).map_err(Failure::refused)?),
+        Some(file) => Some(phase::sweep::load(file)?),
         None => None,
     };
     let folders = match &arguments.scene {
@@ -88,10 +88,8 @@ fn label_folders(
 
 /// The jobs of the sweep of a folder so far, which its sieves can judge.
 fn jobs_to_label(folder: &Folder, sweep: &Sweep) -> Result<Vec<Job>, Failure> {
-    let refining = folder.read_refining(sweep).map_err(Failure::failed)?;
-    let jobs = sweep
-        .jobs_so_far(refining.as_ref())
-        .map_err(Failure::refused)?;
+    let refining = folder.read_refining(sweep)?;
+    let jobs = sweep.jobs_so_far(refining.as_ref())?;
     sweep.check_sieves(&jobs).map_err(cannot_label)?;
     Ok(jobs)
 }
@@ -99,7 +97,7 @@ fn jobs_to_label(folder: &Folder, sweep: &Sweep) -> Result<Vec<Job>, Failure> {
 /// The sweep of a folder. Refuses to label runs whose records are not there: where none of them is,
 /// as in results that were published, the labels are kept.
 fn sweep_with_records(folder: &Folder) -> Result<Sweep, Undone> {
-    let sweep = folder.read_sweep().map_err(Failure::failed)?;
+    let sweep = folder.read_sweep()?;
     match refuse_to_lose_labels(folder, []) {
         Ok(()) => Ok(sweep),
         Err(error @ LabellingError::Lost { rows, lost, .. }) if rows == lost => {

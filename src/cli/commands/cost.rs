@@ -33,11 +33,11 @@ pub(crate) struct Arguments {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let (sweep, kind) = kind::load_scene_or_sweep(&arguments.file)?;
-    let jobs = sweep.jobs().map_err(Failure::refused)?;
+    let jobs = sweep.jobs()?;
     let unit = job::unit_of(&jobs);
     let seconds = format::duration(arguments.seconds.as_secs_f64());
     console.note(format_args!("measuring for up to about {seconds} ..."));
-    let cost = SweepCost::measure(&jobs, arguments.seconds).map_err(Failure::failed)?;
+    let cost = SweepCost::measure(&jobs, arguments.seconds)?;
     for tried in &cost.tried {
         console.result(describe_tried(tried, &sweep.axes, jobs.len(), unit));
     }

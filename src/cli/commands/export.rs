@@ -209,7 +209,7 @@ fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failu
     let mut written: HashMap<PathBuf, &Path> = HashMap::new();
     let mut targets = Vec::new();
     for path in &arguments.records {
-        let target = target(arguments, path).map_err(Failure::refused);
+        let target = target(arguments, path).map_err(Failure::from);
         if let Ok(target) = &target
             && let Some(other) = written.insert(target.clone(), path)
         {
@@ -329,12 +329,11 @@ fn write(
         }
         Format::Page => store::write_page(record, states, target),
         Format::Dump => store::write_dump(record, states, target),
-    }
-    .map_err(Failure::failed)?;
+    }?;
     let mut written = vec![target.to_owned()];
     for (name, write) in more(record, format) {
         let path = format.beside(target, name);
-        write(record, &path).map_err(Failure::failed)?;
+        write(record, &path)?;
         written.push(path);
     }
     Ok(written)

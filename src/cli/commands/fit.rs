@@ -115,7 +115,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         folders::make_for(scene)?;
     }
     let path = arguments.record.display();
-    let record = store::read_record(&arguments.record).map_err(Failure::refused)?;
+    let record = store::read_record(&arguments.record)?;
     let lacks = |needs: &str| Failure::refused(format_args!("{path}: a fit needs {needs}"));
     let drainage = Drainage::new(&record, arguments.window.times).map_err(lacks)?;
     let fit = SpotFit::of(&drainage).map_err(lacks)?;
@@ -131,7 +131,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     );
     if let Some(path) = &arguments.out {
         let text = scene(&drainage, &fit);
-        store::write_atomic(path, text.as_bytes()).map_err(Failure::failed)?;
+        store::write_atomic(path, text.as_bytes())?;
         console.file(path);
         if let Err(error) = Scene::from_toml(&text, path) {
             console.warning(format_args!(

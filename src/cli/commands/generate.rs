@@ -125,7 +125,7 @@ fn write_pages(folder: &Path, console: &Console) -> Result<(), Failure> {
         let rendered = clap_mangen::Man::new(command).render(&mut page);
         rendered.map_err(Failure::failed)?;
         let path = folder.join(name);
-        store::write_atomic(&path, &page).map_err(Failure::failed)?;
+        store::write_atomic(&path, &page)?;
         console.file(&path);
     }
     Ok(())

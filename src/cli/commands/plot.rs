@@ -184,9 +184,9 @@ impl Answer {
             .into_iter()
             .map(|figure| (figure, false))
             .collect();
-        let found = Folder::find(dir).map_err(Failure::refused)?;
+        let found = Folder::find(dir)?;
         self.folders = folders::go_through(dir, found, console, |folder| {
-            let sweep = folder.read_sweep().map_err(Failure::failed)?;
+            let sweep = folder.read_sweep()?;
             let table = folder::read_labels(folder)?;
             for (figure, is_drawn) in is_drawn.iter_mut().filter(|(_, is_drawn)| !is_drawn) {
                 let of_folder = (folder, &sweep, &table);
@@ -218,8 +218,8 @@ impl Answer {
             )));
         }
         let points = arguments.points.iter().map(|point| parse_point(point));
-        let points: Vec<Selection> = points.collect::<Result<_, _>>().map_err(Failure::refused)?;
-        let found = Folder::find(dir).map_err(Failure::refused)?;
+        let points: Vec<Selection> = points.collect::<Result<_, _>>()?;
+        let found = Folder::find(dir)?;
         let several = found.len() > 1;
         self.folders = folders::go_through(dir, found, console, |folder| {
             let place = match (&arguments.out, folder.root().file_name()) {

@@ -126,7 +126,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
                 options: &arguments.own_keys(),
             };
             let scene = Scene::load_with(file, edits);
-            let mut scene = scene.map_err(Failure::refused)?;
+            let mut scene = scene?;
             scene.seed = arguments.seed.unwrap_or(scene.seed);
             (scene, default_record(file), None)
         }
@@ -181,10 +181,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     console.result(summary(&record, seconds));
     console.file(&path);
     if let Some(table) = &table {
-        store::write_observations(&record, table).map_err(Failure::failed)?;
+        store::write_observations(&record, table)?;
         console.file(table);
     }
-    checkpoints.remove().map_err(Failure::failed)?;
+    checkpoints.remove()?;
     let same_bits = match &original {
         Some(original) => original.compare(&record, console)?,
         None => None,

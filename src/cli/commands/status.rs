@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let workers = arguments.workers.count();
-    let found = Folder::find(&arguments.dir).map_err(Failure::refused)?;
+    let found = Folder::find(&arguments.dir)?;
     let folders = folders::go_through(&arguments.dir, found, console, |folder| {
         Ok(FolderAnswer::of(folder, workers, console)?)
     })?;
@@ -39,13 +39,11 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 impl FolderAnswer {
     /// That of a folder; prints it for people.
     fn of(folder: &Folder, workers: usize, console: &Console) -> Result<Self, Failure> {
-        let sweep = folder.read_sweep().map_err(Failure::failed)?;
-        let refining = folder.read_refining(&sweep).map_err(Failure::failed)?;
-        let jobs = sweep
-            .jobs_so_far(refining.as_ref())
-            .map_err(Failure::failed)?;
-        let plan = Plan::new(folder, jobs, work::default_workers()).map_err(Failure::failed)?;
-        let status = Status::of(folder, &plan).map_err(Failure::failed)?;
+        let sweep = folder.read_sweep()?;
+        let refining = folder.read_refining(&sweep)?;
+        let jobs = sweep.jobs_so_far(refining.as_ref())?;
+        let plan = Plan::new(folder, jobs, work::default_workers())?;
+        let status = Status::of(folder, &plan)?;
         console.result(format_args!(
             "{}: {}",
             folder.root().display(),

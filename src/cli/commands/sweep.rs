@@ -13,9 +13,7 @@ use crate::cli::{folders, format, interrupt, overlaps, refined, time_step};
 use phase::classify::Family;
 use phase::resume::DEFAULT_INTERVAL;
 use phase::store;
-use phase::sweep::{
-    Access, Folder, FolderError, Job, Plan, Sweep, differing_keys, refuse_to_lose_labels,
-};
+use phase::sweep::{Access, Folder, Job, Plan, Sweep, differing_keys, refuse_to_lose_labels};
 use rounds::{Rounds, Run};
 use serde::Serialize;
 use std::collections::HashSet;
@@ -71,23 +69,23 @@ pub(crate) struct Arguments {
 }
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
-    let mut sweep = phase::sweep::load(&arguments.file).map_err(Failure::refused)?;
+    let mut sweep = phase::sweep::load(&arguments.file)?;
     choose_runs(&mut sweep, arguments)?;
     let workers = arguments.workers.count();
-    let jobs = sweep.jobs().map_err(Failure::refused)?;
+    let jobs = sweep.jobs()?;
     if !arguments.no_classify {
         sweep.check_sieves(&jobs).map_err(labels::cannot_label)?;
     }
     let folder = folder_of(&sweep, arguments)?;
     let stop = interrupt::stop_on_signal(console)?;
 
-    folder.create().map_err(Failure::failed)?;
+    folder.create()?;
     let access = enter(&folder, &sweep, arguments)?;
     refuse_another_file(&folder, &sweep, arguments)?;
     if !arguments.no_classify {
         let again = jobs_made_again(&folder, &sweep);
         let kept = jobs.iter().chain(&again).map(|job| job.id.as_str());
-        refuse_to_lose_labels(&folder, kept).map_err(labels::cannot_write)?;
+        refuse_to_lose_labels(&folder, kept)?;
     }
     tell_of_other_sweep(&folder, &sweep, console);
     time_step::tell_of_jobs(&jobs, &sweep.axes, console);
@@ -96,13 +94,11 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         labels::warn_of_windows(&sweep, &jobs, console);
     }
     if matches!(access, Access::Alone(_)) {
-        folder
-            .note_source(&arguments.file)
-            .map_err(Failure::failed)?;
+        folder.note_source(&arguments.file)?;
     }
     let _lock = match arguments.force {
         true => access,
-        false => Access::Shared(folder.open(access, &sweep).map_err(Failure::failed)?),
+        false => Access::Shared(folder.open(access, &sweep)?),
     };
     let rounds = Rounds {
         folder: &folder,
@@ -229,10 +225,7 @@ fn enter(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Result<Access
         true => folder.lock().map(Access::Alone),
         false => folder.enter(sweep),
     };
-    access.map_err(|error| match error {
-        FolderError::Locked(_) => Failure::refused(error),
-        _ => Failure::failed(error),
-    })
+    Ok(access?)
 }
 
 /// Refuses to keep labels that cannot be read, or that other thresholds gave.
@@ -246,7 +239,7 @@ fn check_kept_labels(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
              leave out --keep-labels"
         ))
     })?;
-    let stored = folder.read_sweep().map_err(Failure::refused)?;
+    let stored = folder.read_sweep()?;
     match stored.sieves == sweep.sieves {
         true => Ok(()),
         false => Err(Failure::refused(format_args!(

@@ -79,7 +79,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let outcomes = work::map(workers, &runs, |(case, integrator)| {
         verify::run(case, *integrator)
     });
-    let outcomes = outcomes.map_err(Failure::failed)?;
+    let outcomes = outcomes?;
     let (mut rows, mut errors, mut failed) = (Vec::new(), Vec::new(), 0);
     for ((case, integrator), outcome) in runs.iter().zip(&outcomes) {
         console.result(line(case, *integrator, outcome));
@@ -249,8 +249,8 @@ fn write(
     console: &Console,
 ) -> Result<(), Failure> {
     let place = |end: &str| folder.join(format!("verification.{end}"));
-    store::write_rows(rows, &place("csv")).map_err(Failure::failed)?;
+    store::write_rows(rows, &place("csv"))?;
     console.file(&place("csv"));
-    let figure = verification::draw(errors, &Program::current()).map_err(Failure::failed)?;
+    let figure = verification::draw(errors, &Program::current())?;
     figures::write(&figure, place, console)
 }

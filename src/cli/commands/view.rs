@@ -155,7 +155,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
                 None => strip(&runs, arguments, console)?,
             };
             folders::make_for(&target.path)?;
-            store::write_atomic(&target.path, &bytes).map_err(Failure::failed)?;
+            store::write_atomic(&target.path, &bytes)?;
             console.file(&target.path);
         }
     }
@@ -164,8 +164,11 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 }
 
 fn read(arguments: &Arguments) -> Result<Vec<RunRecord>, Failure> {
-    let read = |path| store::read_record(path).map_err(Failure::refused);
-    arguments.records.iter().map(|path| read(path)).collect()
+    let records = arguments
+        .records
+        .iter()
+        .map(|path| store::read_record(path));
+    Ok(records.collect::<Result<_, _>>()?)
 }
 
 /// What is shown of every record.
@@ -286,9 +289,8 @@ fn strip(runs: &[Run<'_>], arguments: &Arguments, console: &Console) -> Result<V
     }
     let image = sheets.picture(&sheets.panels(width)?);
     let texts = words::texts(runs[0].record);
-    let file = match arguments.palette {
+    Ok(match arguments.palette {
         true => image.to_png_of_palette(&texts),
         false => image.to_png(&texts),
-    };
-    file.map_err(Failure::failed)
+    }?)
 }

@@ -3,7 +3,7 @@
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
 use crate::cli::folders;
-use crate::cli::labels::{cannot_write, tell_of_labels, tell_of_problems};
+use crate::cli::labels::{tell_of_labels, tell_of_problems};
 use phase::classify::Sieves;
 use phase::scene::Scene;
 use phase::sweep::{Folder, FolderError, Labelled, Labelling, find_dumps};
@@ -17,16 +17,15 @@ pub(super) fn label(
     workers: usize,
     console: &Console,
 ) -> Result<Labelled, Failure> {
-    let scene = Scene::load_base(scene).map_err(Failure::refused)?;
-    sieves.check(&scene).map_err(Failure::refused)?;
+    let scene = Scene::load_base(scene)?;
+    sieves.check(&scene)?;
     let dumps = dumps_in(folder)?;
     let tables = ["labels.csv", "points.csv"];
     folders::refuse_foreign(folder, tables, "use a folder with the dumps alone")?;
-    let labelling =
-        Labelling::of_dumps(&dumps, &scene, sieves, workers).map_err(Failure::failed)?;
+    let labelling = Labelling::of_dumps(&dumps, &scene, sieves, workers)?;
     tell_of_problems(&labelling, console);
     let folder = Folder::new(folder);
-    let labelled = labelling.replace(&folder).map_err(cannot_write)?;
+    let labelled = labelling.replace(&folder)?;
     tell_of_labels(&labelled, &folder, console);
     Ok(labelled)
 }

@@ -33,13 +33,13 @@ pub(super) fn label(
         let labelling = labelling_of(folder, &edit.sweep, &edit.jobs, workers, console)?;
         refuse_problems(folder, &labelling)?;
         let labelled = write(folder, &edit.sweep, labelling, console)?;
-        folder.write_sweep(&edit.sweep).map_err(Failure::failed)?;
-        let refining = folder.read_refining(&edit.sweep).map_err(Failure::failed)?;
+        folder.write_sweep(&edit.sweep)?;
+        let refining = folder.read_refining(&edit.sweep)?;
         if let Ok(Some(learnt)) = Learnt::of(&edit.sweep, refining.as_ref(), &labelled.table)
             && let Some(mut refining) = refining
         {
             refining.widths = phase::refine::widths(&learnt.lattice, &learnt.map);
-            folder.write_refining(&refining).map_err(Failure::failed)?;
+            folder.write_refining(&refining)?;
         }
         Ok(Summary::new(folder, &labelled))
     })
@@ -65,7 +65,7 @@ fn edit(folder: &Folder, sweep: Sweep, edited: &Sweep) -> Result<ToLabel, Failur
             keys.join(", ")
         )));
     }
-    let lock = folder.lock().map_err(Failure::refused)?;
+    let lock = folder.lock()?;
     check_files(folder, &sweep)?;
     Ok(ToLabel {
         jobs: jobs_to_label(folder, &edited)?,
@@ -81,7 +81,7 @@ fn check_files(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
         files.extend([folder.progress(), folder.refined(), folder.borders()]);
     }
     let mut files = files.iter();
-    files.try_for_each(|file| store::check_writable(file).map_err(Failure::failed))
+    Ok(files.try_for_each(|file| store::check_writable(file))?)
 }
 
 /// An edited sweep, refined if that of the folder was and the edited one does not say so.

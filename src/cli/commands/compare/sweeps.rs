@@ -27,7 +27,7 @@ pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     }
     let read = |path: &std::path::PathBuf| {
         let labels = Folder::new(path).labels();
-        store::read_labels(&labels).map_err(Failure::refused)
+        store::read_labels(&labels)
     };
     let agreement = Agreement::of(&read(one)?, &read(other)?).map_err(|differ| {
         Failure::refused(format_args!(

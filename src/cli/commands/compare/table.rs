@@ -26,7 +26,7 @@ pub(super) fn check(names: &[String]) -> Result<(), Failure> {
 
 pub(super) fn write(path: &Path, rows: &[Row], names: &[String]) -> Result<(), Failure> {
     let text = written(rows, names).map_err(Failure::failed)?;
-    store::write_atomic(path, &text).map_err(Failure::failed)
+    Ok(store::write_atomic(path, &text)?)
 }
 
 fn written(rows: &[Row], names: &[String]) -> Result<Vec<u8>, csv::Error> {

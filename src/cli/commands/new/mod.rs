@@ -73,7 +73,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         (Kind::Sweep, Some(scene)) => sweep_of_file(&from_folder_of(&path, scene))?,
         (Kind::Sweep, None) => sweep_of_table(),
     };
-    store::write_atomic(&path, text.as_bytes()).map_err(Failure::failed)?;
+    store::write_atomic(&path, text.as_bytes())?;
     console.file(&path);
     if arguments.scene.is_some()
         && let Err(error) = phase::sweep::load(&path)

@@ -3,7 +3,7 @@
 use super::name_all;
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
-use crate::cli::figures::{default_figures, draw, refused_or_failed};
+use crate::cli::figures::{default_figures, draw};
 use crate::cli::folders::ANOTHER_FOLDER;
 use crate::cli::{folders, format};
 use phase::classify::LabelTable;
@@ -68,7 +68,7 @@ impl FolderAnswer {
         console: &Console,
     ) -> Result<Self, Failure> {
         let root = folder.root();
-        let sweep = folder.read_sweep().map_err(Failure::failed)?;
+        let sweep = folder.read_sweep()?;
         let table = read_labels(folder)?;
         let names: Vec<&str> = match asked {
             [] => default_figures(&sweep, &table, console),
@@ -139,7 +139,7 @@ fn print_fits(
         program: &program,
     });
     let entries = lines
-        .map_err(|error| refused_or_failed(folder, error))?
+        .map_err(|error| Failure::from(error).at(folder.root()))?
         .into_iter()
         .map(|line| FitEntry {
             folder: folder.root().display().to_string(),

@@ -57,7 +57,7 @@ fn of_runs(record: &RunRecord) -> impl Iterator<Item = About> {
 
 /// What can be drawn of a record.
 pub(super) fn list(path: &Path) -> Result<Vec<Listed>, Failure> {
-    let record = store::read_record(path).map_err(Failure::refused)?;
+    let record = store::read_record(path)?;
     let records = std::slice::from_ref(&record);
     let is_drawn =
         |figure: &About| plot::draw_records(figure.name, records, None, &[], &[]).is_ok();
@@ -105,7 +105,7 @@ pub(super) fn draw(
         return Ok(Vec::new());
     };
     let data = arguments.data.iter().map(|path| store::read_data_set(path));
-    let data: Vec<DataSet> = data.collect::<Result<_, _>>().map_err(Failure::refused)?;
+    let data: Vec<DataSet> = data.collect::<Result<_, _>>()?;
     let names = names(record, arguments)?;
     let beside = first.parent().unwrap_or(Path::new(""));
     let folder = arguments.out.as_deref().unwrap_or(beside);
@@ -126,13 +126,7 @@ pub(super) fn draw(
         files,
         "choose another folder or name with --out or --name",
     )?;
-    let failed = |error: PlotError| {
-        let text = format!("{}: {error}", first.display());
-        match error.is_of_request() {
-            true => Failure::refused(text),
-            false => Failure::failed(text),
-        }
-    };
+    let failed = |error: PlotError| Failure::from(error).at(first);
     let mut missing = None;
     let mut failures = Vec::new();
     for name in &names {

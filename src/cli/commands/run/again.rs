@@ -45,7 +45,7 @@ impl Original {
     /// The job of that point in a results folder.
     pub(super) fn find(folder: &Path, point: &str, console: &Console) -> Result<Self, Failure> {
         let folder = one_folder(folder)?;
-        let sweep = folder.read_sweep().map_err(Failure::failed)?;
+        let sweep = folder.read_sweep()?;
         let refuse = |reason: String| Failure::refused(format_args!("--point: {reason}"));
         let point = match point {
             "" => Selection::default(),
@@ -62,16 +62,16 @@ impl Original {
                 values.join(", ")
             )));
         }
-        let refining = folder.read_refining(&sweep).map_err(Failure::failed)?;
+        let refining = folder.read_refining(&sweep)?;
         let jobs = chosen.jobs_so_far(refining.as_ref());
-        let mut jobs = jobs.map_err(Failure::refused)?;
+        let mut jobs = jobs?;
         if jobs.is_empty() {
             // A point at which a refined sweep has no run.
             let whole = Sweep {
                 refine: None,
                 ..chosen.clone()
             };
-            jobs = whole.jobs().map_err(Failure::refused)?;
+            jobs = whole.jobs()?;
         }
         if jobs.is_empty() {
             return Err(refuse("the sweep has no seeds".to_owned()));
@@ -160,7 +160,7 @@ impl Original {
 
 /// The results folder at that path.
 fn one_folder(path: &Path) -> Result<Folder, Failure> {
-    let mut folders = Folder::find(path).map_err(Failure::refused)?;
+    let mut folders = Folder::find(path)?;
     if folders.len() > 1 {
         let names: Vec<String> = folders
             .iter()

@@ -33,7 +33,7 @@ pub(super) fn run(
 ) -> Result<Option<Ran>, Failure> {
     let stop = interrupt::stop_on_signal(console)?;
     let mut run = Run::new(scene).map_err(Failure::failed)?;
-    run.use_threads(threads).map_err(Failure::failed)?;
+    run.use_threads(threads)?;
     let resumed = begin(&mut run, checkpoints, resume, console)?;
     let resumed_from = resumed.then(|| run.time());
     let model = run::model_of(scene);

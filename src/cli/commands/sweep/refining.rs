@@ -5,9 +5,7 @@ use crate::cli::exit::Failure;
 use crate::cli::figures;
 use crate::cli::{format, refined};
 use phase::refine::{Finish, Settings};
-use phase::sweep::{
-    Plan, Pool, PoolError, Refinement, RefinementError, Report, RoundsError, Sweep, WatchRounds,
-};
+use phase::sweep::{Plan, Pool, Refinement, Report, Sweep, WatchRounds};
 use std::time::{Duration, Instant};
 
 /// Time between two notes while rounds are chosen.
@@ -120,26 +118,6 @@ impl WatchRounds for Watcher<'_> {
             figures::draw_round(pool.folder, pool.sweep, refinement.table())?;
         }
         Ok(())
-    }
-}
-
-impl From<PoolError> for Failure {
-    fn from(error: PoolError) -> Self {
-        match error {
-            PoolError::Foreign(_) => Self::refused(error),
-            _ => Self::failed(error),
-        }
-    }
-}
-
-impl From<RoundsError> for Failure {
-    fn from(error: RoundsError) -> Self {
-        match error {
-            RoundsError::Pool(error) => error.into(),
-            RoundsError::Refinement(RefinementError::Threads(_)) => Self::failed(error),
-            RoundsError::Refinement(_) => Self::refused(error),
-            RoundsError::Folder(_) | RoundsError::Store(_) => Self::failed(error),
-        }
     }
 }
 

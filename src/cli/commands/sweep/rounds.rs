@@ -33,7 +33,7 @@ impl Rounds<'_> {
         let plan = if self.force {
             Plan::afresh(jobs)
         } else {
-            Plan::new(self.folder, jobs, self.workers).map_err(Failure::failed)?
+            Plan::new(self.folder, jobs, self.workers)?
         };
         tell_of_plan(&plan, self.console);
         let run = self.with_pool(sweep, |pool| self.run_part(&plan, pool, Part::default()))?;

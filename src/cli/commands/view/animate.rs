@@ -63,10 +63,10 @@ pub(super) fn animate(
         let drawn = on_all_cores(&shown, |state| sheets.picture_of(state, width))?;
         let animation = Animation::new(&drawn, delay);
         let bytes = match kind {
-            Kind::Gif => animation.to_gif().map_err(Failure::failed)?,
+            Kind::Gif => animation.to_gif()?,
             Kind::Png => {
                 let texts = words::texts(record);
-                animation.to_apng(&texts).map_err(Failure::failed)?
+                animation.to_apng(&texts)?
             }
         };
         let size = format::bytes(bytes.len() as f64);
@@ -134,9 +134,9 @@ pub(super) fn each(
             sheets.picture_of(state, width).to_png(&texts)
         })?;
         for (index, file) in (AT_ONCE * chunk..).zip(files) {
-            let bytes = file.map_err(Failure::failed)?;
+            let bytes = file?;
             let path = folder.join(store::frame_name(index, "png"));
-            store::write_atomic(&path, &bytes).map_err(Failure::failed)?;
+            store::write_atomic(&path, &bytes)?;
         }
     }
     console.note(format_args!(

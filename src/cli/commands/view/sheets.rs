@@ -190,7 +190,7 @@ pub(super) fn on_all_cores<T: Sync, U: Send + Sync>(
     items: &[T],
     draw: impl Fn(&T) -> U + Sync,
 ) -> Result<Vec<U>, Failure> {
-    work::map(work::default_workers(), items, draw).map_err(Failure::failed)
+    Ok(work::map(work::default_workers(), items, draw)?)
 }
 
 /// Ends of what is seen along x and z (m), if the command line says them.
