@@ -40,9 +40,9 @@ impl Failure {
     }
 
     /// The same failure, of a file or folder.
-    pub(crate) fn at(self, path: &Path) -> Self {
+    pub(crate) fn at(self, path: impl AsRef<Path>) -> Self {
         Self {
-            message: format!("{}: {}", path.display(), self.message),
+            message: format!("{}: {}", path.as_ref().display(), self.message),
             ..self
         }
     }

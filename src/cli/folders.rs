@@ -137,11 +137,7 @@ pub(super) fn files_of_figures(
 /// Makes a folder and those above it, unless they are there.
 pub(super) fn make(folder: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(folder).map_err(|error| {
-        Failure::failed(format_args!(
-            "{}: {error}{}",
-            folder.display(),
-            store::advice(&error)
-        ))
+        Failure::failed(format_args!("{error}{}", store::advice(&error))).at(folder)
     })
 }
 
@@ -159,10 +155,9 @@ pub(super) fn refuse_to_replace_any(
 ) -> Result<(), Failure> {
     let written = path.as_os_str().as_encoded_bytes();
     if written.ends_with(b"/") || written.ends_with(b"/.") {
-        return Err(Failure::refused(format_args!(
-            "{}: this is the name of a folder; give that of a file in it",
-            path.display()
-        )));
+        return Err(
+            Failure::refused("this is the name of a folder; give that of a file in it").at(path),
+        );
     }
     let Ok(file) = File::open(path) else {
         return Ok(());
@@ -179,9 +174,9 @@ pub(super) fn refuse_to_replace_any(
         return Ok(());
     }
     Err(Failure::refused(format_args!(
-        "{}: this is not {kind}, and would be lost; choose another name for what is written",
-        path.display()
-    )))
+        "this is not {kind}, and would be lost; choose another name for what is written"
+    ))
+    .at(path))
 }
 
 /// Makes the folder of a file.
@@ -200,11 +195,11 @@ pub(super) fn refuse_other_frames(
     refuse_foreign(folder, names, "choose another folder")?;
     let beyond = folder.join(store::frame_name(count, extension));
     if beyond.exists() {
-        return Err(Failure::refused(format_args!(
-            "{}: this is a frame of another export, which had more of them; remove them, or choose \
+        return Err(Failure::refused(
+            "this is a frame of another export, which had more of them; remove them, or choose \
              another folder",
-            beyond.display()
-        )));
+        )
+        .at(beyond));
     }
     Ok(())
 }

@@ -80,13 +80,13 @@ pub(super) fn check_labels(
 /// The record of the states that a file of another program holds.
 fn replayed(path: &Path, scene: Option<&Scene>) -> Result<RunRecord, Failure> {
     let scene = scene.ok_or_else(|| {
-        Failure::refused(format_args!(
-            "{}: a file of another program does not say its box; give a record beside it, or its \
+        Failure::refused(
+            "a file of another program does not say its box; give a record beside it, or its \
              scene with `--scene`",
-            path.display()
-        ))
+        )
+        .at(path)
     })?;
     let states = store::read_states(path)?;
     replay_states(&states, scene)
-        .map_err(|error| Failure::refused(format_args!("{}: {error}", path.display())))
+        .map_err(|error| Failure::refused(format_args!("{error}")).at(path))
 }

@@ -58,11 +58,11 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if arguments.paths.iter().any(|path| path.is_dir()) {
         check_labels(&arguments.measured.labels, arguments.paths.len(), true)?;
         if let Some(file) = arguments.paths.iter().find(|path| !path.is_dir()) {
-            return Err(Failure::refused(format_args!(
-                "{}: this is no folder, and folders are compared with folders; compare records \
+            return Err(Failure::refused(
+                "this is no folder, and folders are compared with folders; compare records \
                  with records",
-                file.display()
-            )));
+            )
+            .at(file));
         }
         return sweeps::main(arguments, console);
     }

@@ -202,9 +202,9 @@ fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failu
         && out.extension().is_some_and(|it| it != extension)
     {
         return Err(Failure::refused(format_args!(
-            "{}: give a folder, or of a single record a file that ends in .{extension}",
-            out.display()
-        )));
+            "give a folder, or of a single record a file that ends in .{extension}"
+        ))
+        .at(out));
     }
     let mut written: HashMap<PathBuf, &Path> = HashMap::new();
     let mut targets = Vec::new();
@@ -271,10 +271,10 @@ fn export(
     };
     let chosen: Vec<&Snapshot> = all.iter().step_by(every).collect();
     if chosen.is_empty() {
-        return Err(Failure::failed(format_args!(
-            "{}: the record holds no states of the spheres; run it again with --snapshot-interval",
-            path.display()
-        )));
+        return Err(Failure::failed(
+            "the record holds no states of the spheres; run it again with --snapshot-interval",
+        )
+        .at(path));
     }
     console.note(format_args!(
         "{}: {states}: {}",
@@ -282,11 +282,11 @@ fn export(
         format::count(chosen.len(), "state")
     ));
     if arguments.to == Format::Dump && record.scene.has_flow() {
-        return Err(Failure::refused(format_args!(
-            "{}: spheres come and go in this run, for which the thesis's dump has no place; npy \
+        return Err(Failure::refused(
+            "spheres come and go in this run, for which the thesis's dump has no place; npy \
              holds the same numbers",
-            path.display()
-        )));
+        )
+        .at(path));
     }
     if arguments.to == Format::Dump && matches!(states, States::Snapshots(_)) {
         console.note(

@@ -100,10 +100,7 @@ impl Arguments {
                 true => "several are drawn beside each other only if all are records (.h5)",
                 false => "there is no such file; check the path",
             };
-            return Err(Failure::refused(format_args!(
-                "{}: {reason}",
-                folder.display()
-            )));
+            return Err(Failure::refused(reason).at(folder));
         }
         if self.name.is_some() && is_one_folder {
             return Err(Failure::refused(

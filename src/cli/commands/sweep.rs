@@ -188,11 +188,11 @@ fn refuse_another_file(
         return Ok(());
     }
     Err(Failure::refused(format_args!(
-        "{}: this folder has the results of {}, another sweep of the same name; choose another \
+        "this folder has the results of {}, another sweep of the same name; choose another \
          folder with --out",
-        folder.root().display(),
         source.display()
-    )))
+    ))
+    .at(folder.root()))
 }
 
 /// Says which files of the folder are not of this sweep.
@@ -243,11 +243,11 @@ fn check_kept_labels(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
     match stored.sieves == sweep.sieves {
         true => Ok(()),
         false => Err(Failure::refused(format_args!(
-            "{}: other thresholds ([sieves]) gave these labels, which cannot be kept; leave out \
+            "other thresholds ([sieves]) gave these labels, which cannot be kept; leave out \
              --keep-labels, or use the thresholds of {}",
-            folder.labels().display(),
             folder.sweep().display()
-        ))),
+        ))
+        .at(folder.labels())),
     }
 }
 

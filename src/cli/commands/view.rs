@@ -221,10 +221,10 @@ fn run<'a>(
     let path = &arguments.records[number];
     let states = record.sound_states();
     if states.is_empty() {
-        return Err(Failure::failed(format_args!(
-            "{}: the record holds no state to draw; run it again with --snapshot-interval",
-            path.display()
-        )));
+        return Err(Failure::failed(
+            "the record holds no state to draw; run it again with --snapshot-interval",
+        )
+        .at(path));
     }
     console.note(format_args!(
         "{}: {}: {}",
@@ -267,10 +267,10 @@ fn origin(path: &Path, record: &RunRecord, arguments: &Arguments) -> Result<f64,
     let tank = record.scene.tank.as_ref();
     let has_opening = record.scene.dem.outlet.is_some() || tank.is_some_and(Tank::has_opening);
     opened(record).filter(|_| has_opening).ok_or_else(|| {
-        Failure::refused(format_args!(
-            "{}: --since-opening is for silos and boxes with an opening that opens within the run",
-            path.display()
-        ))
+        Failure::refused(
+            "--since-opening is for silos and boxes with an opening that opens within the run",
+        )
+        .at(path)
     })
 }
 

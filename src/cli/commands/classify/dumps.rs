@@ -33,9 +33,9 @@ pub(super) fn label(
 fn dumps_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let refuse = |reason: String| {
         Failure::refused(format_args!(
-            "{}: {reason}; make dumps with `phase export ... --to dump`",
-            folder.display()
+            "{reason}; make dumps with `phase export ... --to dump`"
         ))
+        .at(folder)
     };
     if folder.join("sweep.json").exists() {
         return Err(refuse(
@@ -52,11 +52,11 @@ fn dumps_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 /// The failure to find results in a folder; one of dumps is told what it lacks.
 pub(super) fn hint(folder: &Path, error: &FolderError) -> Failure {
     match find_dumps(folder) {
-        Ok(dumps) if !dumps.is_empty() => Failure::refused(format_args!(
-            "{}: holds dumps (.npy) but no sweep.json; say with --scene FILE of which scene they \
+        Ok(dumps) if !dumps.is_empty() => Failure::refused(
+            "holds dumps (.npy) but no sweep.json; say with --scene FILE of which scene they \
              are",
-            folder.display()
-        )),
+        )
+        .at(folder),
         _ => Failure::refused(error),
     }
 }

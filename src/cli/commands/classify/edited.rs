@@ -59,11 +59,11 @@ fn edit(folder: &Folder, sweep: Sweep, edited: &Sweep) -> Result<ToLabel, Failur
     let keys = sweep.keys_of_other_runs(&edited);
     if !keys.is_empty() {
         return Err(Failure::refused(format_args!(
-            "{}: the runs in this folder are not those of the edited sweep; they differ in {}. \
+            "the runs in this folder are not those of the edited sweep; they differ in {}. \
              Thresholds may change, runs may not: `phase sweep` makes new ones",
-            folder.root().display(),
             keys.join(", ")
-        )));
+        ))
+        .at(folder.root()));
     }
     let lock = folder.lock()?;
     check_files(folder, &sweep)?;
@@ -101,9 +101,9 @@ fn refuse_problems(folder: &Folder, labelling: &Labelling) -> Result<(), Failure
         return Ok(());
     };
     Err(Failure::failed(format_args!(
-        "{}: {} cannot be labelled, so that this folder stays as it was ({first}); `phase sweep` \
+        "{} cannot be labelled, so that this folder stays as it was ({first}); `phase sweep` \
          makes damaged records again",
-        folder.root().display(),
-        format::count(labelling.problems.len(), "record"),
-    )))
+        format::count(labelling.problems.len(), "record")
+    ))
+    .at(folder.root()))
 }

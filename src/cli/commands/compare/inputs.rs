@@ -99,12 +99,12 @@ pub(super) fn units(inputs: &[Input]) -> Result<Units, Failure> {
     match scenes.iter().find(|(_, other)| other != units) {
         None => Ok(*units),
         Some((path, other)) => Err(Failure::refused(format_args!(
-            "{}: its scene is in units {}, that of {} in units {}; compare runs in the same units",
-            path.display(),
+            "its scene is in units {}, that of {} in units {}; compare runs in the same units",
             other.description(),
             first.display(),
             units.description()
-        ))),
+        ))
+        .at(path)),
     }
 }
 
@@ -147,7 +147,7 @@ fn of_family(
     }
     let named = names(records, paths).into_iter().zip(records);
     let column = |((name, record), path): ((String, &&RunRecord), &&PathBuf)| {
-        let refused = |error: String| Failure::refused(format_args!("{}: {error}", path.display()));
+        let refused = |error: String| Failure::refused(error).at(path);
         let own = Family::of(&record.scene);
         if own != family {
             return Err(refused(format!(

@@ -60,10 +60,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         ));
     }
     if path.exists() && !arguments.force {
-        return Err(Failure::refused(format_args!(
-            "{}: the file is there already; choose another name, or replace it with `--force`",
-            path.display()
-        )));
+        return Err(Failure::refused(
+            "the file is there already; choose another name, or replace it with `--force`",
+        )
+        .at(path));
     }
     folders::make_for(&path)?;
     let text = match (arguments.kind, &arguments.scene) {

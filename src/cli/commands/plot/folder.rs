@@ -106,10 +106,10 @@ pub(super) fn read_labels(folder: &Folder) -> Result<LabelTable, Failure> {
     let (root, path) = (folder.root(), folder.labels());
     if !path.exists() {
         return Err(Failure::refused(format_args!(
-            "{}: there are no labels yet; run `phase classify {}` first",
-            path.display(),
+            "there are no labels yet; run `phase classify {}` first",
             root.display()
-        )));
+        ))
+        .at(path));
     }
     store::read_labels(&path).map_err(|error| {
         Failure::failed(format_args!(

@@ -114,10 +114,10 @@ impl Original {
             a.is_ok_and(|a| b.is_ok_and(|b| a == b))
         };
         if same(path, &self.record()) {
-            return Err(Failure::refused(format_args!(
-                "{}: this is the sweep's own record; choose another name with --out",
-                path.display()
-            )));
+            return Err(Failure::refused(
+                "this is the sweep's own record; choose another name with --out",
+            )
+            .at(path));
         }
         Ok(())
     }

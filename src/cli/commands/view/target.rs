@@ -52,16 +52,10 @@ impl Target {
             (Some("png"), _) | (Some("apng"), Some(_)) => Kind::Png,
             (Some("gif"), Some(_)) => Kind::Gif,
             (_, Some(_)) => {
-                return Err(Failure::refused(format_args!(
-                    "{}: an animation is a .png (APNG) or a .gif",
-                    path.display()
-                )));
+                return Err(Failure::refused("an animation is a .png (APNG) or a .gif").at(path));
             }
             (_, None) => {
-                return Err(Failure::refused(format_args!(
-                    "{}: a picture is a .png; give it such a name",
-                    path.display()
-                )));
+                return Err(Failure::refused("a picture is a .png; give it such a name").at(path));
             }
         };
         Ok(Self { path, kind })
