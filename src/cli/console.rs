@@ -114,7 +114,7 @@ impl Console {
         self.answer(&Answer { files });
     }
 
-    /// Says something on the way.
+    /// Prints a note to the standard error.
     pub(crate) fn note(&self, text: impl Display) {
         if !self.quiet {
             complain(text);

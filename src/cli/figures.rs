@@ -42,7 +42,7 @@ pub(super) fn default_figures(
     console: &Console,
 ) -> Vec<&'static str> {
     if sweep.axes.is_empty() {
-        console.note("a sweep without axes has no diagram: no figures");
+        console.note("a sweep without axes has no phase diagram; no figures drawn");
         return Vec::new();
     }
     figures_of_sweep(sweep, table.family)

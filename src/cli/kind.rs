@@ -12,8 +12,7 @@ pub(super) fn load_scene_or_sweep(file: &Path) -> Result<(Sweep, FileKind), Fail
         AnyFile::Scene(scene) => Ok((Sweep::of_scene(*scene), FileKind::Scene)),
         AnyFile::Sweep(sweep) => Ok((*sweep, FileKind::Sweep)),
         AnyFile::Study(_) => Err(Failure::refused(format_args!(
-            "{}: this is a study, neither a scene nor a sweep; `phase check {0}` says what it \
-             costs",
+            "{}: this is a study, not a scene or sweep; `phase check {0}` estimates its cost",
             file.display()
         ))),
     }

@@ -11,7 +11,8 @@ use std::collections::BTreeMap;
 /// The failure of sieves that cannot judge the runs.
 pub(super) fn cannot_label(error: ClassifyError) -> Failure {
     Failure::refused(format_args!(
-        "the sieves cannot label these runs: {error} (`phase sweep --no-classify` only runs them)"
+        "the sieves cannot label these runs: {error} (`phase sweep --no-classify` runs them \
+         without labels)"
     ))
 }
 
@@ -29,19 +30,19 @@ pub(super) struct Summary {
     folder: String,
     /// Runs that have a label.
     labelled: usize,
-    /// Runs by label; all labels of the family are there.
+    /// Number of runs by label, for all labels of the family.
     labels: BTreeMap<&'static str, usize>,
     /// Jobs without a record.
     not_run: usize,
     /// Records that could not be labelled, and why.
     pub(super) problems: Vec<String>,
-    /// Labels other than before; none if there were no labels before.
+    /// Changed labels; `None` if there were no labels before.
     changes: Option<Vec<Change>>,
-    /// Runs that had no label before; none if there were no labels before.
+    /// Number of newly labelled runs; `None` if there were no labels before.
     new: Option<usize>,
-    /// Runs that had a label before and have none now; none if there were no labels before.
+    /// Number of runs that lost their label; `None` if there were no labels before.
     lost: Option<usize>,
-    /// Runs that had a label before and are not of the sweep now; none if there were no labels
+    /// Number of labelled runs that are no longer part of the sweep; `None` if there were no labels
     /// before.
     unused: Option<usize>,
     /// Runs that were not steady when their time was up.
@@ -110,7 +111,7 @@ pub(super) fn labelling_of(
     let labelling = Labelling::new(folder, sweep, jobs, workers)?;
     if labelling.missing > 0 {
         console.note(format_args!(
-            "{}: {} of {} not yet run, and without a label",
+            "{}: {} of {} not run yet, and not labelled",
             folder.root().display(),
             labelling.missing,
             format::count(jobs.len(), "job")
@@ -173,7 +174,7 @@ pub(super) fn tell_of_labels(labelled: &Labelled, folder: &Folder, console: &Con
     match &labelled.since {
         Since::Nothing => {}
         Since::Unreadable(error) => console.note(format_args!(
-            "cannot compare with the labels before: {error}"
+            "cannot compare with the earlier labels: {error}"
         )),
         Since::Labels {
             changes,
@@ -232,10 +233,10 @@ fn describe_changes(changes: &[Change], runs: usize, [new, lost, unused]: [usize
         text += &format!(", {new} new");
     }
     if lost > 0 {
-        text += &format!(", {lost} lost, as their records cannot be labelled");
+        text += &format!(", {lost} lost (their records cannot be labelled)");
     }
     if unused > 0 {
-        text += &format!(", {unused} left out, as they are not among these runs");
+        text += &format!(", {unused} left out (not among these runs)");
     }
     for Change { from, to, runs } in changes {
         let arrow = format!("{from} -> {to}");
@@ -251,14 +252,14 @@ pub(super) fn warn_of_windows(sweep: &Sweep, jobs: &[Job], console: &Console) {
         let which = match sieve.runs == jobs.len() {
             true => format!("the runs, {longest} s: it finds nothing in any of them"),
             false => format!(
-                "{} of {}, which last {longest} s at most: it finds nothing in these",
+                "{} of {}, which last at most {longest} s: it finds nothing in them",
                 sieve.runs,
                 format::count(jobs.len(), "run")
             ),
         };
         console.warning(format_args!(
-            "the window of the sieve {name}, {window} s, is longer than {which}; lengthen \
-             time.duration, or shorten `window` in [sieves.{name}]"
+            "the window of the sieve {name}, {window} s, is longer than {which}; increase \
+             time.duration, or decrease `window` in [sieves.{name}]"
         ));
     }
 }

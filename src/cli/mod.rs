@@ -34,14 +34,12 @@ const VERSION: &str = concat!(
     ")"
 );
 
-const AFTER_HELP: &str = "\
-Exit codes:
+const AFTER_HELP: &str = "Exit codes:
   0    done
   1    something failed: a job, the disk, a file that cannot be read or written
   2    refused before anything was done: wrong arguments, a wrong scene or sweep file,
        records of other parameters in the way, a folder in use
-  130  interrupted by Ctrl-C or a request to end; the same command goes on from there, `run` with
-       --resume
+  130  interrupted by Ctrl-C or a request to end; the same command continues, `run` with --resume
 
 Example: a phase diagram from one file
   phase sweep sweeps/quick.toml";
@@ -58,10 +56,10 @@ struct CommandLine {
 
 #[derive(Args)]
 struct Printing {
-    /// Print nothing but errors, and what `--json` asks for.
+    /// Print only errors, and the result of --json.
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     quiet: bool,
-    /// Print more: every job as it ends, every record that is run again.
+    /// Print more: every job as it ends, every record that is replaced.
     #[arg(short, long, global = true)]
     verbose: bool,
     /// Print the result as one JSON object (docs/json.md) instead of text.

@@ -33,8 +33,8 @@ pub(super) fn read(paths: &[PathBuf], scene: Option<&Path>) -> Result<Vec<RunRec
         && !paths.iter().any(|path| is_of_another_program(path))
     {
         return Err(Failure::refused(format_args!(
-            "--scene {}: it is for files of other programs, whose names end with {}, and there is \
-             none; records of phase have their own scene",
+            "--scene {}: this option is for files of other programs ({}), and none is given; \
+             records of phase hold their own scene",
             unused.display(),
             ENDS.map(|end| format!(".{end}")).join(", ")
         )));
@@ -72,7 +72,7 @@ pub(super) fn check_labels(
         _ if folders => Err(Failure::refused("--label names records, not folders")),
         _ if labels.len() == records => Ok(()),
         _ => Err(Failure::refused(format_args!(
-            "--label names records: give it once for each of the {records}, in their order"
+            "--label must be given once for each of the {records} records, in their order"
         ))),
     }
 }
@@ -81,8 +81,8 @@ pub(super) fn check_labels(
 fn replayed(path: &Path, scene: Option<&Scene>) -> Result<RunRecord, Failure> {
     let scene = scene.ok_or_else(|| {
         Failure::refused(
-            "a file of another program does not say its box; give a record beside it, or its \
-             scene with `--scene`",
+            "a file of another program does not describe its box; add a record of phase to the \
+             command, or give its scene with --scene",
         )
         .at(path)
     })?;

@@ -138,7 +138,7 @@ fn a_new_sweep_says_what_its_scene_lacks() {
         place
             .phase(&["new", "sweep", "mine", "--force", "--scene", scene])
             .code(0)
-            .complains("does not go with its scene yet")
+            .complains("does not fit its scene yet")
             .complains(lack);
     }
 }
@@ -159,7 +159,7 @@ fn a_new_sweep_names_its_scene_from_its_own_folder() {
         let new = place
             .phase(&["new", "sweep", sweep, "--scene", &file])
             .code(0);
-        assert!(!new.stderr.contains("does not go with"), "{new:#?}");
+        assert!(!new.stderr.contains("does not fit"), "{new:#?}");
         let text = place.read(&format!("{sweep}.toml"));
         assert!(text.contains(&format!("scene = \"{path}\"")), "{text}");
         let check = ["check", &format!("{sweep}.toml"), "--no-trial"];
@@ -205,7 +205,7 @@ fn new_replaces_nothing_unless_it_is_told_to() {
     place
         .phase(&["new", "scene", "mine"])
         .code(2)
-        .complains("mine.toml: the file is there already")
+        .complains("mine.toml: the file exists already")
         .complains("--force");
     assert_eq!(place.read("mine.toml"), "# mine\n");
     place.phase(&["new", "scene", "mine", "--force"]).code(0);

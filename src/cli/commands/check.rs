@@ -24,11 +24,11 @@ use std::time::Duration;
 
 /// Check a scene, sweep or study file and say what it would run, without running it.
 ///
-/// A short trial of a few jobs tells how long it will take and how much memory and disk it needs.
+/// A short trial of a few jobs estimates the time, memory and disk space that it will need.
 ///
 /// The time step is compared with its limits (docs/time-step.md; --verbose lists all, with
-/// formulas). Above a limit that decides about stability a scene is refused; above half of it, and
-/// above an advised one, there is a warning.
+/// formulas). A scene above a limit of stability is refused; above half of it, or above an advised
+/// limit, there is a warning.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: what will the full diagram cost on 16 cores?
@@ -38,13 +38,13 @@ pub(crate) struct Arguments {
     file: PathBuf,
     #[command(flatten)]
     workers: Workers,
-    /// A key of the scene with another value, as of `phase run`; may be given several times.
+    /// Set a key of the scene, as in `phase run`; may be given several times.
     #[arg(long, value_name = "KEY=VALUE", value_parser = values::setting)]
     set: Vec<String>,
-    /// A table or key to leave out of the scene, as of `phase run`; may be given several times.
+    /// Remove a table or key from the scene, as in `phase run`; may be given several times.
     #[arg(long, value_name = "KEY")]
     without: Vec<String>,
-    /// Only validate: no trial, no forecast.
+    /// Only validate, without trial and forecast.
     #[arg(long)]
     no_trial: bool,
 }
@@ -165,7 +165,8 @@ fn describe_sweep(sweep: &Sweep, jobs: usize) -> String {
         let text = match budget > jobs {
             true => format!("{jobs} to start, then rounds of {round} up to {budget} in total"),
             false => format!(
-                "{jobs} to start, which are the budget: raise `refine.budget` for rounds of {round}"
+                "{jobs} to start, which is the whole budget: increase `refine.budget` for rounds \
+                 of {round}"
             ),
         };
         lines.push(line("refined", text));
@@ -303,7 +304,7 @@ struct Answer<'a> {
     jobs: usize,
     axes: &'a [Axis],
     seeds: &'a [u64],
-    /// Most runs of a refined sweep; none if the whole grid is run.
+    /// Most runs of a refined sweep; `None` if the whole grid is run.
     budget: Option<usize>,
     spheres: usize,
     effects: Vec<String>,
@@ -311,10 +312,10 @@ struct Answer<'a> {
     frames: u64,
     steps_per_frame: u64,
     dt: f64,
-    /// That of `dt = "auto"`; none if the step was given.
+    /// The safety factor of `dt = "auto"`; `None` if the step was given.
     safety_factor: Option<f64>,
     limits: Vec<LimitAnswer>,
-    /// Whether walls of discs hold; none without any.
+    /// Whether walls of discs hold; `None` without such walls.
     walls: Option<walls::Answer>,
     forecast: Option<ForecastAnswer>,
 }
@@ -353,7 +354,7 @@ struct ForecastAnswer {
     rate: f64,
     seconds: f64,
     memory: f64,
-    /// None where no records are left.
+    /// `None` if the jobs leave no records.
     disk: Option<f64>,
 }
 

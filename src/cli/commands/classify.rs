@@ -1,5 +1,5 @@
-//! `phase classify`: labels the runs of a results folder again, from their records, or those of a
-//! folder of dumps.
+//! `phase classify`: labels the runs of a results folder, or of a folder of dumps, from their
+//! records.
 
 mod dumps;
 mod edited;
@@ -13,7 +13,7 @@ use phase::sweep::{Folder, Job, LabellingError, Sweep, refuse_to_lose_labels};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Label the runs of a results folder from their records, without any new simulation.
+/// Label the runs of a results folder from their records, without new simulations.
 ///
 /// Writes labels.csv and points.csv and says how many labels changed.
 #[derive(clap::Args)]
@@ -26,8 +26,8 @@ Example: dumps as the thesis's program wrote them (dump_r00.003_p03750.0_f006.0.
 spheres x 4 of x, y, z and energy). Radius, density and Omega come from the names, the rest from the
 scene
   phase classify dumps --scene sweeps/scenes/theoretical.toml
-A dump has no velocities, spins or contact energies: the sieves get along without them, but the
-order parameters rotation and mobility are then those of displacements from frame to frame.")]
+A dump has no velocities, spins or contact energies. The sieves do not need them, but the order
+parameters rotation and mobility are then computed from displacements between frames.")]
 pub(crate) struct Arguments {
     /// A results folder of `phase sweep`, or a folder that holds several; or, with --scene, a
     /// folder of dumps.
@@ -35,9 +35,8 @@ pub(crate) struct Arguments {
     /// The folder holds dumps (.npy) of runs of this scene.
     #[arg(long, value_name = "FILE")]
     scene: Option<PathBuf>,
-    /// Take the thresholds, the title and the plot settings from this sweep file from now on. The
-    /// scene, the axes and the seeds must be those that were run. With --scene, the thresholds
-    /// only.
+    /// From now on take thresholds, title and plot settings from this sweep file. Its scene, axes
+    /// and seeds must be the ones that were run. With --scene only the thresholds are taken.
     #[arg(long, value_name = "FILE")]
     sweep: Option<PathBuf>,
     #[command(flatten)]

@@ -1,4 +1,4 @@
-//! `phase compare`: the numbers of runs beside each other, or the labels of two sweeps.
+//! `phase compare`: compares the numbers of runs, or the labels of two sweeps.
 
 mod inputs;
 mod sweeps;
@@ -19,18 +19,17 @@ use std::path::PathBuf;
 
 /// Compare runs: records, or two folders of sweeps.
 ///
-/// Drainages are measured: outflow, widening of the flow, packing, mixing, surface. Every number
-/// has its interval of 95 % over ten states or blocks of time, where one can be told. Lengths are
-/// over the diameter of the spheres. Of tanks and silos the label and the measures of `labels.csv`
-/// are told. Of two records the difference is told, too.
+/// For drainages: outflow, widening of the flow, packing, mixing and surface, with 95 % intervals
+/// over ten states or blocks of time where possible; lengths in diameters of the spheres. For tanks
+/// and silos: the label and the measures of `labels.csv`. For two records also the differences.
 ///
-/// Beside records of phase there may be dumps of LAMMPS, extended XYZ files, and files of VTK by
-/// the collection (`.pvd`) or series (`.series`) that says their times. The scene of the first
-/// record says what they do not (or `--scene`). A table that this command wrote takes the place of
-/// its records.
+/// Files of other programs can be compared too: dumps of LAMMPS, extended XYZ, and VTK files
+/// through the collection (`.pvd`) or series (`.series`) that holds their times. What they lack is
+/// taken from the scene of the first record, or from `--scene`. A table that this command wrote can
+/// be used instead of its records.
 ///
-/// Of two folders, runs of one point and seed are paired: the share with one label, and the mean
-/// differences of measures.
+/// Two results folders are compared by pairs of runs with the same point and seed: the share with
+/// equal labels, and the mean differences of measures.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: two drainages, and what differs
@@ -40,7 +39,7 @@ Example: another program
 Example: two sweeps
   phase compare results/steel results/steel-softened")]
 pub(crate) struct Arguments {
-    /// Records (HDF5, LAMMPS dump, extended XYZ, VTK) or tables (CSV), one or more; or two folders.
+    /// Records (HDF5, LAMMPS dump, extended XYZ, VTK) or tables (CSV); or two results folders.
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
     #[command(flatten)]
@@ -59,8 +58,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         check_labels(&arguments.measured.labels, arguments.paths.len(), true)?;
         if let Some(file) = arguments.paths.iter().find(|path| !path.is_dir()) {
             return Err(Failure::refused(
-                "this is no folder, and folders are compared with folders; compare records \
-                 with records",
+                "not a folder; compare folders with folders, and records with records",
             )
             .at(file));
         }
@@ -97,7 +95,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     Ok(Exit::Done)
 }
 
-/// Says of which times each record is measured, if they differ or are fewer than asked for.
+/// Warns of records that are measured at other times than the first one, or than requested.
 fn warn_of_windows(columns: &[Column], times: Option<[f64; 2]>, units: Units, console: &Console) {
     let windows = columns.iter().enumerate();
     let windows: Vec<(usize, [f64; 2])> = windows
@@ -112,8 +110,8 @@ fn warn_of_windows(columns: &[Column], times: Option<[f64; 2]>, units: Units, co
         if wanted.is_some_and(|wanted| differs(window, wanted)) {
             let [from, to] = window;
             console.warning(format_args!(
-                "{} is measured from {from} to {to} {} since the opening, not as the others or as \
-                 asked for; give --times that all records have",
+                "{} is measured from {from} to {to} {} since the opening, unlike the others or the \
+                 request; give --times that all records cover",
                 letter(place),
                 units.of_time()
             ));

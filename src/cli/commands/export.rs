@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 
 /// Write the spheres of records for other programs.
 ///
-/// Takes every frame of the trajectory if the record has one, else its snapshots, and says which.
-/// `phase run --trajectory` makes a record with every frame.
+/// Writes every frame of the trajectory if the record has one, otherwise its snapshots, and says
+/// which. `phase run --trajectory` makes a record with every frame.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Formats:
@@ -24,13 +24,13 @@ Formats:
   npy   NAME/*.npy for NumPy: time, position, velocity, spin, radius, mass
   csv   NAME.csv, one row per state and sphere; NAME-observations.csv, one row per frame
   svg   NAME/frame_*.svg, a picture per state for browsers and documents: walls red, door green,
-        grains blue, to scale; of a tank the view from the side
+        grains blue, to scale; a tank is seen from the side
   page  NAME.html, one page that plays the run in a browser, without any other file
   dump  dump_r..._p..._f....npy, the thesis's own: frames x spheres x 4 of x, y, z (m) and
         energy (J); the name says radius, density and Omega, and the seed unless it is 1
 
-Where spheres come and go, xyz, vtk and csv hold those that are in, by their id, and npy says NaN of
-those that are not. Fixed spheres go to NAME-fixed.xyz, NAME-fixed.csv, walls.npy and door.npy, and
+If spheres enter or leave, xyz, vtk and csv hold the spheres inside, by their id, and npy holds NaN
+for the others. Fixed spheres go to NAME-fixed.xyz, NAME-fixed.csv, walls.npy and door.npy, and
 to further parts of a ParaView series.
 
 Example: one frame in ten for ParaView
@@ -50,11 +50,11 @@ pub(crate) struct Arguments {
     /// The format to write.
     #[arg(long, value_name = "FORMAT")]
     to: Format,
-    /// The folder to write into, made if it is not there; or, of a single record, the .xyz, .pvd,
-    /// .csv, .html or .npy file [default: beside the record].
+    /// The folder to write to; for a single record also a .xyz, .pvd, .csv, .html or .npy file
+    /// [default: the record's folder].
     #[arg(short, long, value_name = "PATH")]
     out: Option<PathBuf>,
-    /// Write one state in N, from the first on.
+    /// Write one state in N, starting with the first.
     #[arg(long, value_name = "N", value_parser = values::at_least_one)]
     every: Option<usize>,
 }
@@ -138,8 +138,8 @@ fn refuse_foreign_arrays(folder: &Path) -> Result<(), Failure> {
     let is_there = |name: &&str| folder.join(name).exists();
     match store::ARRAYS.into_iter().find(is_there) {
         Some(name) if !store::ARRAYS.iter().all(is_there) => Err(Failure::refused(format_args!(
-            "{}: this array is not of an export, which would replace it; {ANOTHER_FOLDER}, or \
-                 move it away",
+            "{}: this array is not part of an export, and would be overwritten; {ANOTHER_FOLDER}, \
+             or move it away",
             folder.join(name).display()
         ))),
         _ => Ok(()),
@@ -149,7 +149,7 @@ fn refuse_foreign_arrays(folder: &Path) -> Result<(), Failure> {
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     if arguments.to == Format::Dump && arguments.every.is_some() {
         return Err(Failure::refused(
-            "a dump holds every frame, as the sieves need them: leave out --every",
+            "a dump holds every frame, because the sieves need them; drop --every",
         ));
     }
     let mut failed = Vec::new();
@@ -182,7 +182,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 /// What `--json` prints.
 #[derive(Serialize)]
 struct Answer {
-    /// Of several records those that could not be exported.
+    /// Of several records the ones that could not be exported.
     failed: Vec<FailedRecord>,
     /// The files written.
     files: Vec<String>,
@@ -202,7 +202,7 @@ fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failu
         && out.extension().is_some_and(|it| it != extension)
     {
         return Err(Failure::refused(format_args!(
-            "give a folder, or of a single record a file that ends in .{extension}"
+            "give a folder, or for a single record a file that ends in .{extension}"
         ))
         .at(out));
     }
@@ -214,7 +214,7 @@ fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failu
             && let Some(other) = written.insert(target.clone(), path)
         {
             return Err(Failure::refused(format_args!(
-                "{} and {} would both be written to {}; export them one by one, each to its own \
+                "{} and {} would both be written to {}; export them one by one with different \
                  --out",
                 other.display(),
                 path.display(),
@@ -228,7 +228,7 @@ fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failu
 
 /// Where an export goes: the file that stands for it, or the folder of its arrays.
 fn target(arguments: &Arguments, record_path: &Path) -> Result<PathBuf, StoreError> {
-    // Whether it is a record at all shows before anything is written.
+    // Refuse what is no record before anything is written.
     store::read_record_header(record_path)?;
     let extension = arguments.to.extension();
     let beside = record_path.parent().unwrap_or(Path::new(""));
@@ -283,20 +283,20 @@ fn export(
     ));
     if arguments.to == Format::Dump && record.scene.has_flow() {
         return Err(Failure::refused(
-            "spheres come and go in this run, for which the thesis's dump has no place; npy \
-             holds the same numbers",
+            "the thesis's dump cannot represent spheres that enter or leave; use --to npy, which \
+             has the same numbers",
         )
         .at(path));
     }
     if arguments.to == Format::Dump && matches!(states, States::Snapshots(_)) {
         console.note(
-            "a dump of snapshots cannot be classified, which takes every frame: run it again with \
+            "a dump of snapshots cannot be classified, which needs every frame: run it again with \
              `phase run --trajectory`",
         );
     }
     if arguments.to == Format::Dump && record.radius.iter().any(|it| *it != record.radius[0]) {
         console.note(
-            "the name of a dump says one radius, here the mean: `phase classify --scene` needs a \
+            "the name of a dump holds one radius, here the mean: `phase classify --scene` needs a \
              scene that lists the radius of each sphere",
         );
     }

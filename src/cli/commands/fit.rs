@@ -1,4 +1,4 @@
-//! `phase fit`: the parameters of a simpler model that a run follows.
+//! `phase fit`: fits the parameters of a simpler model to a run.
 
 use crate::cli::columns::{in_columns, written};
 use crate::cli::console::Console;
@@ -14,13 +14,12 @@ use std::path::PathBuf;
 
 /// Fit the parameters of the spot model to the record of a drainage, and write a scene with them.
 ///
-/// By the procedure of Rycroft, Bazant, Grest and Landry (2006): b from the width of the flow, w
-/// from the diffusion of spheres, the radius from the correlation of velocities, the rates from the
-/// outflow and from the drop of the density. Each has its interval of 95 %, over ten states or
-/// blocks of time.
+/// Follows Rycroft, Bazant, Grest and Landry (2006): b from the width of the flow, w from the
+/// diffusion of spheres, the radius from the correlation of velocities, the rates from the outflow
+/// and from the drop of the density. Each has a 95 % interval over ten states or blocks of time.
 #[derive(clap::Args)]
 #[command(after_help = "\
-Example: discrete elements, and spots with the parameters that these ask for
+Example: fit spots to a run of discrete elements, and compare
   phase fit dem.h5 --times 40,160 --out spots.toml
   phase run spots.toml
   phase compare dem.h5 results/spots.h5 --times 40,160")]
@@ -55,7 +54,7 @@ struct Parameter {
     value: fn(&SpotFit) -> Estimate,
 }
 
-/// What a number is of.
+/// Dimension of a parameter.
 #[derive(Clone, Copy)]
 enum Dimension {
     /// A length, in diameters d.
@@ -126,8 +125,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.result(line);
     }
     console.note(
-        "intervals tell the scatter within this run, not what the procedure is off by: \
-         analysis/spot.md of the project has fits of spots whose parameters are known",
+        "the intervals are the scatter within this run, not the error of the procedure: \
+         analysis/spot.md of the project fits spots whose parameters are known",
     );
     if let Some(path) = &arguments.out {
         let text = scene(&drainage, &fit);
@@ -135,8 +134,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.file(path);
         if let Err(error) = Scene::from_toml(&text, path) {
             console.warning(format_args!(
-                "spots of these parameters cannot be run in this box, as `phase run` will say \
-                 too:\n{error}"
+                "spots with these parameters cannot be run in this box; `phase run` will refuse \
+                 the scene:\n{error}"
             ));
         }
     }

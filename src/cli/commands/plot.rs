@@ -15,8 +15,11 @@ use phase::sweep::{Folder, Selection, parse_point};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// Draw the figures of a results folder, as SVG and PNG, from its labels.csv and records, or those
-/// of the record of one run or several: the tracks of its spheres, the ledger of its energy.
+/// Draw the figures of a results folder (from its labels.csv and records) or of single records, as
+/// SVG and PNG.
+///
+/// Figures of drainages measure the states within --times; `packing-map` shows the states at these
+/// two times.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: what can be drawn of a folder, and one of it
@@ -33,36 +36,34 @@ Example: two drainages in one figure, from when the flow has developed
 Example: a drainage beside points of a paper
   phase plot full.h5 --figure cross-profile --times 80,180 --data paper.csv")]
 pub(crate) struct Arguments {
-    /// A results folder of `phase sweep`, a folder that holds several, or a record (.h5); or
-    /// several records, for figures that show them beside each other. Beside records there may be
-    /// files of other programs, as of `phase compare`.
+    /// A results folder of `phase sweep`, a folder that holds several, or one or more records
+    /// (.h5). Several records are shown in one figure, together with files of other programs as in
+    /// `phase compare`.
     #[arg(required_unless_present = "list", value_name = "DIR|RECORD")]
     paths: Vec<PathBuf>,
-    /// A figure to draw; may be given several times [default: phase and settle-time of a tank's
-    /// folder, phase and discharge-rate of a silo's, of a record what it holds of tracks and
-    /// ledger].
+    /// A figure to draw; may be given several times [default: tank folder: phase, settle-time; silo
+    /// folder: phase, discharge-rate; record: tracks and ledger, if stored].
     #[arg(short, long, value_name = "NAME", value_delimiter = ',')]
     figure: Vec<String>,
-    /// A point of the grid, such as `radius=0.003,omega=6`, and if you like `seed=2`, for figures
-    /// of single runs; may be given several times.
+    /// A point of the grid for figures of single runs, such as `radius=0.003,omega=6` or
+    /// `radius=0.003,omega=6,seed=2`; may be given several times.
     #[arg(short, long = "point", value_name = "POINT", requires = "figure")]
     points: Vec<String>,
     #[command(flatten)]
     measured: Measured,
-    /// Points of another source to show beside records, such as a figure of a paper (CSV: place and
-    /// value in the units of the axes, and if you like the half width of an interval); may be given
-    /// several times. Its file names it.
+    /// Points from another source, such as a paper, to add to figures of records (CSV: place, value
+    /// and optionally the half width of an interval, in the units of the axes). The file's name is
+    /// the legend. May be given several times.
     #[arg(long, value_name = "CSV", requires = "figure")]
     data: Vec<PathBuf>,
-    /// Folder for the figures [default: the results folder, or that of the record].
+    /// Folder for the figures [default: the results folder, or the record's folder].
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// What the names of the files begin with, of records [default: the name of the record; of
-    /// several nothing].
+    /// Prefix of the output files when plotting records [default: the record's name; none for
+    /// several records].
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
-    /// Print the names of all figures, or of those that can be drawn of DIR, and what they show;
-    /// draw nothing.
+    /// List all figures, or those that can be drawn from DIR, with what they show; draw nothing.
     #[arg(short, long, conflicts_with_all = ["out", "name", "labels"])]
     list: bool,
 }
@@ -97,30 +98,30 @@ impl Arguments {
             .find(|path| self.paths.len() > 1 && !path.is_file())
         {
             let reason = match folder.exists() {
-                true => "several are drawn beside each other only if all are records (.h5)",
-                false => "there is no such file; check the path",
+                true => "several paths must all be records (.h5)",
+                false => "no such file; check the path",
             };
             return Err(Failure::refused(reason).at(folder));
         }
         if self.name.is_some() && is_one_folder {
             return Err(Failure::refused(
-                "--name is for figures of records: those of a folder have their own names",
+                "--name is for figures of records; figures of a folder have fixed names",
             ));
         }
         if self.measured.scene.is_some() && is_one_folder {
             return Err(Failure::refused(
-                "--scene is for files of other programs: a folder has that of its sweep",
+                "--scene is for files of other programs; a results folder has its own scene",
             ));
         }
         if let Some(data) = self.data.first().filter(|_| is_one_folder) {
             return Err(Failure::refused(format_args!(
-                "--data {}: it is shown beside records, not in figures of a folder",
+                "--data {}: data can be added to figures of records, not of a folder",
                 data.display()
             )));
         }
         if self.measured.window.times.is_some() && is_one_folder && self.figure.is_empty() {
             return Err(Failure::refused(
-                "--times is for figures of drainages: name one of them with --figure",
+                "--times is for figures of drainages; name one with --figure",
             ));
         }
         check_labels(&self.measured.labels, self.paths.len(), is_one_folder)
@@ -206,12 +207,12 @@ impl Answer {
         if let Some(name) = arguments.figure.iter().find(|name| !is_known(name)) {
             if records::OF_ONE.iter().any(|known| known.name == *name) {
                 return Err(Failure::refused(format_args!(
-                    "`{name}` is drawn from the record of one run; name its .h5 file instead of {}",
+                    "`{name}` is drawn from the record of one run; give its .h5 file instead of {}",
                     dir.display()
                 )));
             }
             return Err(Failure::refused(format_args!(
-                "there is no figure `{name}`; `phase plot --list` names them all"
+                "there is no figure `{name}`; `phase plot --list` lists all figures"
             )));
         }
         let points = arguments.points.iter().map(|point| parse_point(point));
@@ -252,7 +253,7 @@ impl Listed {
         ));
         if let Some(runs) = self.default_runs {
             console.result(format_args!(
-                "{:<22} of the runs at --point, or else {runs}",
+                "{:<22} of the runs at --point; by default {runs}",
                 ""
             ));
         }

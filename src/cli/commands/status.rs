@@ -12,8 +12,8 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-/// Say how far a sweep is: jobs done, failed and left, how far runs with a checkpoint are, and the
-/// time left.
+/// Show the progress of a sweep: jobs done, failed and left, runs with a checkpoint, and the time
+/// left.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: all sweeps in ./results
@@ -37,7 +37,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 }
 
 impl FolderAnswer {
-    /// That of a folder; prints it for people.
+    /// Reads the progress of a folder and prints it.
     fn of(folder: &Folder, workers: usize, console: &Console) -> Result<Self, Failure> {
         let sweep = folder.read_sweep()?;
         let refining = folder.read_refining(&sweep)?;
@@ -102,7 +102,7 @@ fn describe_refined(
     if let Some(seconds) = status.cpu_seconds_per_job.filter(|_| more > 0) {
         let workers = workers.min(more);
         lines.push(format!(
-            "  budget     about {} with {}, if all of it is spent",
+            "  budget     about {} with {}, if it is used up",
             format::duration(seconds * more as f64 / workers as f64),
             format::count(workers, "worker")
         ));
@@ -186,11 +186,11 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
         failures.len()
     );
     if *unstable > 0 {
-        text += &format!("\n  unstable   {unstable} of those done");
+        text += &format!("\n  unstable   {unstable} of the done jobs");
     }
     if *bad > 0 {
         text += &format!(
-            "\n  to redo    {}, damaged or of other settings",
+            "\n  to redo    {}, damaged or made with other settings",
             format::count(*bad, "record")
         );
     }
@@ -201,7 +201,7 @@ fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
                 format::duration(seconds),
                 format::count(workers.min(*left), "worker")
             ),
-            None => "not known before a job is done; `phase check` forecasts it".to_owned(),
+            None => "unknown until a job is done; `phase check` forecasts it".to_owned(),
         };
         text += &format!("\n  time left  {time}");
     }

@@ -24,7 +24,7 @@ use std::time::Duration;
 /// Run the simulations of a sweep, label them, draw the phase diagram.
 ///
 /// Jobs whose record is already in the results folder are not run again: a sweep that was stopped
-/// goes on where it was, and long runs that were under way from their latest checkpoint.
+/// continues where it was, and long runs from their latest checkpoint.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: the 9 x 9 grid on four cores, results in ./results/quick
@@ -45,22 +45,22 @@ pub(crate) struct Arguments {
     /// Run every job again, whatever the results folder holds.
     #[arg(short, long)]
     force: bool,
-    /// Seeds in place of the file's; may be given several times.
+    /// Seeds to use instead of the file's; may be given several times.
     #[arg(short, long, value_name = "SEED", value_delimiter = ',', value_parser = values::seed)]
     seed: Vec<u64>,
-    /// Run a coarse grid, then only what the labels need (docs/refine.md). The file's table
-    /// [refine] says how; without one a tenth of the grid's jobs is run at most.
+    /// Run a coarse grid, then only what the labels need (docs/refine.md). The table [refine] of
+    /// the file has the settings; without it at most a tenth of the grid's jobs is run.
     #[arg(long)]
     refine: bool,
-    /// Time between two checkpoints of a run (s), from which it goes on when the sweep is run again
-    /// [default: 120].
+    /// Time between two checkpoints of a run (s), from which it continues when the sweep is run
+    /// again [default: 120].
     #[arg(long, value_name = "SECONDS", value_parser = values::seconds)]
     checkpoint_interval: Option<Duration>,
     /// Only run the simulations: no labels, no figures.
     #[arg(long)]
     no_classify: bool,
-    /// Count runs that have a label in labels.csv as done, even if their records are gone, as of
-    /// published results.
+    /// Treat runs listed in labels.csv as done even without their record files (for example in
+    /// published results).
     #[arg(long, conflicts_with = "force")]
     keep_labels: bool,
     /// Draw no figures.
@@ -127,7 +127,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 
     if stop.load(Ordering::Relaxed) {
         console.note(format_args!(
-            "interrupted; {} left. Go on with the same command",
+            "interrupted; {} left. The same command continues",
             format::count(run.report.left, "job")
         ));
         answer.interrupted = true;
@@ -160,7 +160,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     Ok(if failed { Exit::Failed } else { Exit::Done })
 }
 
-/// The results folder, in which no file of another program is in the way.
+/// The results folder. Refuses one where a file of another program is in the way.
 fn folder_of(sweep: &Sweep, arguments: &Arguments) -> Result<Folder, Failure> {
     let root = arguments.out.clone();
     let mut folder = Folder::new(root.unwrap_or_else(|| default_folder(&arguments.file)));
@@ -188,18 +188,18 @@ fn refuse_another_file(
         return Ok(());
     }
     Err(Failure::refused(format_args!(
-        "this folder has the results of {}, another sweep of the same name; choose another \
+        "this folder holds the results of {}, another sweep of the same name; choose another \
          folder with --out",
         source.display()
     ))
     .at(folder.root()))
 }
 
-/// Says which files of the folder are not of this sweep.
+/// Says which files of the folder belong to an earlier sweep.
 fn tell_of_earlier_borders(folder: &Folder, sweep: &Sweep, console: &Console) {
     if sweep.refine.is_none() && folder.borders().exists() {
         console.note(format_args!(
-            "{} and `refined` are of an earlier, refined sweep in this folder",
+            "{} and the figure `refined` belong to an earlier, refined sweep in this folder",
             folder.borders().display()
         ));
     }
@@ -211,7 +211,7 @@ fn leaves_rest_to_others(folder: &Folder, plan: &Plan, console: &Console) -> boo
     let others = plan.jobs.iter().filter(|(job, _)| is_made(job)).count();
     if others > 0 {
         console.note(format_args!(
-            "another process is making {}, and writes tables and figures when it is done",
+            "another process is running {}, and will write tables and figures when it is done",
             format::count(others, "job")
         ));
     }
@@ -219,7 +219,7 @@ fn leaves_rest_to_others(folder: &Folder, plan: &Plan, console: &Console) -> boo
 }
 
 /// Takes the right to run a sweep into a folder, beside other processes that run the same one
-/// unless everything is to be run again.
+/// unless everything is run again.
 fn enter(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Result<Access, Failure> {
     let access = match arguments.force {
         true => folder.lock().map(Access::Alone),
@@ -235,16 +235,16 @@ fn check_kept_labels(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
     }
     store::read_labels(&folder.labels()).map_err(|error| {
         Failure::refused(format_args!(
-            "{error}\nlabels are to be kept, and this table of them cannot be read: mend it, or \
-             leave out --keep-labels"
+            "{error}\n--keep-labels needs a readable labels.csv; repair the file or drop \
+             --keep-labels"
         ))
     })?;
     let stored = folder.read_sweep()?;
     match stored.sieves == sweep.sieves {
         true => Ok(()),
         false => Err(Failure::refused(format_args!(
-            "other thresholds ([sieves]) gave these labels, which cannot be kept; leave out \
-             --keep-labels, or use the thresholds of {}",
+            "these labels were made with other thresholds ([sieves]); drop --keep-labels, or use \
+             the thresholds of {}",
             folder.sweep().display()
         ))
         .at(folder.labels())),
@@ -306,19 +306,19 @@ fn choose_runs(sweep: &mut Sweep, arguments: &Arguments) -> Result<(), Failure> 
     }
     if arguments.no_classify && sweep.refine.is_some() {
         return Err(Failure::refused(
-            "refining needs labels; leave out --no-classify",
+            "refining needs labels; drop --no-classify",
         ));
     }
     Ok(())
 }
 
-/// Seeds, each of which is there once.
+/// Seeds without duplicates.
 fn distinct(seeds: &[u64]) -> Result<Vec<u64>, Failure> {
     let mut seen = HashSet::new();
     match seeds.iter().find(|seed| !seen.insert(**seed)) {
         None => Ok(seeds.to_vec()),
         Some(seed) => Err(Failure::refused(format_args!(
-            "--seed {seed} is there twice, and would count its runs twice; give it once"
+            "duplicate --seed {seed}: its runs would count twice; give it once"
         ))),
     }
 }
@@ -328,7 +328,7 @@ pub(super) fn default_folder(file: &Path) -> PathBuf {
     Path::new("results").join(file.file_stem().unwrap_or("sweep".as_ref()))
 }
 
-/// Says in what an earlier sweep of the same folder differed.
+/// Says how an earlier sweep of the same folder differed.
 fn tell_of_other_sweep(folder: &Folder, sweep: &Sweep, console: &Console) {
     let Ok(earlier) = folder.read_sweep() else {
         return;
@@ -336,8 +336,8 @@ fn tell_of_other_sweep(folder: &Folder, sweep: &Sweep, console: &Console) {
     let keys = differing_keys(&earlier, sweep);
     if !keys.is_empty() {
         console.note(format_args!(
-            "the sweep has changed since it was last run into {} ({}); records it still needs are \
-             kept, others stay in the folder unused",
+            "the sweep has changed since it was last run into {} ({}); its records are reused \
+             where they still apply, others stay in the folder unused",
             folder.root().display(),
             keys.join(", ")
         ));

@@ -17,8 +17,8 @@ use std::path::{Path, PathBuf};
 
 /// Run the verification cases: set-ups whose outcome is known in closed form or from a reference.
 ///
-/// Every case runs with every integrator that claims it; what was expected, what was got, the error
-/// over the tolerance and the cost are printed. Fails if any case does.
+/// Runs every case with every integrator that claims it, and prints the expected and the measured
+/// value, the error over the tolerance and the cost. Fails if any case does.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example: all impacts, as a table and a figure
@@ -30,7 +30,7 @@ pub(crate) struct Arguments {
     /// Only cases whose name contains this.
     #[arg(short, long, value_name = "TEXT")]
     case: Option<String>,
-    /// Print names and sources of the cases, and run none.
+    /// List the cases with their sources; run nothing.
     #[arg(short, long)]
     list: bool,
     /// Folder for the table (CSV) and the figure (SVG, PNG) [default: print only].
@@ -47,7 +47,7 @@ struct Row {
     case: &'static str,
     integrator: &'static str,
     quantity: String,
-    /// What it is to be, and what was measured (SI units).
+    /// Expected and measured value (SI units).
     expected: f64,
     measured: f64,
     /// Error, relative or absolute as the case says, and how large it may be.
@@ -159,7 +159,7 @@ fn chosen(arguments: &Arguments) -> Result<Vec<&'static Case>, Failure> {
     let cases: Vec<&Case> = verify::cases().iter().filter(is_chosen).collect();
     if cases.is_empty() {
         return Err(Failure::refused(
-            "no case has such a name; `phase verify --list` names them all",
+            "no case has such a name; `phase verify --list` lists all cases",
         ));
     }
     Ok(cases)

@@ -39,7 +39,7 @@ fn dumps_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     };
     if folder.join("sweep.json").exists() {
         return Err(refuse(
-            "a results folder needs no --scene, its labels come from its records".to_owned(),
+            "a results folder is labelled from its records; drop --scene".to_owned(),
         ));
     }
     match find_dumps(folder) {
@@ -49,12 +49,11 @@ fn dumps_in(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     }
 }
 
-/// The failure to find results in a folder; one of dumps is told what it lacks.
+/// Why a folder has no results; for a folder of dumps the message names the missing option.
 pub(super) fn hint(folder: &Path, error: &FolderError) -> Failure {
     match find_dumps(folder) {
         Ok(dumps) if !dumps.is_empty() => Failure::refused(
-            "holds dumps (.npy) but no sweep.json; say with --scene FILE of which scene they \
-             are",
+            "holds dumps (.npy) but no sweep.json; give the scene of the dumps with --scene FILE",
         )
         .at(folder),
         _ => Failure::refused(error),

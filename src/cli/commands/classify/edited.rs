@@ -59,8 +59,8 @@ fn edit(folder: &Folder, sweep: Sweep, edited: &Sweep) -> Result<ToLabel, Failur
     let keys = sweep.keys_of_other_runs(&edited);
     if !keys.is_empty() {
         return Err(Failure::refused(format_args!(
-            "the runs in this folder are not those of the edited sweep; they differ in {}. \
-             Thresholds may change, runs may not: `phase sweep` makes new ones",
+            "the edited sweep describes other runs than this folder holds; they differ in {}. Only \
+             thresholds may change: `phase sweep` makes new runs",
             keys.join(", ")
         ))
         .at(folder.root()));
@@ -84,7 +84,7 @@ fn check_files(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
     Ok(files.try_for_each(|file| store::check_writable(file))?)
 }
 
-/// An edited sweep, refined if that of the folder was and the edited one does not say so.
+/// The edited sweep, with the [refine] of the folder's sweep if it has none itself.
 fn refined_alike(edited: &Sweep, sweep: &Sweep) -> Sweep {
     let mut edited = edited.clone();
     if sweep.refine.is_some() && edited.refine.is_none() && edited.refine_by_default().is_ok() {
@@ -101,8 +101,8 @@ fn refuse_problems(folder: &Folder, labelling: &Labelling) -> Result<(), Failure
         return Ok(());
     };
     Err(Failure::failed(format_args!(
-        "{} cannot be labelled, so that this folder stays as it was ({first}); `phase sweep` \
-         makes damaged records again",
+        "{} cannot be labelled, so this folder was left unchanged ({first}); `phase sweep` \
+         replaces damaged records",
         format::count(labelling.problems.len(), "record")
     ))
     .at(folder.root()))

@@ -55,13 +55,11 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         _ => arguments.name.with_added_extension("toml"),
     };
     if arguments.kind != Kind::Sweep && arguments.scene.is_some() {
-        return Err(Failure::refused(
-            "a scene starts from no other; `--scene` goes with `phase new sweep`",
-        ));
+        return Err(Failure::refused("--scene is for `phase new sweep` only"));
     }
     if path.exists() && !arguments.force {
         return Err(Failure::refused(
-            "the file is there already; choose another name, or replace it with `--force`",
+            "the file exists already; choose another name, or replace it with --force",
         )
         .at(path));
     }
@@ -79,7 +77,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         && let Err(error) = phase::sweep::load(&path)
     {
         console.warning(format_args!(
-            "the sweep does not go with its scene yet; edit it first: {error}"
+            "the sweep does not fit its scene yet; edit it first: {error}"
         ));
     }
     let kind = match arguments.kind {

@@ -106,14 +106,14 @@ pub(super) fn read_labels(folder: &Folder) -> Result<LabelTable, Failure> {
     let (root, path) = (folder.root(), folder.labels());
     if !path.exists() {
         return Err(Failure::refused(format_args!(
-            "there are no labels yet; run `phase classify {}` first",
+            "no labels yet; run `phase classify {}` first",
             root.display()
         ))
         .at(path));
     }
     store::read_labels(&path).map_err(|error| {
         Failure::failed(format_args!(
-            "{error}; `phase classify {}` makes it anew",
+            "{error}; `phase classify {}` rewrites it",
             root.display()
         ))
     })

@@ -22,7 +22,7 @@ pub(super) struct RecordFigure {
     draw: fn(&RunRecord) -> Result<Svg, PlotError>,
 }
 
-/// The figures that one record alone has: those of what only some records hold.
+/// Figures of a single record, of data that only some records hold.
 pub(super) const OF_ONE: [RecordFigure; 2] = [
     RecordFigure {
         name: "tracks",
@@ -38,7 +38,7 @@ pub(super) const OF_ONE: [RecordFigure; 2] = [
     },
 ];
 
-/// Those that are drawn of a drainage if none is asked for; of other runs those of [`OF_ONE`].
+/// The default figures of a drainage; the default figures of other runs are [`OF_ONE`].
 const DEFAULT_OF_DRAINAGE: [&str; 2] = ["surface-angle", "radial-distribution"];
 
 /// The figure that any record of discrete elements has, whatever its family.
@@ -97,7 +97,7 @@ pub(super) fn draw(
 ) -> Result<Vec<String>, Failure> {
     if let Some(point) = arguments.points.first() {
         return Err(Failure::refused(format_args!(
-            "--point {point} is for a results folder: a record is of one run"
+            "--point {point} is for a results folder; a record holds one run"
         )));
     }
     let records: Vec<RunRecord> = runs::read(paths, arguments.measured.scene.as_deref())?;
@@ -124,7 +124,7 @@ pub(super) fn draw(
     folders::refuse_foreign(
         folder,
         files,
-        "choose another folder or name with --out or --name",
+        "choose another folder with --out or another name with --name",
     )?;
     let failed = |error: PlotError| Failure::from(error).at(first);
     let mut missing = None;

@@ -30,7 +30,7 @@ impl Before {
         }
         let refuse = |error: StoreError| {
             Failure::refused(format_args!(
-                "{error}; the run could not be compared with it. `phase sweep` makes it again"
+                "{error}; the run cannot be compared with it. `phase sweep` replaces it"
             ))
         };
         let record = store::read_record(path).map_err(refuse)?;
@@ -57,7 +57,7 @@ impl Original {
         if let Some(axis) = chosen.axes.iter().find(|axis| axis.values.len() > 1) {
             let values: Vec<String> = axis.values.iter().map(f64::to_string).collect();
             return Err(refuse(format!(
-                "say which run: add {}=..., one of {}",
+                "add {}=... to choose a run; values: {}",
                 axis.name,
                 values.join(", ")
             )));
@@ -78,7 +78,7 @@ impl Original {
         }
         if jobs.len() > 1 {
             console.note(format_args!(
-                "the point has {} seeds; taking the first, seed={}",
+                "the point has {} seeds; using the first, seed={}",
                 jobs.len(),
                 jobs[0].seed
             ));
@@ -149,8 +149,8 @@ impl Original {
         let by =
             |program: &Program| format!("phase {}, commit {}", program.version, program.commit);
         Err(Failure::failed(format_args!(
-            "the run differs from the sweep's record {}: that one is by {}, this one by {}. \
-             Records of another program may differ; run the sweep again to have one kind",
+            "the run differs from the sweep's record {}, which was made by {}; this run was made \
+             by {}. Builds may differ in bits; run the sweep again to compare runs of one build",
             path.display(),
             by(&before.program),
             by(&again.program)
@@ -167,7 +167,7 @@ fn one_folder(path: &Path) -> Result<Folder, Failure> {
             .map(|folder| folder.root().display().to_string())
             .collect();
         return Err(Failure::refused(format_args!(
-            "{} holds several results folders; give one of {}",
+            "{} holds several results folders; give one of them: {}",
             path.display(),
             names.join(", ")
         )));

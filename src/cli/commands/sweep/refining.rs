@@ -67,7 +67,7 @@ struct Watcher<'a> {
     rounds: &'a Rounds<'a>,
     /// What was run so far, but for the report.
     run: Option<Run>,
-    /// When the choosing of rounds was told last.
+    /// When progress was last reported.
     told: Instant,
 }
 
@@ -91,19 +91,19 @@ impl WatchRounds for Watcher<'_> {
         Ok(report)
     }
 
-    /// Says now and then how far the choosing of rounds is whose runs are there already.
+    /// Reports progress while replaying rounds whose runs already exist.
     fn known(&mut self, refinement: &Refinement) {
         if self.told.elapsed() >= BETWEEN_NOTES {
             self.told = Instant::now();
             self.rounds.console.note(format_args!(
-                "round {} chosen again: {}",
+                "round {} replayed: {}",
                 refinement.rounds(),
                 format::count(refinement.runs(), "run")
             ));
         }
     }
 
-    /// Says what a round has told, and draws the figure anew.
+    /// Prints what a round has shown, and updates the figure.
     fn learnt(&mut self, pool: &Pool<'_>, refinement: &Refinement) -> Result<(), Failure> {
         if let Some(settings) = &pool.sweep.refine {
             self.rounds.console.note(format_args!(
@@ -125,7 +125,8 @@ impl WatchRounds for Watcher<'_> {
 pub(super) fn check(settings: &Settings, seeds: &[u64]) -> Result<(), Failure> {
     if seeds.len() > 1 {
         return Err(Failure::refused(format_args!(
-            "a refined sweep takes one --seed, the first; each point has at most {} from there on",
+            "a refined sweep takes one --seed, the first one; each point then uses at most {} from \
+             there on",
             format::count(settings.replicates as usize, "seed")
         )));
     }

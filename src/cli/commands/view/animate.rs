@@ -73,7 +73,7 @@ pub(super) fn animate(
         if bytes.len() <= LARGEST || width < 80 {
             if width < asked {
                 console.note(format_args!(
-                    "{width} instead of {asked} pixels wide: an animation is at most \
+                    "panels are {width} pixels wide instead of {asked}: an animation is at most \
                      {ANIMATION_HEIGHT} pixels high and {} large",
                     format::bytes(LARGEST as f64)
                 ));

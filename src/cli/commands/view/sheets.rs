@@ -1,4 +1,4 @@
-//! The panels of one run, or of several beside each other.
+//! The panels of one run, or of several side by side.
 
 use super::{Arguments, Color, words};
 use crate::cli::console::Console;
@@ -20,7 +20,7 @@ pub(super) struct Run<'a> {
     pub(super) origin: f64,
     /// What the picture calls it.
     pub(super) label: Option<String>,
-    /// What tells it from other runs, beside title and place in a sweep.
+    /// What distinguishes it from other runs, apart from title and place in a sweep.
     pub(super) differs: Vec<String>,
 }
 
@@ -158,7 +158,7 @@ impl<'a> Sheets<'a> {
         self.sheets[run].panel(state, width, &caption)
     }
 
-    /// Panels beside each other, with all the words.
+    /// Panels side by side, with all the words.
     pub(super) fn picture(&self, panels: &[Image]) -> Image {
         self.sheets[0].picture(panels)
     }
