@@ -4,7 +4,7 @@
 //! | type | what it holds |
 //! |---|---|
 //! | [`Particles`] | all spheres, one array per quantity |
-//! | [`Spheres`] | borrowed parts of these arrays: all spheres, or those of a thread |
+//! | [`Spheres`] | borrowed parts of these arrays: all spheres, or the share of a thread |
 //! | [`Bodies`] | copies of a block of [`BLOCK`] spheres, one column per coordinate, for effects |
 
 use super::neighbours::Reference;
@@ -16,7 +16,7 @@ use crate::particles::vector::Vector;
 use fearless_simd::Simd;
 use std::ops::Range;
 
-/// Spheres in rows: all of them, those of a thread, or the next few.
+/// Spheres in rows: all of them, the share of a thread, or the next few.
 pub(super) struct Spheres<'a> {
     /// Index of the first one.
     pub(super) first: usize,
@@ -78,7 +78,7 @@ impl<'a> Spheres<'a> {
         all.split(range.len())
     }
 
-    /// Splits off this number of spheres at the front, or all if there are fewer.
+    /// Splits off `count` spheres at the front, or all if there are fewer.
     pub(super) fn split(&mut self, count: usize) -> Self {
         let first = self.first;
         self.first += count.min(self.len());

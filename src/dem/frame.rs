@@ -55,7 +55,7 @@ impl Simulation {
         FrameView {
             position,
             velocity,
-            // Also where all spheres have left.
+            // Also when all spheres have left.
             spin: (particles.rotate() || !self.inertia.is_empty()).then_some(spin),
             radius,
             mass,

@@ -9,8 +9,8 @@ use crate::forces::friction::{
 use crate::particles::Particles;
 use crate::scene::Scene;
 
-/// The engine compiled for the scene's contact and friction. Each pair of laws costs time to
-/// compile, so only those are here that go together.
+/// The engine compiled for the scene's contact and friction. Each pair of laws costs compile time,
+/// so only pairs that go together are here.
 pub(super) fn engine(
     scene: &Scene,
     setup: Setup,

@@ -10,7 +10,7 @@ pub(super) use crate::simulation::Profile;
 pub enum Part {
     /// Building the neighbour list.
     List,
-    /// Looking in the list for pairs, and at the walls for spheres, that may touch.
+    /// Selecting the pairs, and the spheres at walls, that may touch.
     Near,
     /// Forces of pairs: contact and friction.
     Pairs,

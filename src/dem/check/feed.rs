@@ -9,7 +9,7 @@ use crate::particles::vector::Vector;
 use crate::scene::{FixedSphere, Geometry, Scene, Start, Tank, rounded};
 use crate::start;
 
-/// Moves beside fixed spheres in search of a clear place: more than a corner of walls needs.
+/// Largest number of moves in search of a clear place: more than a corner between walls needs.
 const MOST_MOVES: usize = 100;
 
 /// Where the largest sphere of a feed may come in: anywhere within `spread` (m) of a position along
@@ -31,7 +31,7 @@ impl Scene {
         else {
             return;
         };
-        // Spots move no feed, which is refused there.
+        // Spot scenes cannot have a feed: it is refused elsewhere.
         if self.spot.is_some() {
             return;
         }
@@ -71,7 +71,7 @@ impl Scene {
     }
 
     /// The nearest position beside, below or above a place at which neither fixed spheres nor walls
-    /// are in the way, if there is one with all of the spread; to six digits.
+    /// are in the way, over the whole spread, if there is one. Rounded to six digits.
     fn clear_of_fixed(&self, place: Place, fixed: &[FixedSphere]) -> Option<[f64; 3]> {
         let mut start = place;
         if let Some(tank) = self.tank.as_ref()
@@ -134,8 +134,8 @@ impl Scene {
         }
     }
 
-    /// The widest spread (m), to six digits, at a clear position where its own is too wide. The
-    /// shifts at which no wall is in the way are an interval.
+    /// The widest spread (m), to six digits, that fits at a clear position. The shifts at which no
+    /// wall is in the way form an interval.
     fn widest_spread(&self, place: Place) -> String {
         let [x, y, z] = place.position;
         let (mut most, mut too_wide) = (0.0, place.spread);
@@ -234,7 +234,7 @@ impl Place {
     }
 
     /// The coordinate (m) along an axis at which what comes in is just beyond a sphere, on the side
-    /// of that sign.
+    /// that `sign` gives.
     fn beyond(&self, sphere: &FixedSphere, axis: usize, sign: f64) -> f64 {
         let reach = self.radius + sphere.radius;
         let mut offset = self.offset(sphere);
@@ -249,7 +249,7 @@ impl Place {
     }
 
     /// The nearest position at which walls and floor are not in the way, with as much of the spread
-    /// as there is room for; to six digits.
+    /// as fits. Rounded to six digits.
     fn clear_of(&self, tank: &Tank) -> [f64; 3] {
         let Self {
             position: [x, y, z],

@@ -1,8 +1,8 @@
 //! Whether a disc passed between two fixed ones where there is no way through.
 //!
 //! A wall of fixed discs is soft: a grain that is fast or heavy enough squeezes through. Neighbours
-//! whose gap is too narrow even for the smallest grain are taken to form a wall, and no centre may
-//! cross the line between theirs.
+//! whose gap is too narrow even for the smallest grain are taken to form a wall, and no grain's
+//! centre may cross the line between their centres.
 
 use super::Free;
 use crate::particles::Particles;
@@ -22,7 +22,7 @@ pub(super) struct LeakWatch {
 }
 
 impl LeakWatch {
-    /// A watch over a scene of discs. None for spheres, whose walls have holes.
+    /// A watch over a scene of discs. `None` for spheres, whose walls have holes.
     pub(super) fn of_scene(scene: &Scene, fixed: &FixedSpheres) -> Option<Self> {
         let narrow = 2.0 * scene.smallest_radius();
         let with_door = [&fixed.walls[..], &fixed.door[..]].concat();
@@ -250,9 +250,9 @@ mod tests {
         assert!(Barrier::new(&[], 0.03).crossed(way.0, way.1).is_none());
     }
 
-    /// Symptom: a grain that bounced off the foot of a wall was said to have passed it, and the
-    /// silo as printed named two discs with a third between them. Cause: second neighbours made
-    /// walls too.
+    /// Symptom: a grain that bounced off the foot of a wall was reported to have passed it, and the
+    /// report on the published silo named two discs with a third between them. Cause: second
+    /// neighbours made walls too.
     #[test]
     fn walls_do_not_cut_corners() {
         let disc = |x: f64, z: f64| FixedSphere {

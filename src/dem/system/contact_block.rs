@@ -29,13 +29,13 @@ pub(super) type EarlierRows = [Row; 2];
 
 /// Everything about the pairs of a block.
 pub(super) struct ContactBlock<H> {
-    /// Centre of the first sphere from that of the second, or from the origin at a wall (m).
+    /// Offset of the first centre from the second, or from the origin at a wall (m).
     offset: Columns,
     /// Velocity of the first relative to the second (m/s).
     velocity: Columns,
     /// Spins of both (rad/s).
     spin: [Columns; 2],
-    /// Earlier velocities and spins, if springs are loaded by these.
+    /// Earlier velocities and spins, if they load springs.
     earlier_velocity: Columns,
     earlier_spin: [Columns; 2],
     /// Properties of both, which do not change from step to step.
@@ -51,8 +51,7 @@ pub(super) struct ContactBlock<H> {
     /// Contacts with a wall, present and earlier.
     wall_contact: WallContactColumns,
     earlier_wall_contact: WallContactColumns,
-    /// Forces of springs (N), and the contact radii (m) at which they had them, if the law has
-    /// these.
+    /// Forces of springs (N), and the contact radii (m) for which they hold, if the law has these.
     spring: Columns,
     spring_radius: Column,
     /// [`Turning`] of every contact, if the law has it.
@@ -184,7 +183,7 @@ impl<H: History> ContactBlock<H> {
     }
 
     /// The state of a contact whose second partner has the properties `other`. It includes the
-    /// earlier motion if springs are loaded by that.
+    /// earlier motion if this loads springs.
     #[inline(always)]
     fn contact_state<T: TangentialLaw, const EARLIER: bool>(
         &self,
@@ -264,7 +263,7 @@ impl<H: History> ContactBlock<H> {
     }
 
     /// The first of these contacts that is beyond the overlap limit: its sphere and overlap.
-    /// `sphere_of` tells the sphere of a lane, if it has one that yields.
+    /// `sphere_of` returns the sphere of a lane, if forces move it.
     #[inline(always)]
     pub(super) fn first_too_deep(
         &self,
@@ -280,7 +279,7 @@ impl<H: History> ContactBlock<H> {
     }
 }
 
-/// What a contact remembers, or nothing if the two do not touch.
+/// What a contact remembers, or zero if the two do not touch.
 #[inline(always)]
 fn if_loaded(loaded: &LoadedContact, turning: Turning) -> Turning {
     match loaded.touches {

@@ -21,7 +21,7 @@ pub(super) struct Loading {
     /// How long it is (s).
     pub(super) duration: f64,
     /// How long before the evaluation the spheres had the velocities that load springs (s). These
-    /// are then kept in rows of their own. Zero if they are those of the evaluation.
+    /// are then kept in separate rows. Zero if the velocities of the evaluation load springs.
     pub(super) age: f64,
 }
 
@@ -32,7 +32,7 @@ impl Loading {
     }
 
     /// As [`earlier`](Self::earlier), by the velocities of the evaluation: turning and sliding are
-    /// of second order then, and the age is next to nothing.
+    /// then of second order, and the age is negligible.
     pub(super) fn just_now(duration: f64) -> Self {
         let age = duration / 1024.0;
         Self { duration, age }
@@ -49,7 +49,7 @@ impl Loading {
 pub(super) struct Laws<N, T> {
     pub(super) normal: N,
     pub(super) tangential: T,
-    /// The tangential law at walls, whose coefficient of friction may be another.
+    /// The tangential law at walls, whose coefficient of friction may differ.
     pub(super) tangential_at_walls: T,
     pub(super) loading: Loading,
     /// Largest overlap, in radii of the smaller partner.
@@ -78,7 +78,7 @@ pub(super) struct ContactForce {
 
 /// A contact with its tangential spring loaded, before the limit of friction applies.
 pub(super) struct LoadedContact {
-    /// As those of a [`ContactForce`].
+    /// As in a [`ContactForce`].
     pub(super) touches: bool,
     pub(super) too_deep: bool,
     pub(super) overlap: f64,
@@ -135,7 +135,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         self.geometry(state, roots)
     }
 
-    /// The forces of a history, if it has any, turned into the plane of a contact and changed with
+    /// The forces of a history, if it has any, turned into the plane of a contact and adjusted to
     /// its radius.
     #[inline(always)]
     fn brought_here(&self, history: T::History, geometry: &ContactGeometry) -> T::History {
@@ -287,7 +287,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         NormalForce { along, total }
     }
 
-    /// The contact as friction sees it.
+    /// The contact in the form that friction laws take.
     #[inline(always)]
     fn touch(
         &self,

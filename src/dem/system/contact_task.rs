@@ -1,5 +1,5 @@
-//! Forces at contacts, block by block: which of them touch, and the forces that result. One thread
-//! computes all of them, or each thread those on its own spheres.
+//! Forces at contacts, block by block: which candidates touch, and the resulting forces. One thread
+//! computes all of them, or each thread the forces on its own spheres.
 
 use super::candidates::{AtWalls, Candidates};
 use super::contact_block::ContactBlock;
@@ -62,9 +62,9 @@ pub(super) type TooDeep = Option<(usize, f64)>;
 /// Which pairs of a thread.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum PairKind {
-    /// Those whose first sphere belongs to another thread.
+    /// Pairs whose first sphere belongs to another thread.
     Crossing,
-    /// Those whose first sphere is its own.
+    /// Pairs whose first sphere is its own.
     Own,
 }
 
@@ -92,7 +92,7 @@ pub(super) struct ContactTask<'a, H> {
     pub(super) sums: Sums<'a>,
     pub(super) buffers: &'a mut Buffers<H>,
     /// Pairs whose first sphere belongs to another thread. That thread computes the force on it and
-    /// keeps the history, of which this is a copy.
+    /// keeps the original of this history.
     pub(super) crossing: ContactSlice<'a, NearPair, H>,
     /// Pairs whose first sphere belongs to this thread.
     pub(super) pairs: ContactSlice<'a, NearPair, H>,

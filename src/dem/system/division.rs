@@ -30,7 +30,8 @@ const NARROW: usize = 8;
 /// The division of spheres and contacts among threads.
 pub(super) struct Division<H> {
     regions: Vec<Region<H>>,
-    /// One before each region but the first: the range that holds all pairs across the boundary.
+    /// For each region but the first, the range of spheres that holds all pairs across the boundary
+    /// before it.
     boundaries: Vec<Copies>,
 }
 
@@ -55,7 +56,7 @@ pub(super) struct ThreadContacts<'a, H> {
 }
 
 impl<'a, H> ThreadContacts<'a, H> {
-    /// Those of a thread that computes all.
+    /// The contacts of a thread that computes all.
     pub(super) fn all(candidates: Candidates<'a, H>, buffers: &'a mut Buffers<H>) -> Self {
         Self {
             crossing: ContactSlice::none(),

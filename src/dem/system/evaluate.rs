@@ -30,7 +30,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.check_overlaps()
     }
 
-    /// Finds the near pairs again, if the present ones do not hold.
+    /// Finds the near pairs again, if the present list does not hold.
     fn hold_near(&mut self) -> Result<(), Instability> {
         let NeighbourState {
             near,
@@ -84,7 +84,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
 
     /// Evaluates all forces and moves all spheres. Returns the first sphere beyond its speed limit.
     ///
-    /// If an overlap is too deep in a large scene, its spheres are moved all the same, whatever the
+    /// If an overlap is too deep in a large scene, its spheres are moved nevertheless, for any
     /// number of threads.
     pub(super) fn evaluate_and_move(
         &mut self,

@@ -172,7 +172,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             self.evaluate_and_move(Motion {
                 kicks: &[dt],
                 drift: Some(dt),
-                // Forces of the last step are read by others.
+                // Others read the forces of the last step.
                 clear: next == Next::Step && self.neighbours.list.is_some(),
             })?
         };
@@ -180,7 +180,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     /// One step of velocity Verlet, with forces from the new positions and the half-step
-    /// velocities. The forces of the step before serve its first half. If another step follows at
+    /// velocities. Its first half uses the forces of the step before. If another step follows at
     /// once, its first half is joined with the second half of this one.
     fn velocity_verlet(&mut self, next: Next) -> Result<(), Instability> {
         self.begin_step();
@@ -224,9 +224,9 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// step one of second order.
     ///
     /// Places and velocities of a contact then belong together, which Vyas et al., Comput. Phys.
-    /// Commun. 310, 109524 (2025), reach by other means: with normals of one moment and velocities
-    /// of another, the approach of a small sphere to a large one that it rolls along is taken for
-    /// sliding, and loads its spring until it sticks.
+    /// Commun. 310, 109524 (2025), achieve in another way. If normals and velocities belong to
+    /// different moments, the approach of a small sphere that rolls along a large one is taken for
+    /// sliding and loads its spring until it sticks.
     fn synchronised_verlet(&mut self) -> Result<(), Instability> {
         self.begin_step();
         if self.step.number == 1 {

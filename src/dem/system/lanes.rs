@@ -43,7 +43,7 @@ impl PropertyColumns {
         }
     }
 
-    /// Gathers those of the sphere of every lane, as far as the laws need them.
+    /// Gathers the properties of each lane's sphere, as far as the laws need them.
     #[inline(always)]
     pub(super) fn gather<N: NormalLaw, T: TangentialLaw>(
         &mut self,

@@ -30,7 +30,7 @@ pub(in crate::dem) struct Work {
     pub(in crate::dem) tangential: f64,
     /// Of the air, including the damping of spins.
     pub(in crate::dem) air: f64,
-    /// Energy of spheres that came in, minus that of spheres that left.
+    /// Energy of spheres that came in, minus the energy of spheres that left.
     pub(in crate::dem) brought: f64,
 }
 
@@ -47,7 +47,7 @@ pub(super) struct Books {
 }
 
 impl Books {
-    /// The components of contacts, and those of the air.
+    /// The components of contacts, and of the air.
     fn components(&mut self) -> ([&mut Vec<Vector>; 3], [&mut Vec<Vector>; 2]) {
         let contacts = [
             &mut self.damping,
@@ -187,7 +187,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         let after = self.energy_in_books();
         if let (Some(ledger), Some(after)) = (&mut self.ledger, after) {
             ledger.books.work.brought += after[0] - before[0];
-            // The energy of springs that are gone was not dissipated by friction.
+            // Friction did not dissipate the energy of springs that left with their spheres.
             ledger.books.work.tangential -= after[1] - before[1];
         }
     }

@@ -89,8 +89,8 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             return Ok(());
         }
         let age = std::mem::take(&mut self.neighbours.age);
-        // A list that ended in its first step was replaced because the spheres changed. Its age
-        // says nothing about the skin.
+        // A list that ended in its first step was replaced because spheres changed: its age says
+        // nothing about the skin.
         if age.steps > 0 {
             list.adapt(age.steps, age.time);
         }

@@ -76,7 +76,7 @@ pub(in crate::dem) trait Engine: Send {
     fn work(&self) -> Option<Work>;
     /// Adds a sphere; effects must not depend on how many there are.
     fn insert(&mut self, sphere: &Sphere);
-    /// Removes the spheres that are not to be kept.
+    /// Removes the spheres that are not marked in `keep`.
     fn retain(&mut self, keep: &[bool]);
     /// Opens the floor, if it has a closed opening.
     fn open_floor(&mut self);
@@ -103,7 +103,7 @@ pub(in crate::dem) struct Contacts {
 pub(in crate::dem) struct Setup {
     /// In the order in which they act.
     pub(in crate::dem) walls: Vec<TankWall>,
-    /// The floor as it is once its opening opens, if that is closed at the start.
+    /// The floor with its opening open, if the opening is closed at the start.
     pub(in crate::dem) closed_floor: Option<TankWall>,
     /// Effects with a potential come first.
     pub(in crate::dem) effects: Vec<PlacedEffect>,
@@ -158,7 +158,7 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     driven: Vec<(usize, usize)>,
     /// How springs are loaded until the next evaluation.
     loading: Loading,
-    /// Velocities and spins that load springs, if these are not those of the evaluation.
+    /// Velocities and spins that load springs, if they differ from those at the evaluation.
     earlier: Vec<EarlierRows>,
     /// Velocities and spins before a prediction.
     before: Before,
@@ -173,7 +173,7 @@ pub(in crate::dem) struct System<N, T: TangentialLaw> {
     buffers: Box<Buffers<T::History>>,
     /// Blocks of spheres for the effects, one per thread.
     bodies: Vec<Bodies>,
-    /// Which thread computes which spheres, if there are several.
+    /// The division of spheres among threads, if there are several.
     division: Option<Division<T::History>>,
     level: Level,
 }

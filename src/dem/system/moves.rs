@@ -45,7 +45,7 @@ pub(super) struct Moves<'a> {
     /// because numbers are rounded after each.
     pub(super) kicks: &'a [f64],
     pub(super) drift: Option<Drift>,
-    /// Whether forces and torques are set to zero, while they are in a near cache.
+    /// Whether forces and torques are set to zero while they are in a near cache.
     pub(super) clear: bool,
     pub(super) limits: &'a Limits,
     /// The time step (s).
@@ -197,9 +197,9 @@ fn accelerate<S: Simd>(simd: S, spheres: &mut Spheres<'_>, acceleration: Vector)
     }
 }
 
-/// Smaller spins (rad/s) are zero. Friction and damping that act on spins alone let them fall
-/// without end, to numbers that processors multiply many times slower. What they do to a velocity
-/// is far below its last digit.
+/// Smaller spins (rad/s) are zero. Friction and damping that act on spins alone let them decay to
+/// denormal numbers, which processors multiply many times slower. Their effect on a velocity is far
+/// below its last digit.
 const LEAST_SPIN: f64 = 1e-280;
 
 /// A spin (rad/s) with components below [`LEAST_SPIN`] as zero.

@@ -1,5 +1,5 @@
-//! Rolling resistance: a pass of its own over the contacts that touch, after their forces, in the
-//! order of the lists and on one thread. Only scenes that name it have it.
+//! Rolling resistance: a separate pass over the touching contacts after their forces, in the order
+//! of the lists and on one thread. Only scenes that name it run this pass.
 //!
 //! Springs are kept by the numbers of their partners, which stay when spheres come, go or are
 //! sorted in memory.
@@ -28,7 +28,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub(super) enum Partner {
     /// A sphere that moves, by its number in the scene.
     Sphere(u32),
-    /// A fixed sphere. Those of the door come last, so that the others stay when it opens.
+    /// A fixed sphere. Spheres of the door come last, so that the others keep their numbers when it
+    /// opens.
     Fixed(u32),
     /// A wall, by its place among the walls.
     Wall(u32),
@@ -45,8 +46,8 @@ impl Partner {
     }
 }
 
-/// The moments (N m) of the springs of all contacts, on the first of both partners. The partners
-/// are in rising order.
+/// The moments (N m) of the springs of all contacts, on the first partner. Partners are in
+/// ascending order.
 pub(super) type RollingSprings = BTreeMap<[Partner; 2], Vector>;
 
 /// Rolling resistance and what its contacts remember.
@@ -76,8 +77,8 @@ impl RollingState {
 }
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
-    /// Whether something at contacts is loaded by velocities of another moment, where the
-    /// integrator has such.
+    /// Whether springs at contacts are loaded by velocities of an earlier moment, if the integrator
+    /// has these.
     pub(super) fn loads_springs(&self) -> bool {
         Self::HAS_HISTORY || self.rolling.is_some()
     }
@@ -103,14 +104,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 pass.add_at_wall(wall.wall, place, sphere.i);
             }
         }
-        // What no longer touches has no spring, near or not.
+        // Pairs that no longer touch have no spring, near or not.
         pass.springs.clear();
         pass.finish();
         self.mark(Part::Rolling);
     }
 
-    /// The same for the contacts of an island. Springs of other contacts stay: contacts outside all
-    /// islands do not touch, and those of earlier steps ended there.
+    /// The same for the contacts of an island. Springs of other contacts stay. Contacts outside all
+    /// islands do not touch.
     pub(super) fn add_rolling_of_island(&mut self, contacts: &IslandContacts) {
         let laws = self.laws();
         let Some(rolling) = &mut self.rolling else {
@@ -146,7 +147,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.energy_of_spring([partner(i), partner(j)], overlap, effective_radius)
     }
 
-    /// The same of a sphere and a wall, by its place among the walls.
+    /// The same for a sphere and a wall, by its place among the walls.
     pub(super) fn rolling_energy_at_wall(
         &self,
         (i, wall): (usize, usize),
@@ -196,7 +197,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 }
 
-/// 1 / (I + m r^2) (1/(kg m2)), zero of what does not move.
+/// 1 / (I + m r^2) (1/(kg m2)), zero for what does not move.
 fn inverse_rolling_inertia(inertia: f64, inverse_mass: f64, radius: f64) -> f64 {
     match inverse_mass > 0.0 {
         true => 1.0 / (inertia + radius * radius / inverse_mass),
@@ -208,7 +209,7 @@ fn inverse_rolling_inertia(inertia: f64, inverse_mass: f64, radius: f64) -> f64 
 struct Pass<'a, N, T> {
     laws: Laws<N, T>,
     law: RollingLaw,
-    /// Springs of the evaluation before. Those of contacts that are computed again are taken out.
+    /// Springs of the previous evaluation. Each is taken out when its contact is computed again.
     springs: &'a mut RollingSprings,
     renewed: &'a mut Vec<([Partner; 2], Vector)>,
     particles: &'a mut Particles,
@@ -224,7 +225,7 @@ struct Meeting {
     spheres: (u32, Option<u32>),
     effective_radius: f64,
     now: ContactGeometry,
-    /// When it had the velocities that load springs, if that was earlier.
+    /// The earlier moment whose velocities load springs, if any.
     earlier: Option<ContactGeometry>,
 }
 
@@ -318,12 +319,12 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
         }
     }
 
-    /// The contact as rolling resistance sees it.
+    /// The contact in the form that rolling laws take.
     ///
     /// Its rate is the difference of the spins, without the part along the normal. A common
-    /// rotation of both partners drops out of it, whatever their radii; R_eff times it is the speed
-    /// at which the contact moves along both surfaces if they do not slide; and with opposite
-    /// torques, which keep the angular momentum, the power is that of the torque times this rate.
+    /// rotation of both partners cancels, whatever their radii. R_eff times this rate is the speed
+    /// at which the contact moves along both surfaces if they do not slide. With opposite torques,
+    /// which conserve angular momentum, the power is the torque times this rate.
     fn touch(&self, state: &ContactState, meeting: &Meeting) -> RollingTouch {
         let Meeting {
             effective_radius,
@@ -368,7 +369,7 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
         }
     }
 
-    /// Adds a torque (N m) to that of a sphere, and to the books.
+    /// Adds a torque (N m) to a sphere and to the books.
     fn turn(&mut self, i: u32, torque: Vector) {
         self.particles.torque[i as usize] += torque;
         if let Some(books) = &mut self.books {

@@ -49,7 +49,7 @@ impl EngineState<'_> {
 /// Histories of contacts.
 #[derive(Serialize, Deserialize)]
 struct Histories<P, H> {
-    /// Whether the law has a history. Lists that are empty do not tell.
+    /// Whether the law has a history. Empty lists do not show it.
     has_history: bool,
     /// [`RememberedPairs`] when written, a list of pairs when read.
     pairs: P,
@@ -130,14 +130,14 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         match (&mut self.rolling, rolling) {
             (Some(present), Some(springs)) => present.springs = springs.into_owned(),
             (None, None) => {}
-            _ => return Err(StateError("its rolling resistance is another")),
+            _ => return Err(StateError("its rolling resistance differs")),
         }
         match (&mut self.ledger, books) {
             (Some(ledger), Some(books)) if books.fit(&particles) => {
                 ledger.books = books.into_owned();
             }
             (None, None) => {}
-            _ => return Err(StateError("its energy balance is another")),
+            _ => return Err(StateError("its energy balance differs")),
         }
 
         self.step.number = step;

@@ -1,13 +1,14 @@
-//! Forces and moves of a large scene in one pass over its spheres, or over those of each thread.
+//! Forces and moves of a large scene in one pass over its spheres, or over the spheres of each
+//! thread.
 //!
 //! Pairs are sorted by their first spheres. Once the pairs of a sphere are done, no later pair
 //! reads its position, and the sphere can be moved while it is in the cache. The operations on a
 //! sphere and their order are the same as if all forces came first.
 //!
 //! A thread never reads the spheres of another thread, which may have moved already. Pairs across a
-//! boundary read copies of the spheres around it. So do all pairs of a thread from the first sphere
-//! on that has a partner in a later thread, because a block of pairs reads its partners from one
-//! array.
+//! boundary read copies of the spheres around it. So do all later pairs of a thread, starting at
+//! the first sphere with a partner in a later thread, because a block of pairs reads its partners
+//! from one array.
 
 use super::System;
 use super::candidates::Candidates;

@@ -30,9 +30,9 @@ pub(super) struct Touching {
     rest: [NearPair; ROWS],
     /// Where their histories are.
     entries: [u32; ROOM],
-    /// Where the histories of pairs are that do not touch.
+    /// Entries of the histories of pairs that do not touch.
     apart: [u32; ROOM],
-    /// Centre of the first sphere from that of the second (m).
+    /// Offset of the first centre from the second (m).
     offset: [[f64; ROOM]; 3],
     /// Whether histories are prefetched.
     pub(super) prefetched: bool,
@@ -43,7 +43,7 @@ pub(super) struct Touching {
 pub(super) struct Lanes<'a> {
     pub(super) pairs: &'a [NearPair; BLOCK],
     pub(super) entries: Entries<'a>,
-    /// Centres of the first spheres from those of the second (m), if they are known.
+    /// Offsets of the first centres from the second (m), if they are known.
     pub(super) offset: Option<[&'a [f64; BLOCK]; 3]>,
     /// How many lanes hold a contact.
     pub(super) count: usize,
@@ -111,7 +111,7 @@ impl Touching {
         }
     }
 
-    /// Finds the pairs that touch among at most [`CHUNK`] pairs, and returns how many they are. The
+    /// Finds the pairs that touch among at most [`CHUNK`] pairs, and returns their number. The
     /// history of the first pair is at `from`. Pairs that do not touch lose their histories.
     /// `alike` holds the properties of all spheres, if they are alike.
     #[inline(always)]
@@ -262,7 +262,7 @@ mod tests {
     }
 
     proptest! {
-        /// The result is that of a test pair by pair: the same pairs in the same order, with their
+        /// The result equals a test pair by pair: the same pairs in the same order, with their
         /// histories. The other histories are cleared.
         #[test]
         fn pairs_that_touch_are_found(

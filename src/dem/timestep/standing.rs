@@ -32,9 +32,9 @@ impl Standing {
         Self::all(scene).into_iter().find(|it| it.limit.decisive)
     }
 
-    /// The text of a warning, if the step deserves one: above [`CAUTION`](Self::CAUTION) times a
-    /// decisive limit, and above an advised one. There is no warning for the Rayleigh time. A step
-    /// is usually a fifth of it, but no force of this engine travels as a surface wave.
+    /// The text of a warning, if the step is above [`CAUTION`](Self::CAUTION) times a decisive
+    /// limit or above an advised limit. There is no warning for the Rayleigh time: a step is
+    /// usually a fifth of it, but no force in this engine travels as a surface wave.
     pub fn consequence(&self) -> Option<&'static str> {
         let threshold = if self.limit.decisive {
             Self::CAUTION

@@ -1,4 +1,4 @@
-//! Drag toward air in rigid rotation about the axis, and the pressure of a fluid that turns.
+//! Drag toward air in rigid rotation about the axis, and the pressure of a rotating fluid.
 
 use super::drag::{
     Coefficients, DragKernel, Form, Linear, QuadraticComponents, QuadraticVector, missing_drag,
@@ -82,9 +82,9 @@ impl EffectKeys for Swirl {
 /// Rice (2012), eqs. 21 to 27: drag toward the air's velocity Omega x r, on all three
 /// components, the air's own vertical speed being zero in this term.
 ///
-/// A fluid that turns is accelerated toward the axis by its pressure, and so is what it displaces,
-/// with the added mass: -(rho_b + C rho_a) V Omega^2 (x, y) (Maxey and Riley, Phys. Fluids 26, 883
-/// (1983), eq. 48: the fluid's acceleration in buoyancy and added mass).
+/// The pressure of a rotating fluid accelerates the fluid toward the axis, and with it the
+/// displaced volume and the added mass: -(rho_b + C rho_a) V Omega^2 (x, y) (Maxey and Riley, Phys.
+/// Fluids 26, 883 (1983), eq. 48: the fluid's acceleration in buoyancy and added mass).
 struct SwirlForce<K> {
     omega: f64,
     /// (rho_b + C rho_a) / rho Omega^2 (1/s2), 0 in air.

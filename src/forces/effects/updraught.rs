@@ -37,8 +37,8 @@ pub struct Updraught {
     /// Factor alpha per shielding sphere below, 0 to 1.
     #[schemars(transform = fraction("α", "factor per shielding sphere"))]
     pub alpha: f64,
-    /// Rotation Omega_0 (rad/s) of the swirl at which the force is as given; at another Omega it is
-    /// (Omega / Omega_0)^2 times that (Rice, 2012, eq. 44). Absent: the swirl does not matter.
+    /// Rotation Omega_0 (rad/s) of the swirl for which the force is given; at another Omega it is
+    /// multiplied by (Omega / Omega_0)^2 (Rice, 2012, eq. 44). Absent: independent of the swirl.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(
         transform = quantity("Ω_0", "rad/s", "rotation at which the updraught is as given")

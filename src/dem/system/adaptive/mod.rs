@@ -22,14 +22,14 @@ const ATTEMPTS: u32 = 20;
 
 impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     /// One step of synchronised Verlet, cut into as many sub-steps as the contacts need, for each
-    /// group of touching spheres by itself. All other spheres move in one step. Forces other than
-    /// those of contacts are evaluated in the middle of the whole step.
+    /// group of touching spheres by itself. All other spheres move in one step. All forces but
+    /// contact forces are evaluated in the middle of the whole step.
     ///
     /// A sphere belongs to a group if it touches another one, or may do so within the step
     /// according to its predicted displacement. If contacts move a sphere farther, the step is
     /// repeated with twice that distance. So no contact is missed.
     pub(super) fn adaptive_verlet(&mut self) -> Result<(), Instability> {
-        // Taken out, because the methods of a step borrow the whole system beside it.
+        // Taken out, because the methods of a step borrow the whole system.
         let mut work = std::mem::take(&mut self.workspace);
         let result = self.adaptive_step(&mut work);
         self.workspace = work;

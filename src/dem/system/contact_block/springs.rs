@@ -89,8 +89,8 @@ impl<H: History> ContactBlock<H> {
     }
 
     /// Turns springs and turning points into the planes across the normals, by `turned`, and
-    /// changes the forces of springs with the contact radius (m), in a separate loop, as the roots
-    /// are taken in one.
+    /// changes the forces of springs with the contact radius (m), in a separate loop, like the
+    /// roots.
     #[inline(always)]
     pub(super) fn bring_springs(
         &mut self,

@@ -1,4 +1,4 @@
-//! Partial slip beside closed forms and beside springs that slide each by itself.
+//! Partial slip compared with closed forms and with springs that slide independently.
 
 use super::*;
 
@@ -71,7 +71,7 @@ impl Contact {
     }
 }
 
-/// The closed form (Mindlin and Deresiewicz, 1953), with a = 4.272e-5 m of a sphere at a wall.
+/// The closed form (Mindlin and Deresiewicz, 1953), with a = 4.272e-5 m for a sphere at a wall.
 #[test]
 fn a_cycle_loses_what_the_closed_form_says() {
     let (normal, share) = (1.0, 0.9);
@@ -99,16 +99,15 @@ fn a_cycle_loses_what_the_closed_form_says() {
             before = force;
         }
         assert!((largest / (share * limit) - 1.0).abs() < 1e-9, "{largest}");
-        // The sum of trapezia is all that depends on the steps.
+        // Only the sum of trapezia depends on the steps.
         let error = (lost / 1.601003e-8 - 1.0).abs();
         let allowed = if steps == 4000 { 1e-5 } else { 0.3 };
         assert!(error < allowed, "{steps} steps: {lost}");
     }
 }
 
-/// A contact as a row of springs that stick and slide each by itself, which is exact for any
-/// path along one line (Popov and Hess, Method of Dimensionality Reduction, Springer (2015),
-/// chapter 5).
+/// A contact as a row of springs that stick and slide independently, which is exact for any path
+/// along one line (Popov and Hess, Method of Dimensionality Reduction, Springer (2015), chapter 5).
 fn foundation(path: &[(f64, f64)]) -> Vec<f64> {
     const SPRINGS: usize = 20_000;
     let half_width = 1.2e-4;
