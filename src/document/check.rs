@@ -195,7 +195,7 @@ fn unknown_key(
             .chain(keys.iter().map(|key| key.name.as_str()))
     };
     let message = format!("{table_name} has no key `{name}`");
-    let known = format!("{table_name} knows {}", one_of(names()));
+    let known = format!("{table_name} has the keys {}", one_of(names()));
     let help = match suggest(name, names()) {
         Some(near) => format!("did you mean `{near}`? {known}"),
         None => known,

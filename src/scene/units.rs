@@ -1,8 +1,8 @@
-//! The units in which a scene is thought.
+//! The units in which a scene is best read.
 
 use super::Scene;
 
-/// The units in which a scene is thought. All numbers are SI; a scene whose spheres have a diameter
+/// The units in which a scene is best read. All numbers are SI; a scene whose spheres have a diameter
 /// of 1 m in a gravity of 1 m/s² has those of the spheres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Units {

@@ -181,7 +181,8 @@ impl Scene {
         let falls = gravity.is_some_and(|gravity| gravity.acceleration != 0.0);
         let moves = falls || fastest_impact(self) > 0.0;
         if !moves && self.spheres.count > 1 && spread == 0.0 {
-            let message = "nothing moves spheres from where they come in: the second finds no room";
+            let message = "nothing moves spheres away from where they come in, so the second finds \
+                no room";
             let help = "give them a `velocity`, or add [gravity]";
             problems.push(Problem::new("start", message).help(help));
         }
@@ -208,7 +209,7 @@ impl Scene {
             if let Some(later) = (number + 1..spheres.len()).find(|it| stays_in_the_way(*it)) {
                 let message = format!(
                     "the driven sphere {number} stays where sphere {later} is to come in, which \
-                     waits for ever"
+                     would wait for ever"
                 );
                 let help = "give it a `velocity` that takes it away, or drive the last sphere";
                 problems.push(Problem::new(format!("driven[{k}]"), message).help(help));

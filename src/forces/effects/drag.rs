@@ -184,13 +184,13 @@ impl EffectKeys for Drag {
                 DragLaw::SchillerNaumann => {
                     "(w dt)^2 + 2 q g dt < 4 of the smallest sphere, with g = dF/du / m times the \
                      factors of swirl and updraught at the lowest height, and the largest of w^2 = \
-                     g Omega, beta F / m and the pressure of a fluid that turns; q = 2 for \
+                     g Omega, beta F / m and the pressure of a rotating fluid; q = 2 for \
                      synchronised-verlet, else 1"
                 }
                 _ => {
                     "(w dt)^2 + 2 q g dt < 4 of the smallest sphere, with g = (c1 + 2 c2 u) / m \
                      times the factors of swirl and updraught at the lowest height, and the \
-                     largest of w^2 = g Omega, beta F / m and the pressure of a fluid that turns; \
+                     largest of w^2 = g Omega, beta F / m and the pressure of a rotating fluid; \
                      q = 2 for synchronised-verlet, else 1"
                 }
             },
