@@ -12,7 +12,7 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// The coordinate of a place along it is the one of this number.
+    /// Index of the coordinate along it.
     pub fn index(self) -> usize {
         self as usize
     }

@@ -1,4 +1,4 @@
-//! What is measured of snapshots: positions and radii, whichever model made them.
+//! Measurements on snapshots (positions and radii) of any model.
 
 mod axis;
 mod badness;

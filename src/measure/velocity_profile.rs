@@ -1,4 +1,4 @@
-//! How fast spheres fall, from place to place.
+//! Profiles of the downward velocity.
 
 use super::bins::Bins;
 use super::blocks::{Blocks, quotient};
@@ -9,20 +9,20 @@ use crate::statistics::Estimate;
 
 /// Downward velocities of the spheres in a region, in bins along an axis; several pairs of
 /// consecutive snapshots may be added. Spheres that leave between the two do not count: a region
-/// that reaches down to them loses the fastest.
+/// that includes them misses the fastest.
 ///
-/// Intervals are those of a jackknife over at most ten blocks of consecutive pairs; a block should
-/// be longer than velocities stay correlated.
+/// Intervals come from a jackknife over at most ten blocks of consecutive pairs; a block should be
+/// longer than the correlation time of velocities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VelocityProfile {
     axis: Axis,
     bins: Bins,
-    /// Of each pair of snapshots the sums of the velocities (m/s) in the bins, then the numbers of
-    /// spheres there.
+    /// For each pair of snapshots the sums of the velocities (m/s) in the bins, then the numbers of
+    /// spheres.
     rows: Vec<Vec<f64>>,
 }
 
-/// What was measured at a place.
+/// A measured value at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ProfilePoint {
     /// The middle of the bin (m).
@@ -32,7 +32,7 @@ pub struct ProfilePoint {
 }
 
 impl VelocityProfile {
-    /// No velocities yet; one or more bins of one width divide the region along the axis.
+    /// No velocities yet; one or more bins of equal width divide the region along the axis.
     pub fn new(axis: Axis, region: Region, bins: usize) -> Self {
         let mut counts = [1; 3];
         counts[axis.index()] = bins;
@@ -43,8 +43,8 @@ impl VelocityProfile {
         }
     }
 
-    /// Adds the spheres that are in both snapshots, and in the region in the middle of their way.
-    /// Pairs come in the order of time.
+    /// Adds the spheres that are in both snapshots, and in the region half way between them. Pairs
+    /// come in the order of time.
     pub fn add(&mut self, before: &Snapshot, after: &Snapshot) {
         let bins = self.bins();
         let mut row = vec![0.0; 2 * bins];
@@ -52,7 +52,7 @@ impl VelocityProfile {
         let spheres = before.position.rows().into_iter();
         for (before, after) in spheres.zip(after.position.rows()) {
             let middle = [0, 1, 2].map(|axis| 0.5 * (before[axis] + after[axis]));
-            // Not a number, and so in no region, where a sphere has left.
+            // NaN, and so in no region, if a sphere has left.
             if let Some(bin) = self.bins.index(Vector::from(middle)) {
                 row[bin] += (before[2] - after[2]) / interval;
                 row[bins + bin] += 1.0;
@@ -66,7 +66,7 @@ impl VelocityProfile {
         self.points(|sums, bin| self.velocity(sums, bin))
     }
 
-    /// The same over the mean of the whole region.
+    /// The same divided by the mean of the whole region.
     pub fn normalized(&self) -> Vec<ProfilePoint> {
         self.points(|sums, bin| quotient(self.velocity(sums, bin)?, self.mean_of(sums)?))
     }
@@ -168,7 +168,7 @@ mod tests {
             profile.add(&before, &after);
         }
         for point in profile.normalized() {
-            // Mean of 1 - y^2 over the bin, over that of the whole depth.
+            // Mean of 1 - y^2 over the bin, over the mean for the whole depth.
             let expected = (1.0 - point.place * point.place - 1.0 / 48.0) / (2.0 / 3.0);
             let Estimate { value, half_width } = point.value;
             assert!((value - expected).abs() < 0.02, "{point:?}");

@@ -1,4 +1,4 @@
-//! What is measured on a simulation while it runs, frame by frame.
+//! Observables of a running simulation, frame by frame.
 
 mod observations;
 mod observer;

@@ -1,7 +1,7 @@
 //! The order of the spheres in the arrays, and what stays valid until the next sorting.
 //!
-//! Spheres are sorted by cell, and lists of neighbours are made, when a sphere has moved so far
-//! that they could miss something. Until then no array but that of the positions changes.
+//! Spheres are sorted by cell, and neighbour lists are made, when a sphere has moved so far that
+//! the lists could miss a pair. Until then only the positions change.
 
 use super::cells::Cells;
 use super::guard::Fault;
@@ -23,10 +23,10 @@ pub(crate) struct Sorting<'a> {
     pub(crate) slack: Slack,
 }
 
-/// What sorting has made.
+/// The result of sorting.
 #[derive(Clone, Debug)]
 pub(crate) struct Arrangement {
-    /// Number of spheres, those included that have left since.
+    /// Number of spheres, including those that have left since.
     pub(crate) spheres: usize,
     /// Number of each sphere in the start packing.
     pub(crate) id: Vec<u32>,
@@ -44,7 +44,7 @@ pub(crate) struct Arrangement {
 }
 
 impl Arrangement {
-    /// Sorts spheres and finds their neighbours. `position` is filled up for vectors.
+    /// Sorts spheres and finds their neighbours. `position` is padded for vector instructions.
     pub(crate) fn sorted(
         sorting: Sorting<'_>,
         (position, id): (&mut Vec<Vector>, Vec<u32>),

@@ -20,7 +20,8 @@ pub(super) struct Move {
 pub(super) struct Done {
     /// Index of the spot.
     pub(super) spot: u32,
-    /// The spot after its move, and whether it was relaxed around it; None if it is to be removed.
+    /// The spot after its move, and whether spheres around it were relaxed; `None` if it is to be
+    /// removed.
     pub(super) result: Option<(Spot, bool)>,
 }
 
@@ -33,8 +34,8 @@ pub(super) struct Batch<'a> {
     pub(super) moves: &'a [Move],
 }
 
-/// What was made of a batch: all of it, or all up to the first move after which the spheres must be
-/// sorted, or which broke a guard.
+/// The part of a batch that was made: all of it, or all up to the first move after which the
+/// spheres must be sorted or which broke a guard.
 #[derive(Debug)]
 pub(super) struct Made {
     /// Number of moves that were made or begun.

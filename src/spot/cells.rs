@@ -1,7 +1,7 @@
 //! Cells that spheres are sorted into, and the ranges of the arrays that a region covers.
 //!
-//! Cells follow one another along y, then x, then z. A thin box is covered along y by the regions
-//! of spots, so that what lies in one layer of such a region is a single range.
+//! Cells follow one another along y, then x, then z. In a thin box the regions of spots span all of
+//! y, so that each layer of such a region is a single range.
 
 use crate::particles::vector::Vector;
 use std::ops::Range;

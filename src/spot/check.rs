@@ -1,11 +1,11 @@
-//! Which parameters mean something.
+//! Checks of parameters.
 
 use super::parameters::{Influence, Orifice, Parameters, Relaxation, Walk};
 
 /// Insertions or moves per second above which a run cannot end.
 const GREATEST_RATE: f64 = 1e9;
 
-/// A parameter that cannot be.
+/// An invalid parameter.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{parameter} is {value}, but must be {requirement}")]
 pub struct ParameterError {
@@ -21,7 +21,7 @@ pub struct ParameterError {
 type Condition = (&'static str, f64, bool, String);
 
 impl Parameters {
-    /// Finds the first parameter that cannot be.
+    /// Finds the first invalid parameter.
     ///
     /// # Errors
     ///
@@ -36,7 +36,7 @@ impl Parameters {
         first_broken(conditions.into_iter().flatten())
     }
 
-    /// The same of what a packing depends on: the box, and the spheres in it.
+    /// The same for the parameters of a packing: the box, and the spheres in it.
     pub(super) fn check_box(&self) -> Result<(), ParameterError> {
         first_broken(self.conditions_on_the_box())
     }

@@ -1,7 +1,7 @@
-//! The moves of a batch on several threads, with the bits of one.
+//! The moves of a batch on several threads, with the same bits as on one.
 //!
-//! If the spheres must be sorted after a move, or a guard breaks, other threads may have made later
-//! moves already. All is then made again up to that move.
+//! If the spheres must be sorted after a move, or a guard breaks, other threads may already have
+//! made later moves. The batch is then repeated up to this move.
 
 use super::batch::{Batch, Made};
 use super::board::{Board, lock};
@@ -90,7 +90,7 @@ impl Crew {
         }
     }
 
-    /// Puts together what the threads have done.
+    /// Merges the results of the threads.
     fn merged(&mut self, moves: usize, position: &mut [Vector], scratch: &mut Scratch) -> Made {
         let mut made = Made {
             moves,

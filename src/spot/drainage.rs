@@ -70,7 +70,7 @@ fn floor(scene: &Scene) -> Vector {
     Vector::new(0.0, 0.0, floor.unwrap_or(0.0))
 }
 
-/// What the engine is told of a scene.
+/// The parameters of the engine for a scene.
 fn parameters(scene: &Scene) -> Option<Parameters> {
     let (spot, tank) = (scene.spot.as_ref()?, scene.tank.as_ref()?);
     let diameter = 2.0 * scene.spheres.radius.mean();
@@ -145,7 +145,7 @@ struct Drainage {
     milestones: Vec<Milestone>,
 }
 
-/// What a checkpoint holds besides the state of the spots.
+/// The contents of a checkpoint besides the state of the spots.
 #[derive(Serialize, Deserialize)]
 struct State {
     spots: Vec<u8>,
@@ -232,11 +232,11 @@ impl Simulation for Drainage {
             return Err(StateError::OTHER_FORM);
         };
         if state.before.len() != self.radius.len() {
-            return Err(StateError("it has another number of spheres"));
+            return Err(StateError("its number of spheres differs"));
         }
         let parameters = self.simulation.parameters().clone();
         self.simulation = Spots::restore(parameters, &state.spots)
-            .map_err(|_| StateError("its spots are of another scene"))?;
+            .map_err(|_| StateError("its spots belong to another scene"))?;
         self.before = state.before;
         self.frame = state.frame;
         self.milestones = state.milestones;
@@ -273,7 +273,7 @@ impl Simulation for Drainage {
 }
 
 impl Drainage {
-    /// What the program reports of a broken guard. A spot stands for the sphere next to it.
+    /// The report of a broken guard. For a spot, it names the sphere next to it.
     fn instability(&self, failure: Failure) -> Instability {
         let distance = |centre: &Vector| (*centre - failure.place).norm_squared();
         let nearest = || {

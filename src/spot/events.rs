@@ -1,5 +1,5 @@
-//! Insertions and moves in the order of time: section 2 of Rycroft, Wong and Bazant (2010). In
-//! their listing the two branches are exchanged.
+//! Insertions and moves in the order of time: section 2 of Rycroft, Wong and Bazant (2010). Their
+//! listing has the two branches swapped.
 
 use super::guard::{Failure, Fault};
 use super::parameters::Relaxation;
@@ -12,7 +12,7 @@ impl Simulation {
     pub(super) fn events_until(&mut self, time: f64) -> Result<(), Failure> {
         loop {
             let global = self.next_global_relaxation();
-            // Written so that a time that is not a number ends it too.
+            // Written so that a NaN time ends it too.
             if !(global.min(self.next_event) <= time) {
                 return Ok(());
             }
@@ -85,7 +85,7 @@ impl Simulation {
         Ok(true)
     }
 
-    /// A random number that decides about the relaxation after a move, where one does.
+    /// A random number that decides about the relaxation after a move, if the method needs one.
     pub(super) fn relaxation_chance(&mut self) -> f64 {
         match self.model.parameters.relaxation {
             Relaxation::AtRandom { .. } => self.random[1].uniform(),

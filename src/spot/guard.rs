@@ -15,7 +15,7 @@ pub struct Failure {
     pub time: f64,
     /// Where: the centre of the sphere, or of the spot (m).
     pub place: Vector,
-    /// Number of the sphere, from 0, if it is one.
+    /// Number of the sphere, from 0, if a sphere broke the guard.
     pub sphere: Option<u32>,
     /// The value that broke the limit, and the limit.
     pub detail: String,
@@ -32,9 +32,9 @@ pub enum Guard {
     NotANumber,
     /// A sphere was displaced by more than half a diameter at once.
     Displacement,
-    /// More spheres are near one sphere than can be.
+    /// More spheres are near one sphere than is possible.
     Crowded,
-    /// A spot found no sphere, though there are spheres above it all around.
+    /// A spot found no sphere, although there are spheres above it on all sides.
     EmptySpot,
 }
 

@@ -1,4 +1,4 @@
-//! The parameters as the loops need them, and what a move of a spot does.
+//! The parameters in the form that loops need, and the effect of a spot's move.
 
 use super::arrangement::{Arrangement, Sorting};
 use super::guard::{Fault, Guard};
@@ -26,7 +26,7 @@ pub(crate) struct Model {
     pub(crate) relaxation_strength: f64,
 }
 
-/// Arrays that moves use again and again, and what they leave behind.
+/// Buffers of moves, and their results.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
     pub(crate) ranges: Vec<Range<u32>>,
@@ -38,7 +38,7 @@ pub(crate) struct Scratch {
     /// Slots and last places of the spheres that have left through the orifice.
     pub(crate) left: Vec<(u32, Vector)>,
     pub(crate) wear: Wear,
-    /// What its parts take, if that is asked for.
+    /// Times of its parts, if requested.
     pub(crate) clock: Clock,
 }
 
@@ -64,7 +64,7 @@ impl Model {
     }
 
     /// The basic step of a spot that moves by `step` around `centre`, the middle of its way:
-    /// spheres nearer than r_s to `centre` are displaced the other way.
+    /// spheres nearer than r_s to `centre` are displaced in the opposite direction.
     pub(crate) fn spot(
         &self,
         arrangement: &Arrangement,
@@ -131,8 +131,8 @@ impl Model {
         }
     }
 
-    /// How many of a spot and its images in the walls are nearer than r_s to a sphere that is
-    /// nearer than this to the spot itself.
+    /// How many of a spot and its images in the walls are within r_s of a sphere that is within r_s
+    /// of the spot itself.
     fn images(&self, sphere: Vector, spot: Vector) -> f64 {
         let images = |half: f64, sphere: f64, spot: f64| {
             [spot, 2.0 * half - spot, -2.0 * half - spot].map(|it| (sphere - it) * (sphere - it))
@@ -199,7 +199,7 @@ impl Model {
         scratch.wear = wear;
     }
 
-    /// Pushes spheres off the floor and the orifice's edge, and takes those away that have left.
+    /// Pushes spheres off the floor and the orifice's edge, and removes those that have left.
     pub(crate) fn keep_above_floor(
         &self,
         slots: &[u32],
@@ -281,7 +281,7 @@ mod tests {
             assert!((by.z - expected).abs() < 1e-12 && by.x == 0.0, "{by:?}");
         }
         assert_eq!(moved, count);
-        // 84 spheres at the packing fraction .6, 90 at that of the start.
+        // 84 spheres at the packing fraction .6, 90 at the initial one.
         assert!((80..100).contains(&count), "{count}");
     }
 

@@ -10,8 +10,8 @@ use crate::particles::vector::Vector;
 
 impl Model {
     /// Moves a spot and the spheres in its range, and relaxes these if it is time to. Random
-    /// numbers 0 <= u < 1 choose the way, and decide about the relaxation. Returns whether there
-    /// was one; None if the spot is to be removed instead.
+    /// numbers 0 <= u < 1 choose the way and decide about the relaxation. Returns whether there was
+    /// a relaxation; `None` if the spot is to be removed instead.
     pub(crate) fn make_move(
         &self,
         (arrangement, position): (&Arrangement, &mut [Vector]),

@@ -1,10 +1,10 @@
-//! What a spot simulation is told: the silo, the spots, and how they move the spheres.
+//! Parameters of a spot simulation: the silo, the spots, and how they move the spheres.
 
 use serde::{Deserialize, Serialize};
 
 /// Parameters of a simulation by spots. Lengths in metres, times in seconds.
 ///
-/// Names and values of [`Parameters::figure_2`] are those of Rycroft, Wong and Bazant, Powder
+/// Names, and the values of [`Parameters::figure_2`], follow Rycroft, Wong and Bazant, Powder
 /// Technology 200 (2010), figure 2 and section 2.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Parameters {
@@ -20,7 +20,7 @@ pub struct Parameters {
     pub spot_radius: f64,
     /// Spheres nearer than this radius r_e are relaxed (m).
     pub relaxation_radius: f64,
-    /// Displacement of a spot over that of the spheres it moves, w.
+    /// Displacement of a spot over the displacement of the spheres it moves, w.
     pub displacement_ratio: f64,
     /// Steps of a spot along x (either way), y (either way) and z (upwards) (m).
     pub step: [f64; 3],
@@ -28,7 +28,7 @@ pub struct Parameters {
     pub insertion_rate: f64,
     /// Moves of each spot per time, mu (1/s).
     pub move_rate: f64,
-    /// Distance d_w that spots keep from walls (m); if negative, spots enter walls that far.
+    /// Distance d_w that spots keep from walls (m); a negative value lets them enter walls.
     pub wall_distance: f64,
     /// Share alpha of an overlap that one relaxation removes.
     pub relaxation_strength: f64,
@@ -69,7 +69,7 @@ pub enum Schedule {
     /// All spots move once in each step of 1/mu, in a new random order each time. A Poisson number
     /// of mean lambda/mu is inserted at the start of the step.
     StepsInRandomOrder,
-    /// The same, where the spot that was inserted last moves first.
+    /// The same, but the spot that was inserted last moves first.
     StepsNewestFirst,
 }
 
@@ -90,7 +90,7 @@ pub enum Relaxation {
         /// Ratio k.
         ratio: u64,
     },
-    /// Method 3: of all spheres, every k/mu of time.
+    /// Method 3: for all spheres, every k/mu of time.
     Global {
         /// Ratio k.
         ratio: u64,
@@ -116,12 +116,12 @@ pub enum Walk {
 pub enum Influence {
     /// By -v/w.
     Fixed,
-    /// By -v V_s / (p V_p), where V_s is the volume that a spot carries, V_p that of a sphere, and
-    /// p the number of spheres it moves (section 3 of the paper).
+    /// By -v V_s / (p V_p), where V_s is the volume that a spot carries, V_p the volume of a
+    /// sphere, and p the number of spheres it moves (section 3 of the paper).
     Weighted {
         /// V_s / V_p.
         volume_ratio: f64,
-        /// If p is smaller, this number is taken for p.
+        /// Lower bound of p.
         least_count: f64,
         /// Below this height the displacement is -v/w (m).
         above: f64,

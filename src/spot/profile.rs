@@ -1,15 +1,15 @@
-//! What the parts of a drainage by spots take, measured on request.
+//! Times of the parts of a drainage by spots, measured on request.
 //!
-//! Moves are many and short: of one in 256 it is measured how it divides into the way of the spot
-//! and the relaxation around it. What comes seldom and takes long, to relax all spheres or to sort
-//! them, is measured each time.
+//! Moves are many and short: one in 256 is measured, divided into the motion of the spot and the
+//! relaxation around it. Rare and long operations, relaxing or sorting all spheres, are measured
+//! each time.
 
 use crate::simulation::{PartOfStep, Profile};
 
 /// A part of a drainage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
-    /// Spots choose their steps, and move spheres the other way.
+    /// Spots choose their steps and move spheres in the opposite direction.
     Spots,
     /// Overlaps are removed.
     Relaxation,
@@ -29,12 +29,12 @@ impl Part {
     }
 }
 
-/// The parts of a drainage that relaxes or does not.
+/// The parts of a drainage, with or without relaxation.
 pub(super) fn parts(relaxes: bool) -> Vec<PartOfStep> {
     let part = |part: Part| PartOfStep {
         name: part.name(),
         is_present: part != Part::Relaxation || relaxes,
-        // What is done once in a frame counts as theirs.
+        // Work done once per frame counts as theirs.
         is_between_steps: part == Part::Spots,
     };
     Part::ALL.map(part).to_vec()
@@ -93,12 +93,12 @@ impl Clock {
         self.each(|it| it.profile.count(1));
     }
 
-    /// Begins what is measured each time.
+    /// Begins an operation that is measured each time.
     pub(super) fn begin_whole(&mut self) {
         self.each(|it| it.profile.begin_whole());
     }
 
-    /// Ends it: it was all of one part.
+    /// Ends it; all of its time belongs to one part.
     pub(super) fn end_whole(&mut self, part: Part) {
         self.each(|it| it.profile.end_whole(part as usize));
     }

@@ -1,4 +1,4 @@
-//! Streams of random numbers that are named, and can be resumed.
+//! Named streams of random numbers that can be resumed.
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;

@@ -31,8 +31,8 @@ pub(crate) struct Region {
     pub(crate) longest: f64,
 }
 
-/// Computes the displacements that remove overlaps of the spheres in `inside`. Slots are filled up
-/// to whole groups of eight by that of a sphere that is nowhere.
+/// Computes the displacements that remove overlaps of the spheres in `inside`. Slots are padded to
+/// whole groups of eight with the slot of the dummy sphere.
 ///
 /// Every pair nearer than the diameter d overlaps by delta = d - r. Either sphere is displaced by
 /// alpha delta/2 away from the other, or by alpha delta if the other one is held.

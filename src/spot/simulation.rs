@@ -18,18 +18,18 @@ use crate::scene::STICKING_OUT;
 use crate::simulation::Profile;
 use rayon::ThreadPoolBuildError;
 
-/// Names of the streams of random numbers: of spots, and of relaxations.
+/// Names of the streams of random numbers for spots and for relaxations.
 pub(super) const STREAMS: [&str; 2] = ["spot walk", "spot relaxation"];
 
 /// A simulation of drainage by spots.
 ///
-/// The same parameters, positions and seed give the same bits, whatever the number of threads,
-/// whatever the times at which it is looked at, and whether it was saved and restored in between.
+/// The same parameters, positions and seed give the same bits, independent of the number of
+/// threads, of the times at which it is observed, and of saving and restoring in between.
 #[derive(Debug)]
 pub struct Simulation {
     pub(super) model: Model,
     pub(super) arrangement: Arrangement,
-    /// Centres in order of the arrangement (m), filled up for vectors.
+    /// Centres in order of the arrangement (m), padded for vector instructions.
     pub(super) position: Vec<Vector>,
     pub(super) spots: Vec<Spot>,
     pub(super) scratch: Scratch,
@@ -50,7 +50,7 @@ impl Simulation {
     ///
     /// # Errors
     ///
-    /// If a parameter cannot be, or if spheres are outside of the box or crowded.
+    /// If a parameter is invalid, or if spheres are outside the box or crowded.
     pub fn new(parameters: Parameters, position: &[Vector], seed: u64) -> Result<Self, StartError> {
         parameters.check()?;
         check_positions(&parameters, position)?;
@@ -86,7 +86,7 @@ impl Simulation {
     ///
     /// # Errors
     ///
-    /// If a guard breaks. The state is then that of no time, and of use to nothing but looking.
+    /// If a guard breaks. The state then belongs to no time and is only good for inspection.
     pub fn advance_to(&mut self, time: f64) -> Result<(), Failure> {
         self.scratch.clock.enter();
         let advanced = match self.model.parameters.schedule {
@@ -99,12 +99,12 @@ impl Simulation {
         Ok(())
     }
 
-    /// Begins to measure what the parts of a drainage take. Never changes the motion.
+    /// Begins to measure the times of the parts of a drainage. Never changes the motion.
     pub(super) fn keep_profile(&mut self) {
         self.scratch.clock = Clock::started();
     }
 
-    /// What was measured.
+    /// The measured times.
     pub(super) fn profile(&self) -> Option<&Profile> {
         self.scratch.clock.profile()
     }
@@ -119,7 +119,7 @@ impl Simulation {
         &self.model.parameters
     }
 
-    /// Centres of the spheres in order of their numbers (m); None for those that have left.
+    /// Centres of the spheres in order of their numbers (m); `None` for spheres that have left.
     pub fn positions(&self) -> Vec<Option<Vector>> {
         let mut positions = vec![None; self.left.len()];
         for (id, &position) in self.arrangement.id.iter().zip(&self.position) {
@@ -130,7 +130,7 @@ impl Simulation {
         positions
     }
 
-    /// Where spheres were when they left (m), in order of their numbers; None for those inside.
+    /// Where spheres were when they left (m), in order of their numbers; `None` for spheres inside.
     pub fn left(&self) -> &[Option<Vector>] {
         &self.left
     }
@@ -158,7 +158,7 @@ impl Simulation {
     /// Lets steps, relaxations of all spheres and sorting use this number of threads.
     ///
     /// # Errors
-    /// If the system gives no threads.
+    /// If the system cannot start threads.
     pub fn use_threads(&mut self, threads: usize) -> Result<(), ThreadPoolBuildError> {
         self.workers = Workers::new(threads)?;
         Ok(())
@@ -168,7 +168,7 @@ impl Simulation {
     ///
     /// # Errors
     ///
-    /// If it cannot be written as bytes.
+    /// If it cannot be serialised.
     pub fn save(&self) -> Result<Vec<u8>, StartError> {
         let spheres = self.arrangement.spheres;
         let state = State {
@@ -194,7 +194,7 @@ impl Simulation {
     ///
     /// # Errors
     ///
-    /// If the bytes are no such state, or one of other parameters.
+    /// If the bytes are not such a state, or have other parameters.
     pub fn restore(parameters: Parameters, bytes: &[u8]) -> Result<Self, StartError> {
         let (saved, mut state): (Parameters, State) = postcard::from_bytes(bytes)
             .map_err(|error| StartError::Checkpoint(error.to_string()))?;
@@ -281,7 +281,7 @@ impl Simulation {
         }
     }
 
-    /// What a broken guard is called outside.
+    /// The public report of a broken guard.
     pub(super) fn failure(&self, fault: Fault, time: f64) -> Failure {
         failure(fault, Some(&self.arrangement.id), &self.counts, time)
     }

@@ -5,7 +5,7 @@ use super::walk::Spot;
 use crate::particles::vector::Vector;
 use serde::{Deserialize, Serialize};
 
-/// Everything that the rest of a simulation depends on, besides its parameters.
+/// Everything on which the rest of a simulation depends, besides its parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct State {
     pub(crate) seed: u64,
@@ -15,7 +15,7 @@ pub(crate) struct State {
     pub(crate) next_event: f64,
     /// Number of steps so far.
     pub(crate) steps: u64,
-    /// Spots, in order of insertion where they move in steps.
+    /// Spots, in order of insertion if they move in steps.
     pub(crate) spots: Vec<Spot>,
     /// Centres in the order of the last sorting (m).
     pub(crate) position: Vec<Vector>,
@@ -26,8 +26,8 @@ pub(crate) struct State {
     /// Where spheres were when they left (m), in order of their numbers.
     pub(crate) left: Vec<Option<Vector>>,
     pub(crate) wear: Wear,
-    /// Where the newest spots move first: number of spots now inside that move in the lower part
-    /// of the next step.
+    /// If the newest spots move first: number of present spots that move in the lower part of the
+    /// next step.
     pub(crate) lower: u32,
     pub(crate) counts: Counts,
     /// Number of random numbers drawn for the walk, and for relaxations.
@@ -54,10 +54,10 @@ pub struct Counts {
 /// Why a simulation cannot start or be restored.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StartError {
-    /// A parameter cannot be.
+    /// A parameter is invalid.
     #[error(transparent)]
     Parameter(#[from] super::check::ParameterError),
-    /// A sphere lies outside of the box.
+    /// A sphere lies outside the box.
     #[error("sphere {sphere} at {place:?} is not inside the box")]
     Outside {
         /// Its number.
@@ -75,7 +75,7 @@ pub enum StartError {
     #[error("not a checkpoint of a spot simulation: {0}")]
     Checkpoint(String),
     /// A checkpoint was made with other parameters.
-    #[error("the checkpoint is of a simulation with other parameters")]
+    #[error("the checkpoint belongs to a simulation with other parameters")]
     OtherParameters,
     /// Threads cannot be started.
     #[error("cannot start threads: {0}")]
@@ -90,7 +90,7 @@ impl State {
             return Err("its arrays have different lengths".to_owned());
         }
         if self.lower as usize > self.spots.len() {
-            return Err("it has fewer spots than their lower part".to_owned());
+            return Err("it has fewer spots than its lower part".to_owned());
         }
         if self.id.iter().any(|&id| id as usize >= self.left.len()) {
             return Err("a number of a sphere is out of range".to_owned());

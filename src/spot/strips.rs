@@ -2,7 +2,7 @@
 //!
 //! The box is divided by height into strips, one for each thread. A thread makes the moves of its
 //! strip in their order. Before a move that may touch the same spheres as an earlier one of a
-//! neighbouring strip, it waits for that one. All moves thus find the spheres as if the moves were
+//! neighbouring strip, it waits for that one. So every move finds the spheres as if all moves were
 //! made one after the other.
 
 use super::arrangement::Arrangement;
@@ -18,8 +18,8 @@ pub(super) const ABOVE: usize = 1;
 /// Fewest moves that are divided.
 const FEWEST: usize = 64;
 
-/// Of that many moves it is looked up whether a move has to wait for them. If it has to wait for
-/// none, it waits for the one before these: looking on would take longer.
+/// Number of earlier moves that are checked for conflicts with a move. If none conflicts, the move
+/// waits for the one before these: checking more would take longer.
 const LOOKED_UP: usize = 32;
 
 /// Divides moves among threads.
@@ -30,10 +30,10 @@ pub(super) struct Planner {
     /// Distance from the edge of a strip within which a move may touch a sphere that another strip
     /// keeps, or a move there (m).
     reach: f64,
-    /// Distance from a strip within which spheres were sorted that its moves may touch, or be
-    /// influenced by (m).
+    /// Distance (m) from a strip, at the time of sorting, of spheres that its moves may touch or
+    /// depend on.
     watched: f64,
-    /// The same for all spheres that are looked at (m).
+    /// The same for all spheres that are read (m).
     seen: f64,
 }
 
@@ -55,11 +55,11 @@ pub(super) struct Strip {
     pub(super) turns: Vec<Turn>,
     /// Number of moves that neighbours need to know of.
     shared: u32,
-    /// Slots of the spheres whose places this strip knows at the end.
+    /// Slots of the spheres whose final places this strip has.
     pub(super) own: Range<usize>,
     /// Slots of the spheres whose moves by other strips matter to it.
     pub(super) watched: Range<usize>,
-    /// Slots of all spheres that its moves look at.
+    /// Slots of all spheres that its moves read.
     pub(super) seen: Range<usize>,
 }
 
@@ -82,7 +82,7 @@ impl Planner {
         let [x, y, z] = parameters.step;
         let step = (x * x + y * y + z * z).sqrt();
         let diameter = parameters.diameter;
-        // How far from a centre spheres have influence, and how far those get that are moved.
+        // How far from a centre spheres have influence, and how far moved spheres may get.
         let spot = parameters.spot_radius;
         let margin = 0.1 * diameter + parameters.greatest_displacement();
         let (mut read, mut moved) = (spot, spot + margin);
@@ -95,13 +95,13 @@ impl Planner {
             // A longer displacement by relaxation is an error.
             moved = moved.max(parameters.relaxation_radius + 0.5 * diameter);
         }
-        // A biased way is not known yet: a spot looks at the places around it.
+        // A biased step is not known yet: it depends on the spheres around the spot.
         if let Walk::Biased { .. } = parameters.walk {
             read = read.max(spot + 0.5 * step) + 0.5 * step;
             moved += 0.5 * step;
         }
         let conflict = moved + read;
-        // A sphere is not where it was sorted.
+        // Spheres have moved since they were sorted.
         let strayed = slack.most() + 0.5 * diameter;
         let watched = read.max(moved) + strayed;
         Self {
@@ -112,8 +112,8 @@ impl Planner {
         }
     }
 
-    /// Divides moves into some strips at most. `centre` gives their centres, as far as they are
-    /// known (m); `costs` are the times that a move takes in each of the last strips, in any unit.
+    /// Divides moves into at most this number of strips. `centre` gives their centres, as far as
+    /// they are known (m); `costs` are the times of a move in each of the last strips, in any unit.
     pub(super) fn divide(
         &self,
         plan: &mut Plan,
@@ -178,7 +178,7 @@ impl Planner {
         strip.turns.push(turn);
     }
 
-    /// Begins strips between the edges of a plan.
+    /// Creates empty strips between the edges of a plan.
     fn begin(&self, plan: &mut Plan, arrangement: &Arrangement) {
         let (layers, height) = arrangement.cells.layers();
         let halo = |distance: f64| (distance / height) as usize + 1;
@@ -202,7 +202,7 @@ impl Planner {
         }
     }
 
-    /// How many moves the other strip must have shared before one with this centre.
+    /// How many moves the other strip must have shared before a move with this centre.
     fn latest(&self, others: &Near, centre: Vector) -> u32 {
         let mut others = others.iter().rev();
         let conflicting = |(other, _): &&(Vector, u32)| self.conflict(*other, centre);

@@ -1,4 +1,4 @@
-//! What simulations as wholes promise.
+//! Tests of whole simulations.
 
 use super::parameters::{Influence, Parameters, Relaxation, Schedule, Walk};
 use super::samples::{badness, packing, parameters, simulation};
@@ -36,7 +36,7 @@ fn spots_rise_at_mu_dz_and_their_density_is_lambda_over_mu_dz() {
         );
         let inserted = simulation.counts().inserted as f64;
         assert!((inserted / 1500.0 - 1.0).abs() < 0.1, "{inserted} spots");
-        // The front is where the density is half of that below.
+        // The front is where the density is half the density below.
         let (near, far) = (below(2.8 * 4.0 - 1.0), below(2.8 * 4.0));
         let expected = inserted * (1.0 - 1.0 / 11.2);
         assert!(
@@ -159,7 +159,7 @@ fn assert_same(one: &Simulation, other: &Simulation) {
     assert!(saved[0] == saved[1], "{about:?}");
 }
 
-/// Spots have reached the top by then, and strips are many where spots are small.
+/// Spots have then reached the top, and small spots give many strips.
 #[test]
 fn steps_have_the_same_bits_on_any_number_of_threads() {
     let kinds = [
@@ -320,7 +320,7 @@ fn checkpoints_of_other_runs_and_broken_ones_are_refused() {
 }
 
 /// Symptom: more than half of the spheres of a packing were part of crystals. Cause: they were
-/// shaken for so long at every height of the lid that they crystallised on the way.
+/// shaken for so long at every height of the lid that they crystallised.
 #[test]
 fn start_packings_are_disordered() {
     let centres = Centres {

@@ -15,8 +15,8 @@ pub struct Spot {
 }
 
 impl Model {
-    /// The way of a spot to one of its four places, chosen by a random number 0 <= u < 1. None if a
-    /// biased walk finds no sphere at any of them.
+    /// The step of a spot to one of its four places, chosen by a random number 0 <= u < 1. `None`
+    /// if a biased walk finds no sphere at any of them.
     pub(crate) fn step(
         &self,
         arrangement: &Arrangement,
@@ -38,7 +38,7 @@ impl Model {
         choose(weights, exponent, random).map(|place| ways[place])
     }
 
-    /// The middle of the way of a spot, if spheres have no influence on it; else where the spot is.
+    /// The middle of a spot's step, if spheres have no influence on it; else the spot's place.
     #[inline(always)]
     pub(crate) fn expected_centre(&self, spot: Vector, random: f64) -> Vector {
         match self.parameters.walk {
@@ -47,7 +47,7 @@ impl Model {
         }
     }
 
-    /// The way of a spot to one of its four places, cut off at the distance from walls.
+    /// The step of a spot to one of its four places, cut off at the distance from walls.
     #[inline(always)]
     fn way(&self, spot: Vector, place: usize) -> Vector {
         let parameters = &self.parameters;
@@ -73,13 +73,13 @@ impl Model {
 }
 
 /// Index of a place with probability p_i^beta / sum of p_j^beta (Rycroft, Wong and Bazant (2010),
-/// section 3), chosen by a random number 0 <= u < 1. None if all p are zero.
+/// section 3), chosen by a random number 0 <= u < 1. `None` if all p are zero.
 fn choose(counts: [f64; 4], exponent: f64, random: f64) -> Option<usize> {
     let most = counts.into_iter().fold(0.0, f64::max);
     if most == 0.0 {
         return None;
     }
-    // Shares of the greatest, which no exponent makes overflow.
+    // Relative to the greatest, so that no exponent overflows.
     let weights = counts.map(|count| match count > 0.0 {
         true if exponent == 1.0 => count / most,
         true => libm::pow(count / most, exponent),

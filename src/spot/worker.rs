@@ -1,7 +1,7 @@
-//! What one thread does of a batch: the moves of its strip.
+//! One thread's part of a batch: the moves of its strip.
 //!
-//! It has its own copy of the positions, as far as its moves look. Where a move has to wait for one
-//! of another strip, later moves are made that have nothing to do with it.
+//! It has its own copy of the positions that its moves read. While a move has to wait for one in
+//! another strip, later independent moves are made.
 
 use super::batch::{Batch, Done};
 use super::board::{Board, Inbox};
@@ -17,17 +17,17 @@ use std::iter::Peekable;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-/// How often a thread looks whether another one has made a move before it lets others use its
-/// processor: about 20 microseconds.
+/// How often a thread checks whether another one has made a move before it yields its processor:
+/// about 20 microseconds.
 const LOOKS: usize = 1024;
 
-/// Most moves that wait.
+/// Largest number of waiting moves.
 const MOST_WAITING: usize = 32;
 
 /// A move that waits, and its centre, as far as it is known (m).
 type Waiting = (Turn, Vector);
 
-/// What one thread works with.
+/// The state of one thread.
 #[derive(Debug, Default)]
 #[repr(align(128))]
 pub(super) struct Worker {
@@ -38,10 +38,10 @@ pub(super) struct Worker {
     pub(super) done: Vec<Done>,
     /// The guard that a move broke.
     pub(super) fault: Option<Fault>,
-    /// Moves that wait for other threads, and all that must follow them, in order.
+    /// Moves that wait for other threads, and moves that must follow them, in order.
     waiting: VecDeque<Waiting>,
     pub(super) wear: Wear,
-    /// For how long it had something to do (s).
+    /// Its busy time (s).
     pub(super) busy: f64,
 }
 
@@ -82,7 +82,7 @@ impl Worker {
         self.position.resize(position.len(), NOWHERE);
         let seen = strip.seen.clone();
         self.position[seen.clone()].copy_from_slice(&position[seen]);
-        // What fills up the array for vectors.
+        // Padding for vector instructions.
         let filled = position.len() - ROWS;
         self.position[filled..].fill(NOWHERE);
         self.scratch.wear = wear;
@@ -94,7 +94,7 @@ impl Worker {
         self.busy = 0.0;
     }
 
-    /// The move that can be made next; None at the end. Waits if there is nothing else to do.
+    /// The move that can be made next; `None` at the end. Waits if there is nothing else to do.
     fn next_turn<'a>(
         &mut self,
         task: &Task<'_>,
@@ -132,7 +132,7 @@ impl Worker {
         !waiting.any(|(_, other)| task.planner.conflict(*other, centre))
     }
 
-    /// Makes a move. If it ends the batch, later moves are not made any more.
+    /// Makes a move. If it ends the batch, later moves are no longer made.
     fn make(&mut self, task: &Task<'_>, turn: &Turn) {
         for (side, neighbour) in sides(task.own).filter(|(side, _)| turn.after[*side] > 0) {
             // Seen from the neighbour, this strip is on the other side.
@@ -156,7 +156,7 @@ impl Worker {
         }
     }
 
-    /// Tells the neighbours what a move has done; it is one of so many that are shared.
+    /// Reports a move to the neighbours. `shared` is the number of moves shared so far.
     fn share(&self, task: &Task<'_>, turn: &Turn, shared: u32) {
         let board = &task.boards[task.own];
         for (side, neighbour) in sides(task.own).filter(|(side, _)| turn.shared[*side]) {
@@ -167,7 +167,7 @@ impl Worker {
         board.show(shared);
     }
 
-    /// Takes over what the neighbours have shared last.
+    /// Takes over the last reports of the neighbours.
     pub(super) fn take_over_rest(&mut self, boards: &[Board], own: usize) {
         for (side, neighbour) in sides(own) {
             if let Some(board) = boards.get(neighbour) {
@@ -178,7 +178,7 @@ impl Worker {
 }
 
 impl Task<'_> {
-    /// Whether the moves of other strips have been made that one depends on.
+    /// Whether the moves of other strips on which a move depends have been made.
     fn is_ready(&self, turn: &Turn) -> bool {
         let after = sides(self.own).filter(|(side, _)| turn.after[*side] > 0);
         let mut after = after.map(|(side, neighbour)| (turn.after[side], &self.boards[neighbour]));

@@ -20,7 +20,7 @@ pub(super) struct Room {
 }
 
 impl Room {
-    /// The room within the walls of a scene, if they are all around.
+    /// The room within the walls of a scene, if they enclose it.
     pub(super) fn of_scene(scene: &Scene, heights: [f64; 2]) -> Option<Self> {
         let tank = scene.tank.as_ref()?;
         let [Some(x), Some(y)] = tank.reach() else {
@@ -115,7 +115,7 @@ impl Grid {
         let mut width = 2.0 * radii.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
         let cells = |side: f64, width: f64| (side / width).max(0.0) + 1.0;
         let sizes = |width: f64| [2.0 * x, 2.0 * y, high - low].map(|side| cells(side, width));
-        // A room that is nearly empty needs wider cells only.
+        // A nearly empty room only needs wider cells.
         while sizes(width).iter().product::<f64>() > 8.0 * (radii.len() as f64 + 512.0) {
             width *= 1.25;
         }
@@ -139,8 +139,8 @@ impl Grid {
         (a * self.sizes[1] + b) * self.sizes[2] + c
     }
 
-    /// A sphere outside of the room is in the nearest cell: two that are near are in cells side by
-    /// side even so.
+    /// A sphere outside the room is in the nearest cell: two spheres close to each other are still
+    /// in neighbouring cells.
     fn add(&mut self, place: Vector) {
         let cell = self.index(self.cell(place));
         let number = self.before.len() as u32;

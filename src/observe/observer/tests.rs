@@ -1,4 +1,4 @@
-//! The observer against the definitions of what it measures.
+//! The observer compared with the definitions of its observables.
 
 use super::*;
 use crate::observe::Flow;
@@ -20,7 +20,7 @@ fn scene() -> Scene {
     .unwrap()
 }
 
-/// Spheres that own what a [`FrameView`] borrows.
+/// Owned data for a [`FrameView`].
 #[derive(Clone, Debug, Default)]
 struct Spheres {
     position: [Vec<f64>; 3],
@@ -98,7 +98,7 @@ fn the_mass_that_is_in_is_that_of_the_spheres_of_the_frame() {
     let observations = observer.finish();
     assert!(close(observations.mass_inside[0], 0.007));
     assert_eq!(observations.coordination[0], 2.0);
-    // Without a flow there is nothing to come or go.
+    // Without a flow no sphere comes or goes.
     assert!(observe(&scene, &[spheres]).mass_inside.is_empty());
 }
 
@@ -208,7 +208,7 @@ fn without_a_tank_only_what_needs_its_radius_is_empty() {
     assert_eq!(observations.profile.dim(), (1, 0));
     assert_eq!(observations.rising.dim(), (1, 0, 3));
     assert_eq!(observations.gravitational[0], 0.0);
-    // Nothing refers to an axis that the scene does not have, nor to air.
+    // No observable refers to an axis or to air, which the scene does not have.
     for absent in [
         &observations.hole_radius,
         &observations.rotation,

@@ -385,6 +385,9 @@ mod tests {
             assert!(error.contains(&expected), "{error}");
         }
         let error = scene("accuracy = \"draft\"").unwrap_err();
-        assert!(error.contains("which a scene of spots does not have"), "{error}");
+        assert!(
+            error.contains("which a scene of spots does not have"),
+            "{error}"
+        );
     }
 }

@@ -22,19 +22,19 @@ const LONGEST_STEP: f64 = 0.5;
 /// Greatest component of the velocities at first, in diameters.
 const SHAKE: f64 = 0.025;
 
-/// Steps in which spheres go on with these velocities, under repulsion and drag. Without any the
-/// packing fraction stays at .62. Twice the velocity and four times the steps make more than half
-/// of the packing crystallise.
+/// Steps in which spheres keep moving with these velocities, under repulsion and drag. Without such
+/// steps the packing fraction stays at .62. With twice the velocity and four times the steps more
+/// than half of the packing crystallises.
 const SHAKEN: usize = 50;
 
 /// Slack of the spheres, in diameters.
 const SLACK: f64 = 0.15;
 
-/// Share of the velocity that is lost in each step. Without it, spheres that do not touch would fly
-/// about for ever.
+/// Share of the velocity that is lost in each step. Without it, spheres that do not touch would
+/// never stop.
 const DRAG: f64 = 0.02;
 
-/// Steps in which spheres either come apart or count as jammed.
+/// Steps within which spheres separate; otherwise they count as jammed.
 const MOST_STEPS: usize = 6000;
 
 /// Steps between two searches for overlaps.
@@ -43,13 +43,13 @@ const CHECK: usize = 25;
 /// Pushes spheres apart.
 pub(super) struct Minimizer {
     model: Model,
-    /// Distance that centres are to have (m); the diameter of `model` is a little larger.
+    /// Required distance of centres (m); the diameter of `model` is slightly larger.
     apart: f64,
     displacement: Vec<Eight>,
     random: Stream,
 }
 
-/// Spheres on their way.
+/// The moving spheres.
 struct Spheres {
     arrangement: Arrangement,
     position: Vec<Vector>,
@@ -65,7 +65,7 @@ struct Sums {
 }
 
 impl Minimizer {
-    /// A minimiser for spheres of an inflated diameter that are to be farther `apart` (m).
+    /// A minimiser for spheres of an inflated diameter, until centres are at least `apart` (m).
     pub(super) fn new(inflated: &Parameters, apart: f64, random: Stream) -> Self {
         Self {
             model: Model::new(inflated.clone()),
@@ -90,7 +90,7 @@ impl Minimizer {
         Ok(apart)
     }
 
-    /// A random velocity. Between walls that leave no room there is none across them.
+    /// A random velocity. Its component across walls that leave no room is zero.
     fn shove(&mut self) -> Vector {
         let mut along = || SHAKE * self.model.diameter * (2.0 * self.random.uniform() - 1.0);
         let [x, y, z] = [along(), along(), along()];
@@ -131,7 +131,7 @@ impl Minimizer {
         for step in 1..=MOST_STEPS {
             let sums = self.kick(spheres, height, time_step)?;
             if step <= SHAKEN {
-                // Velocities go on.
+                // Velocities carry over.
             } else if sums.power > 0.0 {
                 let turn = mixing * (sums.speed_squared / sums.force_squared).sqrt();
                 self.turn(spheres, height, (mixing, turn));
@@ -156,7 +156,7 @@ impl Minimizer {
         Ok(false)
     }
 
-    /// Force on a sphere of this displacement by its neighbours, with that of the walls.
+    /// Force on a sphere: from its neighbours, given as a displacement, and from the walls.
     #[inline(always)]
     fn force(&self, centre: Vector, displacement: Vector, height: f64) -> Vector {
         let radius = 0.5 * self.model.diameter;

@@ -1,12 +1,12 @@
-//! The packing of a scene: which one it is, and how it is made.
+//! The packing of a scene: its name, and how it is made.
 
 use super::{PackingError, random_packing};
 use crate::scene::Scene;
 use crate::spot::parameters::Parameters;
 
-/// What chooses a packing.
+/// The quantities on which a packing depends.
 struct Choice {
-    /// Of how packings are made: another one makes others.
+    /// Version of the method: another version makes other packings.
     version: u32,
     spheres: usize,
     radius: f64,
@@ -15,7 +15,7 @@ struct Choice {
     seed: u64,
 }
 
-/// Of how packings are made.
+/// Version of the method.
 const VERSION: u32 = 3;
 
 impl Choice {
@@ -31,8 +31,8 @@ impl Choice {
     }
 }
 
-/// The name of the packing that a scene starts with: scenes of one name start with the same. Where
-/// the floor is, and what else the scene has, does not matter.
+/// The name of the packing that a scene starts with: scenes with the same name start with the same
+/// packing. The height of the floor and everything else in the scene do not matter.
 pub fn name(scene: &Scene) -> String {
     let choice = Choice::of(scene);
     let text = format!(
