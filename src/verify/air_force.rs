@@ -7,8 +7,8 @@ use crate::particles::vector::Vector;
 use crate::scene::{DemScene, Drag, Effects, Scene, StartSphere, Swirl, Updraught};
 use serde::Deserialize;
 
-/// Spheres that nothing but the air acts on; the forces on them at the start are measured. Air
-/// tables are those of a scene.
+/// Spheres on which only the air acts; the forces on them at the start are measured. Air tables are
+/// as in a scene.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AirForce {
@@ -23,10 +23,10 @@ pub struct AirForce {
     updraught: Option<Updraught>,
 }
 
-/// A step of this length (s) moves nothing; forces do not depend on it.
+/// The step (s) is too short to move anything; forces do not depend on it.
 const DT: f64 = 1e-12;
 
-/// The density (kg/m3) does not matter either.
+/// Density (kg/m3), without effect on the forces.
 const DENSITY: f64 = 1000.0;
 
 impl Family for AirForce {

@@ -32,7 +32,7 @@ pub struct Dashpot {
     steps_per_contact: f64,
 }
 
-/// An impact takes less than this many times its duration in closed form.
+/// An impact takes less than this many times its closed-form duration.
 const PATIENCE: f64 = 10.0;
 
 impl Family for Dashpot {
@@ -52,7 +52,7 @@ impl Family for Dashpot {
             let apart;
             (overlap, apart) = self.overlap(&simulation);
             if overlap <= 0.0 {
-                // The overlap is zero in between, if it falls as a straight line.
+                // The overlap reaches zero in between, by linear interpolation.
                 let behind = overlap / (overlap - earlier);
                 return Ok(named([
                     ("contact_time", simulation.time() - behind * dt),
@@ -79,7 +79,7 @@ impl Dashpot {
         }
     }
 
-    /// They touch at the start; the partner rests at the origin.
+    /// They touch at the start; the partner is at rest at the origin.
     fn scene(&self, dt: f64, bench: &Bench<'_>) -> Scene {
         let distance = self.radius + self.partner_radius;
         let mut spheres = vec![moving([distance, 0.0, 0.0], [-self.speed, 0.0, 0.0])];

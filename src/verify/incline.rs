@@ -7,7 +7,7 @@ use crate::scene::{DemScene, Effects, Friction, Gravity, Scene};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
-/// A sphere let go on an incline: the floor, with tilted gravity.
+/// A sphere released on an incline: the floor, with tilted gravity.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Incline {
@@ -63,7 +63,7 @@ impl Family for Incline {
         let end = self.surface_speeds(&simulation);
         Ok(named([
             ("acceleration", (end[0] - middle[0]) / half),
-            // Of the surface about the centre: the same where it rolls without slipping.
+            // Speed of the surface about the centre: equal if it rolls without slipping.
             ("surface_acceleration", (end[1] - middle[1]) / half),
         ]))
     }

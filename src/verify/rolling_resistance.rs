@@ -7,7 +7,7 @@ use crate::scene::{DemScene, Effects, Friction, Gravity, Rolling, Scene, StartSp
 use serde::Deserialize;
 use std::f64::consts::PI;
 
-/// A sphere rolls without sliding, or is let go, on the floor with tilted gravity.
+/// A sphere rolls without sliding, or is released, on the floor with tilted gravity.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RollingResistance {

@@ -1,4 +1,4 @@
-//! Spheres at rest upon each other.
+//! A column of spheres at rest.
 
 use super::bench::{Bench, Material, at, downward, floor, unguarded};
 use super::{Family, Measured, VerifyError, named, numbered};
@@ -6,7 +6,7 @@ use crate::dem::Simulation;
 use crate::scene::{DemScene, Effects, Scene};
 use serde::Deserialize;
 
-/// A column of equal spheres on the floor, let go where they just touch.
+/// A column of equal spheres on the floor, released where they just touch.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stack {
