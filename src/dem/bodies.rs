@@ -4,7 +4,7 @@
 //! | type | what it holds |
 //! |---|---|
 //! | [`Particles`] | all spheres, one array per quantity |
-//! | [`Spheres`] | borrowed parts of these arrays: all spheres, or the share of a thread |
+//! | [`SphereRows`] | borrowed parts of these arrays: all spheres, or the share of a thread |
 //! | [`Bodies`] | copies of a block of [`BLOCK`] spheres, one column per coordinate, for effects |
 
 use super::neighbours::Reference;
@@ -17,7 +17,7 @@ use fearless_simd::Simd;
 use std::ops::Range;
 
 /// Spheres in rows: all of them, the share of a thread, or the next few.
-pub(super) struct Spheres<'a> {
+pub(super) struct SphereRows<'a> {
     /// Index of the first one.
     pub(super) first: usize,
     pub(super) position: &'a mut [Vector],
@@ -34,7 +34,7 @@ pub(super) struct Spheres<'a> {
     pub(super) reference: &'a [Reference],
 }
 
-impl<'a> Spheres<'a> {
+impl<'a> SphereRows<'a> {
     /// All spheres, with their references.
     pub(super) fn new(particles: &'a mut Particles, reference: &'a [Reference]) -> Self {
         Self {
@@ -59,8 +59,8 @@ impl<'a> Spheres<'a> {
     }
 
     /// The spheres of a range, counted from the first of these spheres.
-    pub(super) fn part(&mut self, range: Range<usize>) -> Spheres<'_> {
-        let mut all = Spheres {
+    pub(super) fn part(&mut self, range: Range<usize>) -> SphereRows<'_> {
+        let mut all = SphereRows {
             first: self.first,
             position: self.position,
             velocity: self.velocity,
@@ -105,7 +105,7 @@ impl Bodies {
     pub(super) fn take<S: Simd>(
         &mut self,
         simd: S,
-        spheres: &Spheres<'_>,
+        spheres: &SphereRows<'_>,
         from: usize,
         asked: Asked,
     ) {
@@ -133,7 +133,7 @@ impl Bodies {
     pub(super) fn give<S: Simd>(
         &self,
         simd: S,
-        spheres: &mut Spheres<'_>,
+        spheres: &mut SphereRows<'_>,
         from: usize,
         asked: Asked,
     ) {

@@ -16,7 +16,7 @@ const DEEP: f64 = 0.5;
 
 /// What a sphere overlaps.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Partner {
+pub enum OverlapPartner {
     /// Another sphere that moves, by its number.
     Sphere(usize),
     /// A fixed sphere, by its centre (m).
@@ -33,7 +33,7 @@ pub struct Overlap {
     /// Its radius (m).
     pub radius: f64,
     /// What it overlaps.
-    pub partner: Partner,
+    pub partner: OverlapPartner,
     /// How deep (m).
     pub depth: f64,
     /// How deep, in radii of the smaller partner.
@@ -44,7 +44,7 @@ pub struct Overlap {
     pub speed: f64,
 }
 
-impl std::fmt::Display for Partner {
+impl std::fmt::Display for OverlapPartner {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Sphere(number) => write!(formatter, "sphere {number}"),
@@ -100,8 +100,8 @@ pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
                 sphere: j - fixed,
                 radius: radius[j],
                 partner: match i.checked_sub(fixed) {
-                    Some(number) => Partner::Sphere(number),
-                    None => Partner::Fixed([x, y, z]),
+                    Some(number) => OverlapPartner::Sphere(number),
+                    None => OverlapPartner::Fixed([x, y, z]),
                 },
                 depth,
                 depth_in_radii: depth / radius[i].min(radius[j]),
@@ -117,7 +117,7 @@ pub(super) fn visit(scene: &Scene, mut visit: impl FnMut(Overlap)) {
                 visit(Overlap {
                     sphere: i - fixed,
                     radius: radius[i],
-                    partner: Partner::Wall(wall.name()),
+                    partner: OverlapPartner::Wall(wall.name()),
                     depth: contact.overlap,
                     depth_in_radii: contact.overlap / radius[i],
                     distance: radius[i] - contact.overlap,

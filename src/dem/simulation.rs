@@ -6,7 +6,7 @@ use super::laws::engine;
 use super::neighbours::VerletList;
 use super::order;
 use super::process::{Feed, Process};
-use super::system::{Engine, Setup};
+use super::system::{Engine, SystemSetup};
 use super::walls::TankWall;
 use crate::cpu_time;
 use crate::forces::effects::Targets;
@@ -19,7 +19,7 @@ use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 /// Why a scene cannot be run.
 #[derive(Debug, thiserror::Error)]
-pub enum BuildError {
+pub enum DemBuildError {
     /// The spheres cannot be placed.
     #[error(transparent)]
     Start(#[from] StartError),
@@ -42,7 +42,7 @@ const CONTACT_SKIN: f64 = 0.5;
 const COLUMN_SKIN: f64 = 1.0;
 
 /// A running simulation.
-pub struct Simulation {
+pub struct DemSimulation {
     pub(super) engine: Box<dyn Engine>,
     /// `None` if no sphere comes or goes.
     pub(super) process: Option<Process>,
@@ -59,12 +59,12 @@ pub struct Simulation {
     pool: Option<ThreadPool>,
 }
 
-impl Simulation {
+impl DemSimulation {
     /// Places the spheres of a scene and makes it ready to run.
     ///
     /// # Errors
     /// If the spheres cannot be placed, or laws do not fit together.
-    pub fn new(scene: &Scene) -> Result<Self, BuildError> {
+    pub fn new(scene: &Scene) -> Result<Self, DemBuildError> {
         let skin = match (scene.dem.neighbours, &scene.dem.effects.updraught) {
             (Neighbours::VerletList, None) => CONTACT_SKIN,
             (Neighbours::VerletList, Some(_)) => COLUMN_SKIN,
@@ -80,7 +80,7 @@ impl Simulation {
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn with_skin(scene: &Scene, skin: f64) -> Result<Self, BuildError> {
+    pub fn with_skin(scene: &Scene, skin: f64) -> Result<Self, DemBuildError> {
         let spheres = start::place(scene)?;
         let alike = spheres.radius.windows(2).all(|two| two[0] == two[1]);
         let skin = skin * spheres.largest_radius();
@@ -109,7 +109,7 @@ impl Simulation {
             true => Default::default(),
             false => scalars.unwrap_or_else(|| scalars_of(&particles)),
         };
-        let setup = Setup {
+        let setup = SystemSetup {
             sorted,
             flows,
             ..setup(scene, &particles, skin)
@@ -248,10 +248,10 @@ impl Simulation {
 
 /// What a system needs from a scene besides laws and spheres, with the skin of the neighbour list
 /// (m). Spheres are not sorted in memory.
-fn setup(scene: &Scene, particles: &Particles, skin: f64) -> Setup {
+fn setup(scene: &Scene, particles: &Particles, skin: f64) -> SystemSetup {
     let tank = scene.tank.as_ref();
     let is_closed = scene.dem.door.is_some();
-    Setup {
+    SystemSetup {
         walls: tank
             .map(|tank| TankWall::of_tank(tank, is_closed))
             .unwrap_or_default(),

@@ -1,6 +1,6 @@
 //! The state of a simulation between two steps, from which it continues.
 
-use super::Simulation;
+use super::DemSimulation;
 use super::process::{Process, ProcessState};
 use super::system::EngineState;
 pub(super) use crate::simulation::StateError;
@@ -26,7 +26,7 @@ impl SimulationState<'_> {
     }
 }
 
-impl Simulation {
+impl DemSimulation {
     /// The state between the latest step and the next. Asking for it never changes the motion.
     pub fn state(&self) -> SimulationState<'_> {
         SimulationState {

@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, unguarded};
 use super::{Family, Measured, VerifyError, numbered};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::particles::vector::Vector;
 use crate::scene::{DemScene, Drag, Effects, Scene, StartSphere, Swirl, Updraught};
 use serde::Deserialize;
@@ -47,7 +47,7 @@ impl Family for AirForce {
             },
             ..bench.scene(DENSITY, self.radius, self.spheres.clone(), DT)
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         bench.advance(&mut simulation, 1)?;
         let forces = &simulation.particles().force;
         let components: [fn(&Vector) -> f64; 3] = [|f| f.x, |f| f.y, |f| f.z];

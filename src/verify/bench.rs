@@ -1,7 +1,7 @@
 //! Common parts of the families: materials, bare scenes, counted steps.
 
 use super::VerifyError;
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::dem::timestep::Impact;
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
@@ -254,7 +254,7 @@ impl<'a> Bench<'a> {
     /// Advances and counts.
     pub(super) fn advance(
         &mut self,
-        simulation: &mut Simulation,
+        simulation: &mut DemSimulation,
         steps: u64,
     ) -> Result<(), VerifyError> {
         let before = simulation.moves();
@@ -275,7 +275,7 @@ impl<'a> Bench<'a> {
     /// Advances by a duration (s), to the nearest step.
     pub(super) fn advance_for(
         &mut self,
-        simulation: &mut Simulation,
+        simulation: &mut DemSimulation,
         duration: f64,
         dt: f64,
     ) -> Result<(), VerifyError> {
@@ -338,7 +338,7 @@ impl<'a> Bench<'a> {
             },
             ..scene.clone()
         };
-        let mut simulation = Simulation::new(&bare)?;
+        let mut simulation = DemSimulation::new(&bare)?;
         self.advance(&mut simulation, 1)?;
         let forces = &simulation.particles().force;
         Ok(forces.iter().fold(Vector::ZERO, |sum, &force| sum + force))

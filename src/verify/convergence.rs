@@ -2,7 +2,7 @@
 
 use super::bench::Bench;
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Guards, Scene, Time};
 use serde::Deserialize;
 
@@ -50,7 +50,7 @@ impl Convergence {
             },
             ..(*self.scene).clone()
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         bench.advance_for(&mut simulation, duration, dt)?;
         let particles = simulation.particles();
         let spins = particles.spin.iter().zip(&particles.radius);

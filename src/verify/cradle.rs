@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, Material, moving, unguarded};
 use super::{Family, Measured, VerifyError, numbered};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::particles::Particles;
 use crate::scene::{DemScene, Scene};
 use serde::Deserialize;
@@ -61,7 +61,7 @@ impl Family for Cradle {
             },
             ..bench.scene(self.material.density, self.radius, spheres, dt)
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         let patience = (PATIENCE + self.gap * self.count as f64) * self.steps_per_contact;
         while !parted(simulation.particles()) {
             if simulation.step() as f64 > patience {

@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, moving, reduced};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::dem::timestep::LinearImpact;
 use crate::scene::{
     Contact, ContactDrag, DemScene, FixedSphere, Geometry, Linear, Scene, Shape, Spheres,
@@ -44,7 +44,7 @@ impl Family for Dashpot {
     fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let impact = self.closed_form();
         let dt = impact.contact_time() / self.steps_per_contact;
-        let mut simulation = Simulation::new(&self.scene(dt, bench))?;
+        let mut simulation = DemSimulation::new(&self.scene(dt, bench))?;
         let mut overlap = 0.0;
         for _ in 0..(PATIENCE * self.steps_per_contact) as u64 {
             let earlier = overlap;
@@ -117,7 +117,7 @@ impl Dashpot {
     }
 
     /// How far the two overlap (m), and how fast they part (m/s).
-    fn overlap(&self, simulation: &Simulation) -> (f64, f64) {
+    fn overlap(&self, simulation: &DemSimulation) -> (f64, f64) {
         let particles = simulation.particles();
         let (disc, partner) = match self.fixed {
             true => (1, 0),

@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::scene::{
     AddedMass, Buoyancy, Contact, ContactDrag, Coulomb, DemScene, Drag, Effects, Friction, Gravity,
     Linear, Magnus, Scene, StartSphere, Swirl, Updraught,
@@ -78,7 +78,7 @@ impl Family for Flight {
             },
             ..bench.scene(self.density, self.radius, vec![sphere], self.dt)
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         bench.advance_for(&mut simulation, self.duration, self.dt)?;
         let particles = simulation.particles();
         let (place, velocity) = (particles.position[0], particles.velocity[0]);

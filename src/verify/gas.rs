@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, Material, downward, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Scene, Spheres, Start, Tank};
 use serde::Deserialize;
 
@@ -86,7 +86,7 @@ impl Gas {
             },
             ..scene
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         let momenta = angular_momenta(&simulation);
         let first = [self.energy(&mut simulation), momenta.iter().sum()];
         let scale = [first[0], momenta.iter().map(|it| it.abs()).sum()];
@@ -105,7 +105,7 @@ impl Gas {
         Ok(sums.map(|sum| (sum / f64::from(LOOKS)).sqrt()))
     }
 
-    fn energy(&self, simulation: &mut Simulation) -> f64 {
+    fn energy(&self, simulation: &mut DemSimulation) -> f64 {
         let elastic = simulation.elastic_energy();
         let particles = simulation.particles();
         (0..particles.len())
@@ -119,7 +119,7 @@ impl Gas {
 }
 
 /// Angular momentum of each sphere about the axis of the tank (kg m2/s).
-fn angular_momenta(simulation: &Simulation) -> Vec<f64> {
+fn angular_momenta(simulation: &DemSimulation) -> Vec<f64> {
     let particles = simulation.particles();
     let momentum = |i: usize| {
         let (place, velocity) = (particles.position[i], particles.velocity[i]);

@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, Material, floor, moving, reduced, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::{Simulation, timestep};
+use crate::dem::{DemSimulation, timestep};
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 use crate::scene::{
@@ -134,7 +134,7 @@ impl Impact {
         let dt = self.dt.unwrap_or(contact_time / self.steps_per_contact);
         let begin = phase * dt;
         let scene = self.scene(&material, begin, dt, bench);
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         let before = self.state(simulation.particles());
 
         let (mut maximum_overlap, mut maximum_force) = (0.0_f64, 0.0_f64);

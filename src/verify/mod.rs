@@ -37,7 +37,7 @@ mod wall_orbit;
 pub use bench::{AnyMaterial, Material, SilbertMaterial};
 
 use crate::cpu_time;
-use crate::dem::BuildError;
+use crate::dem::DemBuildError;
 use crate::record::Instability;
 use crate::scene::Integrator;
 use bench::Bench;
@@ -271,7 +271,7 @@ impl Outcome {
 pub enum VerifyError {
     /// The scene cannot be built.
     #[error(transparent)]
-    Build(#[from] BuildError),
+    Build(#[from] DemBuildError),
     /// A guard ended the simulation.
     #[error(transparent)]
     Unstable(#[from] Instability),

@@ -2,7 +2,7 @@
 
 use super::bench::{AnyMaterial, Bench, downward, floor, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::scene::{DemScene, Effects, Friction, Scene};
 use serde::Deserialize;
 use std::f64::consts::PI;
@@ -67,7 +67,7 @@ impl Family for Oscillation {
             },
             ..bench.scene(self.material.density(), self.radius, vec![sphere], self.dt)
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         let mut crossings = Vec::new();
         let mut last = self.surface_velocity(&simulation);
         while crossings.len() <= self.periods as usize {
@@ -99,7 +99,7 @@ impl Family for Oscillation {
 
 impl Oscillation {
     /// Velocity of the lowest point of the sphere, in the direction of the mode.
-    fn surface_velocity(&self, simulation: &Simulation) -> f64 {
+    fn surface_velocity(&self, simulation: &DemSimulation) -> f64 {
         let particles = simulation.particles();
         match self.mode {
             Mode::Normal => particles.velocity[0].z,

@@ -2,7 +2,7 @@
 
 use super::bench::{AnyMaterial, Bench, downward, floor, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::particles::Particles;
 use crate::scene::{Coulomb, DemScene, Effects, Friction, Scene, StartSphere};
 use serde::Deserialize;
@@ -34,7 +34,7 @@ impl Family for Rolling {
     }
 
     fn measure(&self, bench: &mut Bench<'_>) -> Result<Measured, VerifyError> {
-        let mut simulation = Simulation::new(&self.scene(bench))?;
+        let mut simulation = DemSimulation::new(&self.scene(bench))?;
         // Sliding ends when friction drops below its full size: below the speed of regularisation,
         // or when the sliding reverses.
         let rest = match self.friction {
@@ -42,7 +42,7 @@ impl Family for Rolling {
             _ => 0.0,
         };
         let sign = (self.speed - self.spin * self.radius).signum();
-        let moment = |simulation: &Simulation| {
+        let moment = |simulation: &DemSimulation| {
             let particles = simulation.particles();
             Moment {
                 time: simulation.time(),

@@ -3,7 +3,7 @@
 
 use super::bench::{Bench, SilbertMaterial, moving, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::particles::vector::Vector;
 use crate::scene::{DemScene, FixedSphere, Friction, Geometry, Scene, Tank};
 use serde::Deserialize;
@@ -83,7 +83,7 @@ impl SilbertImpact {
         let (sine, cosine) = libm::sincos(angle * PI / 180.0);
         let velocity = Vector::new(-cosine, 0.0, sine) * self.speed;
         let dt = self.elastic_time(-velocity.x) / self.steps_per_contact;
-        let mut simulation = Simulation::new(&self.scene(velocity, dt, bench))?;
+        let mut simulation = DemSimulation::new(&self.scene(velocity, dt, bench))?;
         let (mut overlap, mut deepest) = (0.0, 0.0_f64);
         for _ in 0..(PATIENCE * self.steps_per_contact) as u64 {
             let earlier = overlap;
@@ -177,7 +177,7 @@ impl SilbertImpact {
     }
 
     /// How far the two overlap (m), and how fast they part (m/s).
-    fn overlap(&self, simulation: &Simulation) -> (f64, f64) {
+    fn overlap(&self, simulation: &DemSimulation) -> (f64, f64) {
         let particles = simulation.particles();
         let (position, velocity) = (&particles.position, &particles.velocity);
         let sphere = particles.fixed;

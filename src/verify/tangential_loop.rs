@@ -2,7 +2,7 @@
 
 use super::bench::{AnyMaterial, Bench, at, floor, reduced, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::particles::vector::Vector;
 use crate::scene::{DemScene, Driven, Friction, Scene};
 use serde::Deserialize;
@@ -92,10 +92,10 @@ impl TangentialLoop {
             dem: self.laws(vec![self.path(0, [self.amplitude, 0.0, 0.0], 0.0)]),
             ..bench.scene(self.material.density(), self.radius, vec![place], dt)
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         bench.advance(&mut simulation, u64::from(self.steps))?;
         let age = bench.age_of_forces() * dt;
-        let moment = |simulation: &Simulation| {
+        let moment = |simulation: &DemSimulation| {
             let particles = simulation.particles();
             let place = particles.position[0] - particles.velocity[0] * age;
             (place.x, particles.force[0].x)
@@ -126,9 +126,9 @@ impl TangentialLoop {
             ]),
             ..bench.scene(self.material.density(), self.radius, places, dt)
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         let age = bench.age_of_forces() * dt;
-        let moment = |simulation: &Simulation| {
+        let moment = |simulation: &DemSimulation| {
             let particles = simulation.particles();
             let place = |i: usize| particles.position[i] - particles.velocity[i] * age;
             (place(0) - place(1), particles.force[0])

@@ -2,7 +2,7 @@
 
 use super::bench::{Bench, Material, at, unguarded};
 use super::{Family, Measured, VerifyError, named};
-use crate::dem::Simulation;
+use crate::dem::DemSimulation;
 use crate::particles::vector::Vector;
 use crate::scene::{DemScene, Drag, DragForm, DragLaw, Effects, Scene, Swirl, Tank};
 use serde::Deserialize;
@@ -60,7 +60,7 @@ impl Family for WallOrbit {
                 self.dt,
             )
         };
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         bench.advance_for(&mut simulation, self.duration, self.dt)?;
         let particles = simulation.particles();
         let (place, velocity) = (particles.position[0], particles.velocity[0]);

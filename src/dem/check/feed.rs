@@ -15,7 +15,7 @@ const MOST_MOVES: usize = 100;
 /// Where the largest sphere of a feed may come in: anywhere within `spread` (m) of a position along
 /// x.
 #[derive(Clone, Copy)]
-struct Place {
+struct FeedPlace {
     position: [f64; 3],
     spread: f64,
     radius: f64,
@@ -35,7 +35,7 @@ impl Scene {
         if self.spot.is_some() {
             return;
         }
-        let place = Place {
+        let place = FeedPlace {
             position,
             spread,
             radius: self.radius_range().1,
@@ -50,7 +50,7 @@ impl Scene {
         self.check_driven_at_the_feed(problems);
     }
 
-    fn check_fixed_spheres_at(&self, place: Place, problems: &mut Vec<Problem>) {
+    fn check_fixed_spheres_at(&self, place: FeedPlace, problems: &mut Vec<Problem>) {
         let fixed = self.dem.geometry.as_ref().map(Geometry::spheres);
         let fixed = fixed.unwrap_or_default();
         let fixed = [fixed.walls, fixed.door].concat();
@@ -72,7 +72,7 @@ impl Scene {
 
     /// The nearest position beside, below or above a place at which neither fixed spheres nor walls
     /// are in the way, over the whole spread, if there is one. Rounded to six digits.
-    fn clear_of_fixed(&self, place: Place, fixed: &[FixedSphere]) -> Option<[f64; 3]> {
+    fn clear_of_fixed(&self, place: FeedPlace, fixed: &[FixedSphere]) -> Option<[f64; 3]> {
         let mut start = place;
         if let Some(tank) = self.tank.as_ref()
             && self.fault_at(place.position, place.radius).is_some()
@@ -102,9 +102,9 @@ impl Scene {
         nearest.map(|(_, position)| position)
     }
 
-    fn check_walls_at(&self, place: Place, problems: &mut Vec<Problem>) {
+    fn check_walls_at(&self, place: FeedPlace, problems: &mut Vec<Problem>) {
         let Some(tank) = &self.tank else { return };
-        let Place {
+        let FeedPlace {
             position: [x, y, z],
             spread,
             radius,
@@ -125,7 +125,7 @@ impl Scene {
                 number(radius),
                 number(spread)
             );
-            let most = self.widest_spread(Place {
+            let most = self.widest_spread(FeedPlace {
                 position: clear,
                 ..place
             });
@@ -136,7 +136,7 @@ impl Scene {
 
     /// The widest spread (m), to six digits, that fits at a clear position. The shifts at which no
     /// wall is in the way form an interval.
-    fn widest_spread(&self, place: Place) -> String {
+    fn widest_spread(&self, place: FeedPlace) -> String {
         let [x, y, z] = place.position;
         let (mut most, mut too_wide) = (0.0, place.spread);
         for _ in 0..f64::MANTISSA_DIGITS {
@@ -218,7 +218,7 @@ impl Scene {
     }
 }
 
-impl Place {
+impl FeedPlace {
     /// The first of these spheres that overlaps what comes in.
     fn in_the_way<'a>(&self, fixed: &'a [FixedSphere]) -> Option<&'a FixedSphere> {
         fixed.iter().find(|sphere| {

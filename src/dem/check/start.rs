@@ -1,6 +1,6 @@
 //! Whether the spheres have room where they start.
 
-use crate::dem::overlap::{self, Overlap, Partner};
+use crate::dem::overlap::{self, Overlap, OverlapPartner};
 use crate::document::{Problem, accepted, at_least, number};
 use crate::scene::{Scene, Start, Tank, may_hold, plural, rounded};
 use crate::start;
@@ -125,8 +125,8 @@ impl Scene {
         let limit = self.dem.guards.overlap;
         let mut deepest: Option<Overlap> = None;
         overlap::visit(self, |overlap| {
-            let is_inside =
-                matches!(overlap.partner, Partner::Fixed(_)) && overlap.depth > overlap.radius;
+            let is_inside = matches!(overlap.partner, OverlapPartner::Fixed(_))
+                && overlap.depth > overlap.radius;
             let before = deepest.map_or(0.0, |it| it.depth_in_radii);
             if (is_inside || overlap.depth_in_radii > limit) && overlap.depth_in_radii > before {
                 deepest = Some(overlap);
@@ -154,8 +154,8 @@ impl Scene {
         // A little more, so that rounding does not matter.
         let apart = at_least((distance + depth - allowed) * (1.0 + 1e-9));
         let other = match partner {
-            Partner::Wall(_) => partner.to_string(),
-            Partner::Sphere(_) | Partner::Fixed(_) => "the other centre".to_owned(),
+            OverlapPartner::Wall(_) => partner.to_string(),
+            OverlapPartner::Sphere(_) | OverlapPartner::Fixed(_) => "the other centre".to_owned(),
         };
         let help = format!("move its centre to {apart} m or farther from {other}");
         let path = format!("start.spheres[{sphere}].position");

@@ -31,7 +31,7 @@ pub(super) struct Process {
     steps: u64,
     feed: Feed,
     /// The door, while it is closed and is to open.
-    door: Option<Door>,
+    door: Option<ClosedDoor>,
     rest: Option<RestWatch>,
     outlet: Option<f64>,
     free: Free,
@@ -46,7 +46,7 @@ pub(super) struct Process {
 }
 
 /// A closed door.
-struct Door {
+struct ClosedDoor {
     spheres: std::ops::Range<usize>,
     /// Step at which it opens, if that does not depend on the spheres.
     step: Option<u64>,
@@ -105,7 +105,7 @@ impl Process {
                 dt,
                 steps: ((INTERVAL / dt).round() as u64).max(1),
                 feed: feed.unwrap_or_default(),
-                door: scene.dem.door.as_ref().map(|door| Door {
+                door: scene.dem.door.as_ref().map(|door| ClosedDoor {
                     spheres: walls..walls + fixed.door.len(),
                     step: door.opens.map(|time| (time / dt).round() as u64),
                 }),

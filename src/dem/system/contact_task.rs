@@ -11,7 +11,7 @@ use super::sums::Sums;
 use super::touching::{CHUNK, Touching};
 use super::wall_contacts::NearSphere;
 use crate::dem::neighbours::NearPair;
-use crate::dem::profile::{self, Part, Profile};
+use crate::dem::profile::{self, Profile, StepPart};
 use crate::dem::threads::{split, split_shared};
 use crate::dem::walls::TankWall;
 use crate::forces::contact::NormalLaw;
@@ -148,7 +148,7 @@ impl<'a, H: History> ContactTask<'a, H> {
         if self.sums.clear {
             self.sums.force.fill(Vector::ZERO);
             self.sums.torque.fill(Vector::ZERO);
-            profile::mark(profile, Part::Rest);
+            profile::mark(profile, StepPart::Rest);
         }
         self.buffers.block.set_alike::<N, T>(settings.alike);
         // In one loop, so that the code in it is compiled once for each instruction set.
@@ -158,7 +158,7 @@ impl<'a, H: History> ContactTask<'a, H> {
         if !N::ACTS {
             return;
         }
-        profile::mark(profile, Part::Pairs);
+        profile::mark(profile, StepPart::Pairs);
         for place in 0..TankWall::MOST {
             let Some((wall, _)) = &self.walls[place] else {
                 break;

@@ -4,9 +4,9 @@ use super::contact_block::EarlierRows;
 use super::contact_laws::Loading;
 use super::division::threads;
 use super::moves::{FirstTooFast, Motion, Moves};
-use super::{Setup, System};
-use crate::dem::bodies::Spheres;
-use crate::dem::profile::{self, Part};
+use super::{System, SystemSetup};
+use crate::dem::bodies::SphereRows;
+use crate::dem::profile::{self, StepPart};
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
 use crate::particles::Particles;
@@ -27,12 +27,12 @@ enum Next {
 
 /// Velocities and spins before a prediction.
 #[derive(Default)]
-pub(super) struct Before {
+pub(super) struct MotionBefore {
     velocity: Vec<Vector>,
     spin: Vec<Vector>,
 }
 
-impl Before {
+impl MotionBefore {
     fn keep(&mut self, particles: &Particles) {
         self.velocity.clone_from(&particles.velocity);
         self.spin.clone_from(&particles.spin);
@@ -79,7 +79,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.bodies
             .resize_with(threads(self.division.as_ref()), Bodies::new);
         let found = moves.apply(
-            Spheres::new(&mut self.particles, reference),
+            SphereRows::new(&mut self.particles, reference),
             &mut self.bodies,
             self.level,
             &mut self.profile,
@@ -116,7 +116,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         };
         // The guard was broken in the middle of a step.
         (self.step.number, self.step.first_half_done) = (step, false);
-        let Setup { limits, dt, .. } = &self.setup;
+        let SystemSetup { limits, dt, .. } = &self.setup;
         Err(limits.speed_broken(step, *dt, it))
     }
 
@@ -135,7 +135,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
                 Integrator::SynchronisedVerlet => self.synchronised_verlet()?,
                 Integrator::AdaptiveVerlet => self.adaptive_verlet()?,
             }
-            self.mark(Part::Rest);
+            self.mark(StepPart::Rest);
         }
         Ok(())
     }

@@ -12,7 +12,7 @@ use super::partners::Partners;
 use super::wall_contacts::NearSphere;
 use super::{Engine, System};
 use crate::dem::neighbours::NearPair;
-use crate::dem::profile::Part;
+use crate::dem::profile::StepPart;
 use crate::dem::walls::TankWall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 
 /// Work since the start (J).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(in crate::dem) struct Work {
+pub(in crate::dem) struct LedgerWork {
     /// Of the damping of contacts, negative where it dissipates.
     pub(in crate::dem) damping: f64,
     /// Of tangential forces.
@@ -37,7 +37,7 @@ pub(in crate::dem) struct Work {
 /// The work so far, and the components of the latest forces that do it.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Books {
-    pub(super) work: Work,
+    pub(super) work: LedgerWork,
     /// Components of the latest force on each sphere (N) and of its torque (N m).
     damping: Vec<Vector>,
     tangential: Vec<Vector>,
@@ -152,7 +152,7 @@ impl Books {
 
 /// The energy balance of a system.
 #[derive(Default)]
-pub(super) struct Ledger {
+pub(super) struct EnergyBooks {
     pub(super) books: Books,
 }
 
@@ -201,7 +201,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         for i in particles.fixed..particles.len() {
             ledger.books.note_kick(i, particles, dt);
         }
-        self.mark(Part::Ledger);
+        self.mark(StepPart::Ledger);
     }
 
     /// Notes all contacts, before their forces are evaluated: histories are only read.

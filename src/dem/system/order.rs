@@ -3,7 +3,7 @@
 use super::System;
 use crate::dem::neighbours::NearPair;
 use crate::dem::order;
-use crate::dem::profile::Part;
+use crate::dem::profile::StepPart;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{History, TangentialLaw};
 use crate::simulation::Instability;
@@ -23,7 +23,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             Some(order) => self.reorder(&order),
             None => Ok(()),
         };
-        self.mark(Part::List);
+        self.mark(StepPart::List);
         result
     }
 

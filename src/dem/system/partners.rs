@@ -2,7 +2,7 @@
 
 use super::contact_block::EarlierRows;
 use super::wall_contacts::NearSphere;
-use crate::dem::bodies::Spheres;
+use crate::dem::bodies::SphereRows;
 use crate::dem::neighbours::NearPair;
 use crate::particles::Particles;
 use crate::particles::block::BLOCK;
@@ -62,7 +62,7 @@ impl<'a> Partners<'a> {
     /// These spheres, with the velocities and spins that load springs; and their forces and
     /// torques.
     pub(super) fn of(
-        spheres: &'a mut Spheres<'_>,
+        spheres: &'a mut SphereRows<'_>,
         earlier: &'a [EarlierRows],
     ) -> (Self, [&'a mut [Vector]; 2]) {
         let partners = Self {
@@ -136,7 +136,7 @@ pub(super) struct Copies {
 
 impl Copies {
     /// Copies the spheres as they are now, out of all.
-    pub(super) fn renew(&mut self, all: &Spheres<'_>) {
+    pub(super) fn renew(&mut self, all: &SphereRows<'_>) {
         let columns = [
             (&mut self.position, &*all.position),
             (&mut self.velocity, &*all.velocity),
@@ -149,7 +149,7 @@ impl Copies {
     }
 
     /// These spheres. Their constant properties are read from the original arrays.
-    pub(super) fn partners<'a>(&'a self, all: &Spheres<'a>) -> Partners<'a> {
+    pub(super) fn partners<'a>(&'a self, all: &SphereRows<'a>) -> Partners<'a> {
         Partners {
             first: self.spheres.start as u32,
             position: &self.position,

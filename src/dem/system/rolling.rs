@@ -10,10 +10,10 @@ use super::contact_block::EarlierRows;
 use super::contact_geometry::{ContactGeometry, inverse_or_zero};
 use super::contact_laws::Laws;
 use super::contact_state::ContactState;
-use super::ledger::{Books, Ledger};
+use super::ledger::{Books, EnergyBooks};
 use super::partners::Partners;
 use crate::dem::neighbours::NearPair;
-use crate::dem::profile::Part;
+use crate::dem::profile::StepPart;
 use crate::dem::walls::{TankWall, Wall};
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
@@ -25,7 +25,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A partner of a contact, whatever its place in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub(super) enum Partner {
+pub(super) enum RollingPartner {
     /// A sphere that moves, by its number in the scene.
     Sphere(u32),
     /// A fixed sphere. Spheres of the door come last, so that the others keep their numbers when it
@@ -35,7 +35,7 @@ pub(super) enum Partner {
     Wall(u32),
 }
 
-impl Partner {
+impl RollingPartner {
     fn of(particles: &Particles, i: u32) -> Self {
         let fixed = particles.fixed as u32;
         if i < fixed {
@@ -48,14 +48,14 @@ impl Partner {
 
 /// The moments (N m) of the springs of all contacts, on the first partner. Partners are in
 /// ascending order.
-pub(super) type RollingSprings = BTreeMap<[Partner; 2], Vector>;
+pub(super) type RollingSprings = BTreeMap<[RollingPartner; 2], Vector>;
 
 /// Rolling resistance and what its contacts remember.
 pub(super) struct RollingState {
     law: RollingLaw,
     pub(super) springs: RollingSprings,
     /// Springs of an evaluation, kept for its memory.
-    renewed: Vec<([Partner; 2], Vector)>,
+    renewed: Vec<([RollingPartner; 2], Vector)>,
 }
 
 impl RollingState {
@@ -70,7 +70,9 @@ impl RollingState {
     /// Forgets the springs of spheres that are not kept.
     pub(super) fn retain(&mut self, keep: &[bool], particles: &Particles) {
         let gone = (0..).zip(keep).filter(|(_, keep)| !**keep);
-        let gone: BTreeSet<Partner> = gone.map(|(i, _)| Partner::of(particles, i)).collect();
+        let gone: BTreeSet<RollingPartner> = gone
+            .map(|(i, _)| RollingPartner::of(particles, i))
+            .collect();
         self.springs
             .retain(|key, _| key.iter().all(|it| !gone.contains(it)));
     }
@@ -107,7 +109,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         // Pairs that no longer touch have no spring, near or not.
         pass.springs.clear();
         pass.finish();
-        self.mark(Part::Rolling);
+        self.mark(StepPart::Rolling);
     }
 
     /// The same for the contacts of an island. Springs of other contacts stay. Contacts outside all
@@ -133,7 +135,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
             }
         }
         pass.finish();
-        self.mark(Part::Rolling);
+        self.mark(StepPart::Rolling);
     }
 
     /// Energy (J) of the rolling spring of two spheres, at an overlap and effective radius (m).
@@ -143,7 +145,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         overlap: f64,
         effective_radius: f64,
     ) -> f64 {
-        let partner = |i: usize| Partner::of(&self.particles, i as u32);
+        let partner = |i: usize| RollingPartner::of(&self.particles, i as u32);
         self.energy_of_spring([partner(i), partner(j)], overlap, effective_radius)
     }
 
@@ -154,11 +156,16 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         overlap: f64,
         radius: f64,
     ) -> f64 {
-        let sphere = Partner::of(&self.particles, i as u32);
-        self.energy_of_spring([sphere, Partner::Wall(wall as u32)], overlap, radius)
+        let sphere = RollingPartner::of(&self.particles, i as u32);
+        self.energy_of_spring([sphere, RollingPartner::Wall(wall as u32)], overlap, radius)
     }
 
-    fn energy_of_spring(&self, mut key: [Partner; 2], overlap: f64, effective_radius: f64) -> f64 {
+    fn energy_of_spring(
+        &self,
+        mut key: [RollingPartner; 2],
+        overlap: f64,
+        effective_radius: f64,
+    ) -> f64 {
         let Some(rolling) = &self.rolling else {
             return 0.0;
         };
@@ -211,7 +218,7 @@ struct Pass<'a, N, T> {
     law: RollingLaw,
     /// Springs of the previous evaluation. Each is taken out when its contact is computed again.
     springs: &'a mut RollingSprings,
-    renewed: &'a mut Vec<([Partner; 2], Vector)>,
+    renewed: &'a mut Vec<([RollingPartner; 2], Vector)>,
     particles: &'a mut Particles,
     earlier: &'a [EarlierRows],
     books: Option<&'a mut Books>,
@@ -220,7 +227,7 @@ struct Pass<'a, N, T> {
 /// A contact whose geometry is known.
 struct Meeting {
     /// Both partners, in the order of the springs' keys.
-    key: [Partner; 2],
+    key: [RollingPartner; 2],
     /// The spheres among them.
     spheres: (u32, Option<u32>),
     effective_radius: f64,
@@ -235,7 +242,7 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
         rolling: &'a mut RollingState,
         particles: &'a mut Particles,
         earlier: &'a [EarlierRows],
-        ledger: &'a mut Option<Ledger>,
+        ledger: &'a mut Option<EnergyBooks>,
     ) -> Self {
         Self {
             earlier: match laws.loading.age > 0.0 {
@@ -258,7 +265,7 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
 
     fn add_pair(&mut self, pair: NearPair) {
         let (mut i, mut j) = (pair.i(), pair.j());
-        let mut key = [i, j].map(|it| Partner::of(self.particles, it));
+        let mut key = [i, j].map(|it| RollingPartner::of(self.particles, it));
         // The moments of both partners are opposite to the last bit, so either may be kept.
         if key[1] < key[0] {
             key.swap(0, 1);
@@ -294,7 +301,10 @@ impl<'a, N: NormalLaw, T: TangentialLaw> Pass<'a, N, T> {
             self.laws.geometry_at_wall(&state, contact, None)
         };
         let meeting = Meeting {
-            key: [Partner::of(self.particles, i), Partner::Wall(place)],
+            key: [
+                RollingPartner::of(self.particles, i),
+                RollingPartner::Wall(place),
+            ],
             spheres: (i, None),
             effective_radius: radius,
             now: geometry(state.offset),

@@ -7,7 +7,7 @@ use super::contact_state::SphereProperties;
 use super::ledger::Books;
 use super::rolling::RollingSprings;
 use super::wall_contacts::WallContacts;
-use super::{Age, NearPair, Setup, System, VerletList};
+use super::{Age, NearPair, System, SystemSetup, VerletList};
 use crate::dem::order;
 use crate::dem::state::StateError;
 use crate::forces::contact::NormalLaw;
@@ -143,7 +143,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.step.number = step;
         self.step.moves = moves;
         (self.step.forces_are_zero, self.step.first_half_done) = (false, false);
-        let Setup {
+        let SystemSetup {
             limits,
             dt,
             effects,
@@ -175,10 +175,10 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         particles: &Particles,
         histories: &SavedHistories<T::History>,
     ) -> Result<(), StateError> {
-        let Setup { limits, dt, .. } = &self.setup;
+        let SystemSetup { limits, dt, .. } = &self.setup;
         let count = particles.len();
         let present = &self.particles;
-        let Setup { sorted, flows, .. } = self.setup;
+        let SystemSetup { sorted, flows, .. } = self.setup;
         let ordered = match (sorted, flows) {
             (_, true) => order::are_distinct(&particles.number, particles.fixed),
             (true, false) => {

@@ -40,7 +40,7 @@ pub(super) struct Touching {
 
 /// A block of contacts; lanes without one repeat the last.
 #[derive(Clone, Copy)]
-pub(super) struct Lanes<'a> {
+pub(super) struct ContactLanes<'a> {
     pub(super) pairs: &'a [NearPair; BLOCK],
     pub(super) entries: Entries<'a>,
     /// Offsets of the first centres from the second (m), if they are known.
@@ -72,11 +72,11 @@ impl Touching {
 
     /// The block from `at` on, of `found` contacts in all.
     #[inline(always)]
-    pub(super) fn block(&self, at: usize, found: usize) -> Lanes<'_> {
+    pub(super) fn block(&self, at: usize, found: usize) -> ContactLanes<'_> {
         const FITS: &str = "a block lies within the room";
         let all = at..at + BLOCK;
         let [x, y, z] = &self.offset;
-        Lanes {
+        ContactLanes {
             pairs: self.pairs[all.clone()].try_into().expect(FITS),
             entries: Entries::Listed(self.entries[all.clone()].try_into().expect(FITS)),
             offset: Some([
@@ -91,19 +91,23 @@ impl Touching {
     /// The first [`BLOCK`] of these contacts, or all if there are fewer. Whether they touch is left
     /// to the laws. The history of the first is at `from`.
     #[inline(always)]
-    pub(super) fn first_of<'a>(&'a mut self, near: &'a [NearPair], from: usize) -> Lanes<'a> {
+    pub(super) fn first_of<'a>(
+        &'a mut self,
+        near: &'a [NearPair],
+        from: usize,
+    ) -> ContactLanes<'a> {
         let Some(pairs) = near.first_chunk() else {
             self.pairs[..near.len()].copy_from_slice(near);
             for (entry, at) in self.entries.iter_mut().zip(from..from + near.len()) {
                 *entry = at as u32;
             }
             self.fill_up(near.len());
-            return Lanes {
+            return ContactLanes {
                 offset: None,
                 ..self.block(0, near.len())
             };
         };
-        Lanes {
+        ContactLanes {
             pairs,
             entries: Entries::From(from),
             offset: None,

@@ -23,7 +23,7 @@ mod standing;
 
 pub use crate::forces::contact::{Impact, LinearImpact, rayleigh_time};
 pub use crate::forces::limit::Limit;
-pub use standing::Standing;
+pub use standing::StepMargin;
 
 use super::overlap::deepest_at_start;
 use crate::forces::limit::{DISPLACEMENT, Regime, Scheme};

@@ -8,7 +8,7 @@ pub use cylinder::Cylinder;
 pub use opening::{Orifice, Slit};
 pub use plane::Plane;
 
-use super::profile::Part;
+use super::profile::StepPart;
 use crate::particles::vector::Vector;
 use crate::scene::Tank;
 
@@ -93,11 +93,11 @@ impl TankWall {
     }
 
     /// The part of a step to which its forces belong.
-    pub fn part(&self) -> Part {
+    pub fn part(&self) -> StepPart {
         match self {
-            Self::Floor(_) | Self::Orifice(_) | Self::Slit(_) => Part::Floor,
-            Self::Cylinder(_) => Part::Cylinder,
-            Self::Side(_) => Part::Sides,
+            Self::Floor(_) | Self::Orifice(_) | Self::Slit(_) => StepPart::Floor,
+            Self::Cylinder(_) => StepPart::Cylinder,
+            Self::Side(_) => StepPart::Sides,
         }
     }
 }

@@ -8,9 +8,9 @@ mod workspace;
 pub(super) use self::islands::IslandContacts;
 pub(super) use self::workspace::Workspace;
 
-use self::workspace::Start;
+use self::workspace::StepStart;
 use super::moves::without_least;
-use super::{Engine, Setup, System};
+use super::{Engine, System, SystemSetup};
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
 use crate::particles::Particles;
@@ -72,7 +72,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
     }
 
     fn check_all_speeds(&mut self) -> Result<(), Instability> {
-        let Setup { limits, dt, .. } = &self.setup;
+        let SystemSetup { limits, dt, .. } = &self.setup;
         let Particles {
             velocity, radius, ..
         } = &self.particles;
@@ -138,7 +138,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         self.refresh()
     }
 
-    fn keep_histories(&self, start: &mut Start<T::History>) {
+    fn keep_histories(&self, start: &mut StepStart<T::History>) {
         if Self::HAS_HISTORY {
             start.pair_history.clone_from(&self.pair_history);
             for (kept, wall) in start.wall_history.iter_mut().zip(&self.walls) {
@@ -150,7 +150,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         }
     }
 
-    fn put_back_histories(&mut self, start: &Start<T::History>) {
+    fn put_back_histories(&mut self, start: &StepStart<T::History>) {
         if Self::HAS_HISTORY {
             self.pair_history.copy_from_slice(&start.pair_history);
             for (wall, kept) in self.walls.iter_mut().zip(&start.wall_history) {

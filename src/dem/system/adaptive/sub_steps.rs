@@ -3,7 +3,7 @@
 use super::islands::{Island, IslandContacts};
 use super::kick;
 use super::workspace::Workspace;
-use crate::dem::bodies::Spheres;
+use crate::dem::bodies::SphereRows;
 use crate::dem::system::System;
 use crate::dem::system::candidates::Candidates;
 use crate::dem::system::contact_laws::Loading;
@@ -146,7 +146,7 @@ impl<N: NormalLaw, T: TangentialLaw> System<N, T> {
         histories: &mut IslandHistories<T::History>,
     ) {
         let settings = self.settings();
-        let mut spheres = Spheres::new(&mut self.particles, &[]);
+        let mut spheres = SphereRows::new(&mut self.particles, &[]);
         let (partners, [force, torque]) = Partners::of(&mut spheres, &self.earlier);
         let sums = Sums {
             first: 0,

@@ -18,7 +18,7 @@ const LEEWAY: f64 = 1e-4;
 /// Buffers of a step of the scheme. They carry nothing from one step to the next.
 #[derive(Default)]
 pub(in crate::dem::system) struct Workspace<H> {
-    pub(super) start: Start<H>,
+    pub(super) start: StepStart<H>,
     pub(super) held: Held,
     /// Forces and torques of the effects in the middle of the step.
     pub(super) force: Vec<Vector>,
@@ -51,7 +51,7 @@ pub(super) struct Held {
 
 /// The spheres at the start of a step.
 #[derive(Default)]
-pub(super) struct Start<H> {
+pub(super) struct StepStart<H> {
     pub(super) position: Vec<Vector>,
     pub(super) velocity: Vec<Vector>,
     pub(super) spin: Vec<Vector>,
@@ -63,7 +63,7 @@ pub(super) struct Start<H> {
     pub(super) rolling: RollingSprings,
 }
 
-impl<H: Copy> Start<H> {
+impl<H: Copy> StepStart<H> {
     pub(super) fn keep(&mut self, particles: &Particles) {
         self.position.clone_from(&particles.position);
         self.velocity.clone_from(&particles.velocity);
