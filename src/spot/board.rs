@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Slot of a sphere, and its new centre (m).
-type Moved = (u32, [f64; 3]);
+type MovedSphere = (u32, [f64; 3]);
 
 /// Reports of one thread to the strips below and above.
 #[derive(Debug, Default)]
@@ -14,7 +14,7 @@ type Moved = (u32, [f64; 3]);
 pub(super) struct Board {
     /// How many of the moves that it shares have been made.
     shared: AtomicU32,
-    moved: [Mutex<Vec<Moved>>; 2],
+    moved: [Mutex<Vec<MovedSphere>>; 2],
 }
 
 impl Board {
@@ -62,7 +62,7 @@ impl Board {
 
 /// What was taken from a board.
 #[derive(Debug, Default)]
-pub(super) struct Inbox(Vec<Moved>);
+pub(super) struct Inbox(Vec<MovedSphere>);
 
 /// Locks, even if another thread panicked while it held the lock.
 pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {

@@ -1,15 +1,15 @@
 //! Insertions and moves in the order of time: section 2 of Rycroft, Wong and Bazant (2010). Their
 //! listing has the two branches swapped.
 
-use super::guard::{Failure, Fault};
+use super::guard::{Fault, SpotFailure};
 use super::parameters::Relaxation;
-use super::simulation::Simulation;
-use super::walk::Spot;
+use super::simulation::SpotSimulation;
+use super::walk::MovingSpot;
 use crate::particles::vector::Vector;
 
-impl Simulation {
+impl SpotSimulation {
     /// Lets all insertions and moves up to a time happen (s).
-    pub(super) fn events_until(&mut self, time: f64) -> Result<(), Failure> {
+    pub(super) fn events_until(&mut self, time: f64) -> Result<(), SpotFailure> {
         loop {
             let global = self.next_global_relaxation();
             // Written so that a NaN time ends it too.
@@ -58,7 +58,7 @@ impl Simulation {
     /// Inserts a spot at the centre of the orifice.
     pub(super) fn insert(&mut self) {
         self.counts.inserted += 1;
-        self.spots.push(Spot {
+        self.spots.push(MovingSpot {
             position: Vector::ZERO,
             moves: 0,
         });

@@ -6,9 +6,9 @@ use std::fmt;
 /// What ended a simulation, when and where.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{guard} guard at move {moves} (t = {time:.6} s) at {place:?}{}: {detail}", of(*.sphere))]
-pub struct Failure {
+pub struct SpotFailure {
     /// Which guard.
-    pub guard: Guard,
+    pub guard: SpotGuard,
     /// Moves of spots made before it.
     pub moves: u64,
     /// Time (s).
@@ -27,7 +27,7 @@ fn of(sphere: Option<u32>) -> String {
 
 /// What is guarded against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Guard {
+pub enum SpotGuard {
     /// A displacement is not a number: two centres coincide.
     NotANumber,
     /// A sphere was displaced by more than half a diameter at once.
@@ -38,7 +38,7 @@ pub enum Guard {
     EmptySpot,
 }
 
-impl Guard {
+impl SpotGuard {
     /// Name, as in records and tables.
     pub fn name(self) -> &'static str {
         match self {
@@ -50,7 +50,7 @@ impl Guard {
     }
 }
 
-impl fmt::Display for Guard {
+impl fmt::Display for SpotGuard {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(self.name())
     }
@@ -59,7 +59,7 @@ impl fmt::Display for Guard {
 /// A broken guard where time and count of moves are not known.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Fault {
-    pub(crate) guard: Guard,
+    pub(crate) guard: SpotGuard,
     pub(crate) place: Vector,
     /// Slot of the sphere in the arrays, if it is one.
     pub(crate) slot: Option<u32>,

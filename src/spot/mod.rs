@@ -42,10 +42,10 @@ mod worker;
 
 pub use check::ParameterError;
 pub use drainage::SpotModel;
-pub use guard::{Failure, Guard};
+pub use guard::{SpotFailure, SpotGuard};
 pub use parameters::{
-    Influence, Orifice, Parameters, Relaxation, SPOT_VOLUME_RATIO, Schedule, Walk,
+    Influence, Parameters, Relaxation, SPOT_VOLUME_RATIO, Schedule, SpotOpening, Walk,
 };
-pub use simulation::Simulation;
-pub use state::{Counts, StartError};
-pub use walk::Spot;
+pub use simulation::SpotSimulation;
+pub use state::{SpotCounts, SpotError};
+pub use walk::MovingSpot;

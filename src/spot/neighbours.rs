@@ -1,7 +1,7 @@
 //! Which spheres are near each sphere, so that the removal of overlaps tests only these.
 
-use super::cells::Cells;
-use super::guard::{Fault, Guard};
+use super::cells::SphereCells;
+use super::guard::{Fault, SpotGuard};
 use super::threads::in_parallel;
 use crate::particles::block::ROWS;
 use crate::particles::vector::Vector;
@@ -19,11 +19,11 @@ const LEAST: usize = 16;
 const TASK: usize = 1024;
 
 /// Number of a task, and the numbers of neighbours and the lists that it fills.
-type Task<'a> = (usize, (&'a mut [u32], &'a mut [u32]));
+type ListTask<'a> = (usize, (&'a mut [u32], &'a mut [u32]));
 
 /// Lists of neighbours, all of the same length, padded with the slot of a dummy sphere far away.
 #[derive(Clone, Debug)]
-pub(crate) struct Neighbours {
+pub(crate) struct NeighbourLists {
     /// Length of each list.
     pub(crate) width: usize,
     /// Number of neighbours of each sphere, and of the dummy.
@@ -32,7 +32,7 @@ pub(crate) struct Neighbours {
     pub(crate) slot: Vec<u32>,
 }
 
-impl Neighbours {
+impl NeighbourLists {
     pub(crate) fn new() -> Self {
         Self {
             width: LEAST,
@@ -46,7 +46,7 @@ impl Neighbours {
     pub(crate) fn find(
         &mut self,
         level: Level,
-        cells: &Cells,
+        cells: &SphereCells,
         position: &[Vector],
         reach: &[f64],
     ) -> Result<(), Fault> {
@@ -61,7 +61,7 @@ impl Neighbours {
             let counts = self.count[..spheres].chunks_mut(TASK);
             let lists = self.slot[..spheres * width].chunks_mut(TASK * width);
             let mut tasks: Vec<_> = counts.zip(lists).enumerate().collect();
-            in_parallel(&mut tasks, &|(task, (count, slot)): &mut Task<'_>| {
+            in_parallel(&mut tasks, &|(task, (count, slot)): &mut ListTask<'_>| {
                 let first = *task * TASK;
                 fearless_simd::dispatch!(level, simd => {
                     columns.list(simd, cells, (first, &reach[first..]), (&mut *count, &mut *slot));
@@ -83,7 +83,7 @@ impl Neighbours {
         let slot = self.count.iter().position(crowded).unwrap_or(0);
         let (count, reach) = (self.count[slot], reach[slot]);
         Fault {
-            guard: Guard::Crowded,
+            guard: SpotGuard::Crowded,
             place: position[slot],
             slot: Some(slot as u32),
             detail: format!("{count} spheres within {reach} m, more than {MOST}"),
@@ -108,7 +108,7 @@ impl Coordinates {
     fn list<S: Simd>(
         &self,
         simd: S,
-        cells: &Cells,
+        cells: &SphereCells,
         (first, reach): (usize, &[f64]),
         (count, slot): (&mut [u32], &mut [u32]),
     ) {

@@ -13,7 +13,7 @@ pub struct Parameters {
     /// Half of the depth of the box along y (m).
     pub half_depth: f64,
     /// The opening in the floor z = 0.
-    pub orifice: Orifice,
+    pub orifice: SpotOpening,
     /// Diameter d of the spheres (m).
     pub diameter: f64,
     /// Spots move spheres whose centres are nearer than this radius r_s (m).
@@ -48,7 +48,7 @@ pub struct Parameters {
 
 /// The opening in the floor, around the origin.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum Orifice {
+pub enum SpotOpening {
     /// A circle of this radius (m).
     Circle {
         /// (m)
@@ -139,7 +139,7 @@ impl Parameters {
         Self {
             half_width: 25.0 * d,
             half_depth: 4.0 * d,
-            orifice: Orifice::Circle { radius: 4.0 * d },
+            orifice: SpotOpening::Circle { radius: 4.0 * d },
             diameter: d,
             spot_radius: 2.6 * d,
             relaxation_radius: 3.6 * d,

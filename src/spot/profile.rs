@@ -8,7 +8,7 @@ use crate::simulation::{PartOfStep, Profile};
 
 /// A part of a drainage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum DrainagePart {
     /// Spots choose their steps and move spheres in the opposite direction.
     Spots,
     /// Overlaps are removed.
@@ -17,7 +17,7 @@ pub(super) enum Part {
     Order,
 }
 
-impl Part {
+impl DrainagePart {
     const ALL: [Self; 3] = [Self::Spots, Self::Relaxation, Self::Order];
 
     fn name(self) -> &'static str {
@@ -31,21 +31,21 @@ impl Part {
 
 /// The parts of a drainage, with or without relaxation.
 pub(super) fn parts(relaxes: bool) -> Vec<PartOfStep> {
-    let part = |part: Part| PartOfStep {
+    let part = |part: DrainagePart| PartOfStep {
         name: part.name(),
-        is_present: part != Part::Relaxation || relaxes,
+        is_present: part != DrainagePart::Relaxation || relaxes,
         // Work done once per frame counts as theirs.
-        is_between_steps: part == Part::Spots,
+        is_between_steps: part == DrainagePart::Spots,
     };
-    Part::ALL.map(part).to_vec()
+    DrainagePart::ALL.map(part).to_vec()
 }
 
 /// A profile, if there is one.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Clock(Option<Box<Measured>>);
+pub(crate) struct Clock(Option<Box<MeasuredMoves>>);
 
 #[derive(Clone, Debug)]
-struct Measured {
+struct MeasuredMoves {
     profile: Profile,
     /// Moves begun so far.
     begun: u64,
@@ -54,8 +54,8 @@ struct Measured {
 impl Clock {
     /// One that measures from now on.
     pub(super) fn started() -> Self {
-        Self(Some(Box::new(Measured {
-            profile: Profile::new(Part::ALL.len(), Part::Spots as usize),
+        Self(Some(Box::new(MeasuredMoves {
+            profile: Profile::new(DrainagePart::ALL.len(), DrainagePart::Spots as usize),
             begun: 0,
         })))
     }
@@ -83,7 +83,7 @@ impl Clock {
 
     /// Ends a part of a move.
     #[inline(always)]
-    pub(super) fn mark(&mut self, part: Part) {
+    pub(super) fn mark(&mut self, part: DrainagePart) {
         self.each(|it| it.profile.mark(part as usize));
     }
 
@@ -99,12 +99,12 @@ impl Clock {
     }
 
     /// Ends it; all of its time belongs to one part.
-    pub(super) fn end_whole(&mut self, part: Part) {
+    pub(super) fn end_whole(&mut self, part: DrainagePart) {
         self.each(|it| it.profile.end_whole(part as usize));
     }
 
     #[inline(always)]
-    fn each(&mut self, then: impl FnOnce(&mut Measured)) {
+    fn each(&mut self, then: impl FnOnce(&mut MeasuredMoves)) {
         if let Some(measured) = &mut self.0 {
             then(measured);
         }

@@ -1,13 +1,13 @@
 //! The complete state of a simulation, which checkpoints hold.
 
 use super::slack::Wear;
-use super::walk::Spot;
+use super::walk::MovingSpot;
 use crate::particles::vector::Vector;
 use serde::{Deserialize, Serialize};
 
 /// Everything on which the rest of a simulation depends, besides its parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct State {
+pub(crate) struct SpotState {
     pub(crate) seed: u64,
     /// Up to which time everything has happened (s).
     pub(crate) time: f64,
@@ -16,7 +16,7 @@ pub(crate) struct State {
     /// Number of steps so far.
     pub(crate) steps: u64,
     /// Spots, in order of insertion if they move in steps.
-    pub(crate) spots: Vec<Spot>,
+    pub(crate) spots: Vec<MovingSpot>,
     /// Centres in the order of the last sorting (m).
     pub(crate) position: Vec<Vector>,
     /// The same at the time of the sorting (m).
@@ -29,14 +29,14 @@ pub(crate) struct State {
     /// If the newest spots move first: number of present spots that move in the lower part of the
     /// next step.
     pub(crate) lower: u32,
-    pub(crate) counts: Counts,
+    pub(crate) counts: SpotCounts,
     /// Number of random numbers drawn for the walk, and for relaxations.
     pub(crate) drawn: [u64; 2],
 }
 
 /// What has happened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Counts {
+pub struct SpotCounts {
     /// Spots inserted.
     pub inserted: u64,
     /// Spots removed above the packing.
@@ -53,7 +53,7 @@ pub struct Counts {
 
 /// Why a simulation cannot start or be restored.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum StartError {
+pub enum SpotError {
     /// A parameter is invalid.
     #[error(transparent)]
     Parameter(#[from] super::check::ParameterError),
@@ -70,7 +70,7 @@ pub enum StartError {
     TooMany(usize),
     /// Spheres are too near each other for lists of neighbours.
     #[error("{0}")]
-    Failure(Box<super::guard::Failure>),
+    Failure(Box<super::guard::SpotFailure>),
     /// A checkpoint cannot be read.
     #[error("not a checkpoint of a spot simulation: {0}")]
     Checkpoint(String),
@@ -82,7 +82,7 @@ pub enum StartError {
     Threads(String),
 }
 
-impl State {
+impl SpotState {
     /// Finds what would make the engine fail: arrays of different lengths, numbers out of range.
     pub(crate) fn check(&self) -> Result<(), String> {
         let spheres = self.id.len();

@@ -6,14 +6,14 @@
 //! which it touches only where they meet. Spheres are sorted between the parts, so that the bits do
 //! not depend on whether this is done.
 
-use super::batch::{Batch, Move};
-use super::guard::{Failure, Fault};
+use super::batch::{Move, MoveBatch};
+use super::guard::{Fault, SpotFailure};
 use super::parameters::{Relaxation, Schedule};
-use super::simulation::Simulation;
+use super::simulation::SpotSimulation;
 
-impl Simulation {
+impl SpotSimulation {
     /// Makes all steps that end by a time (s).
-    pub(super) fn steps_until(&mut self, time: f64) -> Result<(), Failure> {
+    pub(super) fn steps_until(&mut self, time: f64) -> Result<(), SpotFailure> {
         let made = match self.model.parameters.schedule {
             Schedule::StepsNewestFirst => self.steps_newest_first(time),
             _ => self.steps_in_random_order(time),
@@ -151,7 +151,7 @@ impl Simulation {
         gone: &mut [bool],
         apart: bool,
     ) -> (usize, Result<(), Fault>) {
-        let batch = Batch {
+        let batch = MoveBatch {
             model: &self.model,
             arrangement: &self.arrangement,
             spots: &self.spots,

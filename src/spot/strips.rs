@@ -39,14 +39,14 @@ pub(super) struct Planner {
 
 /// Moves in strips.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Plan {
+pub(super) struct StripPlan {
     pub(super) strips: Vec<Strip>,
     /// Layer of cells of each move.
     layers: Vec<u32>,
     /// Layers of cells at which strips other than the lowest begin.
     edges: Vec<usize>,
     /// Moves within reach of each edge, below and above it.
-    near: Vec<[Near; 2]>,
+    near: Vec<[NearMoves; 2]>,
 }
 
 /// The moves of one strip and its spheres.
@@ -75,7 +75,7 @@ pub(super) struct Turn {
 }
 
 /// Centres of moves, and how many moves their strip has shared with each.
-type Near = Vec<(Vector, u32)>;
+type NearMoves = Vec<(Vector, u32)>;
 
 impl Planner {
     pub(super) fn new(parameters: &Parameters, slack: Slack) -> Self {
@@ -116,7 +116,7 @@ impl Planner {
     /// they are known (m); `costs` are the times of a move in each of the last strips, in any unit.
     pub(super) fn divide(
         &self,
-        plan: &mut Plan,
+        plan: &mut StripPlan,
         arrangement: &Arrangement,
         (moves, centre): (usize, impl Fn(usize) -> Vector),
         (most, costs): (usize, &[f64]),
@@ -150,7 +150,7 @@ impl Planner {
     /// Adds a move to a strip. Layers have this height (m).
     fn add(
         &self,
-        plan: &mut Plan,
+        plan: &mut StripPlan,
         (number, centre): (usize, impl Fn(usize) -> Vector),
         (own, height): (usize, f64),
     ) {
@@ -179,7 +179,7 @@ impl Planner {
     }
 
     /// Creates empty strips between the edges of a plan.
-    fn begin(&self, plan: &mut Plan, arrangement: &Arrangement) {
+    fn begin(&self, plan: &mut StripPlan, arrangement: &Arrangement) {
         let (layers, height) = arrangement.cells.layers();
         let halo = |distance: f64| (distance / height) as usize + 1;
         let (watched, seen) = (halo(self.watched), halo(self.seen));
@@ -189,7 +189,7 @@ impl Planner {
         };
         let count = plan.edges.len() + 1;
         plan.strips.resize_with(count, Strip::default);
-        plan.near.resize_with(count - 1, <[Near; 2]>::default);
+        plan.near.resize_with(count - 1, <[NearMoves; 2]>::default);
         plan.near.iter_mut().flatten().for_each(Vec::clear);
         let starts = std::iter::once(0).chain(plan.edges.iter().copied());
         let ends = plan.edges.iter().copied().chain([layers]);
@@ -203,7 +203,7 @@ impl Planner {
     }
 
     /// How many moves the other strip must have shared before a move with this centre.
-    fn latest(&self, others: &Near, centre: Vector) -> u32 {
+    fn latest(&self, others: &NearMoves, centre: Vector) -> u32 {
         let mut others = others.iter().rev();
         let conflicting = |(other, _): &&(Vector, u32)| self.conflict(*other, centre);
         let found = others.by_ref().take(LOOKED_UP).find(conflicting);
@@ -243,20 +243,20 @@ fn strips_of_layers(edges: &[usize], layers: usize) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spot::random::Stream;
+    use crate::spot::random::RandomStream;
     use crate::spot::samples;
 
     #[test]
     fn moves_wait_for_earlier_ones_beyond_the_edge() {
         let simulation = samples::simulation(|_| {});
         let planner = Planner::new(&simulation.model.parameters, simulation.model.slack);
-        let mut random = Stream::new("strips", 1);
+        let mut random = RandomStream::new("strips", 1);
         let mut place = || {
             let x = 14.0 * random.uniform() - 7.0;
             Vector::new(x, 0.0, 16.0 * random.uniform())
         };
         let centres: Vec<Vector> = (0..400).map(|_| place()).collect();
-        let mut plan = Plan::default();
+        let mut plan = StripPlan::default();
         let moves = (centres.len(), |number| centres[number]);
         planner.divide(&mut plan, &simulation.arrangement, moves, (2, &[]));
         let [below, above] = &plan.strips[..] else {

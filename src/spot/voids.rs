@@ -4,7 +4,7 @@
 //! with one of the two grains above it, each with probability 1/2. If only one of these sites has a
 //! grain, it is chosen; if neither has, the void is at the surface and ends.
 
-use super::random::Stream;
+use super::random::RandomStream;
 
 /// Distance of rows, in units of the distance of sites in a row.
 pub const ROW_HEIGHT: f64 = 0.866_025_403_784_438_6;
@@ -19,7 +19,7 @@ pub struct VoidSilo {
     grain: Vec<Option<u32>>,
     /// The site of each grain, until it has left.
     site: Vec<Option<u32>>,
-    random: Stream,
+    random: RandomStream,
 }
 
 impl VoidSilo {
@@ -35,7 +35,7 @@ impl VoidSilo {
             orifice: [(columns - orifice) / 2, orifice],
             grain: (0..sites).map(Some).collect(),
             site: (0..sites).map(Some).collect(),
-            random: Stream::new("voids", seed),
+            random: RandomStream::new("voids", seed),
         })
     }
 

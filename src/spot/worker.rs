@@ -3,13 +3,13 @@
 //! It has its own copy of the positions that its moves read. While a move has to wait for one in
 //! another strip, later independent moves are made.
 
-use super::batch::{Batch, Done};
+use super::batch::{MadeMove, MoveBatch};
 use super::board::{Board, Inbox};
 use super::guard::Fault;
 use super::model::Scratch;
 use super::region::NOWHERE;
 use super::slack::Wear;
-use super::strips::{ABOVE, BELOW, Plan, Planner, Strip, Turn};
+use super::strips::{ABOVE, BELOW, Planner, Strip, StripPlan, Turn};
 use crate::particles::block::ROWS;
 use crate::particles::vector::Vector;
 use std::collections::VecDeque;
@@ -35,7 +35,7 @@ pub(super) struct Worker {
     /// What another thread has moved.
     inbox: Inbox,
     pub(super) scratch: Scratch,
-    pub(super) done: Vec<Done>,
+    pub(super) done: Vec<MadeMove>,
     /// The guard that a move broke.
     pub(super) fault: Option<Fault>,
     /// Moves that wait for other threads, and moves that must follow them, in order.
@@ -47,10 +47,10 @@ pub(super) struct Worker {
 
 /// What the threads share.
 #[derive(Clone, Copy)]
-pub(super) struct Task<'a> {
-    pub(super) batch: &'a Batch<'a>,
+pub(super) struct StripTask<'a> {
+    pub(super) batch: &'a MoveBatch<'a>,
     pub(super) planner: &'a Planner,
-    pub(super) plan: &'a Plan,
+    pub(super) plan: &'a StripPlan,
     pub(super) boards: &'a [Board],
     /// Only moves with smaller numbers are made.
     pub(super) end: &'a AtomicUsize,
@@ -62,7 +62,7 @@ pub(super) struct Task<'a> {
 
 impl Worker {
     /// Makes the moves of a strip. `position` are the centres before the batch (m).
-    pub(super) fn make_moves(&mut self, task: &Task<'_>, position: &[Vector]) {
+    pub(super) fn make_moves(&mut self, task: &StripTask<'_>, position: &[Vector]) {
         let start = Instant::now();
         let strip = &task.plan.strips[task.own];
         self.begin(strip, (position, task.wear));
@@ -97,7 +97,7 @@ impl Worker {
     /// The move that can be made next; `None` at the end. Waits if there is nothing else to do.
     fn next_turn<'a>(
         &mut self,
-        task: &Task<'_>,
+        task: &StripTask<'_>,
         turns: &mut Peekable<impl Iterator<Item = &'a Turn>>,
     ) -> Option<Turn> {
         loop {
@@ -120,7 +120,7 @@ impl Worker {
     }
 
     /// Whether a move depends neither on other threads nor on moves that wait.
-    fn may_be_made(&self, task: &Task<'_>, turn: &Turn) -> bool {
+    fn may_be_made(&self, task: &StripTask<'_>, turn: &Turn) -> bool {
         if self.waiting.is_empty() {
             return task.is_ready(turn);
         }
@@ -133,7 +133,7 @@ impl Worker {
     }
 
     /// Makes a move. If it ends the batch, later moves are no longer made.
-    fn make(&mut self, task: &Task<'_>, turn: &Turn) {
+    fn make(&mut self, task: &StripTask<'_>, turn: &Turn) {
         for (side, neighbour) in sides(task.own).filter(|(side, _)| turn.after[*side] > 0) {
             // Seen from the neighbour, this strip is on the other side.
             let board = &task.boards[neighbour];
@@ -157,7 +157,7 @@ impl Worker {
     }
 
     /// Reports a move to the neighbours. `shared` is the number of moves shared so far.
-    fn share(&self, task: &Task<'_>, turn: &Turn, shared: u32) {
+    fn share(&self, task: &StripTask<'_>, turn: &Turn, shared: u32) {
         let board = &task.boards[task.own];
         for (side, neighbour) in sides(task.own).filter(|(side, _)| turn.shared[*side]) {
             let slots = self.scratch.moved.iter().chain(&self.scratch.relaxed);
@@ -177,7 +177,7 @@ impl Worker {
     }
 }
 
-impl Task<'_> {
+impl StripTask<'_> {
     /// Whether the moves of other strips on which a move depends have been made.
     fn is_ready(&self, turn: &Turn) -> bool {
         let after = sides(self.own).filter(|(side, _)| turn.after[*side] > 0);

@@ -3,7 +3,7 @@
 use super::bench::Bench;
 use super::{Family, Measured, VerifyError, named};
 use crate::particles::vector::Vector;
-use crate::spot::{Orifice, Parameters, Relaxation, Schedule, Simulation};
+use crate::spot::{Parameters, Relaxation, Schedule, SpotOpening, SpotSimulation};
 use serde::Deserialize;
 use std::f64::consts::PI;
 
@@ -47,7 +47,7 @@ impl Family for SpotFlow {
     fn measure(&self, _: &mut Bench<'_>) -> Result<Measured, VerifyError> {
         let spots = |error: &dyn std::fmt::Display| VerifyError::Spots(error.to_string());
         let parameters = self.parameters();
-        let mut simulation = Simulation::new(parameters, &self.lattice(), self.seed)
+        let mut simulation = SpotSimulation::new(parameters, &self.lattice(), self.seed)
             .map_err(|error| spots(&error))?;
         let before = match self.flow_from {
             None => None,
@@ -110,7 +110,7 @@ impl SpotFlow {
     /// the number density n of the spheres and the volume V_s of a spot; and the second moment of
     /// their displacements along x over the value from the walk and the ball of a spot, (z / dz)
     /// dx^2 + r_s^2 / 5.
-    fn flow(&self, simulation: &Simulation, before: &[Option<Vector>], time: f64) -> [f64; 2] {
+    fn flow(&self, simulation: &SpotSimulation, before: &[Option<Vector>], time: f64) -> [f64; 2] {
         let parameters = simulation.parameters();
         let [low, high] = LAYER;
         let (mut sum, mut moment, mut middle) = (0.0, 0.0, 0.0);
@@ -143,7 +143,7 @@ impl SpotFlow {
         Parameters {
             half_width: 0.5 * self.sides[0],
             half_depth: 0.5 * self.sides[1],
-            orifice: Orifice::Circle { radius: 4.0 },
+            orifice: SpotOpening::Circle { radius: 4.0 },
             step: [across, across, up],
             insertion_rate: self.rates[0],
             move_rate: self.rates[1],

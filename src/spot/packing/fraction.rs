@@ -1,7 +1,7 @@
 //! The packing fraction in the middle of a box.
 
 use crate::particles::vector::Vector;
-use crate::spot::cells::Cells;
+use crate::spot::cells::SphereCells;
 use crate::spot::parameters::Parameters;
 
 /// Distance of the middle from floor and top, in diameters.
@@ -26,7 +26,7 @@ pub fn packing_fraction(parameters: &Parameters, centres: &[Vector]) -> f64 {
     if top < 8.0 * d || is_narrow {
         return 0.0;
     }
-    let mut cells = Cells::new(d, halves, top);
+    let mut cells = SphereCells::new(d, halves, top);
     let order = cells.sort(centres);
     let sorted: Vec<Vector> = order.iter().map(|&it| centres[it as usize]).collect();
     let step = d / RESOLUTION;

@@ -12,8 +12,8 @@ mod fraction;
 mod of_scene;
 
 use super::parameters::{Parameters, Relaxation};
-use super::random::Stream;
-use super::state::StartError;
+use super::random::RandomStream;
+use super::state::SpotError;
 use super::threads::Workers;
 use crate::particles::vector::Vector;
 use fire::Minimizer;
@@ -49,7 +49,7 @@ const INFLATION: f64 = 1e-3;
 pub enum PackingError {
     /// A parameter is invalid, or threads cannot be started.
     #[error(transparent)]
-    Start(#[from] StartError),
+    Start(#[from] SpotError),
     /// There are no spheres.
     #[error("a packing needs at least one sphere")]
     NoSpheres,
@@ -82,8 +82,8 @@ pub fn random_packing(
     if spheres == 0 {
         return Err(PackingError::NoSpheres);
     }
-    parameters.check_box().map_err(StartError::from)?;
-    let workers = Workers::new(threads).map_err(|it| StartError::Threads(it.to_string()))?;
+    parameters.check_box().map_err(SpotError::from)?;
+    let workers = Workers::new(threads).map_err(|it| SpotError::Threads(it.to_string()))?;
     workers.install(|| lower_lid(parameters, spheres, seed))
 }
 
@@ -102,8 +102,11 @@ fn lower_lid(
         relaxation_strength: 1.0,
         ..parameters.clone()
     };
-    let mut minimizer =
-        Minimizer::new(&inflated, parameters.diameter, Stream::new("shaking", seed));
+    let mut minimizer = Minimizer::new(
+        &inflated,
+        parameters.diameter,
+        RandomStream::new("shaking", seed),
+    );
     let mut centres = random_centres(&inflated, height, spheres, seed);
     while !minimizer.push_apart(&mut centres, height)? {
         if height > HIGHEST * spheres as f64 * diameter {
@@ -130,7 +133,7 @@ fn lower_lid(
 
 /// Centres at random between the walls, the floor and a lid.
 fn random_centres(parameters: &Parameters, height: f64, spheres: usize, seed: u64) -> Vec<Vector> {
-    let mut random = Stream::new("start packing", seed);
+    let mut random = RandomStream::new("start packing", seed);
     let radius = 0.5 * parameters.diameter;
     let halves = [parameters.half_width, parameters.half_depth];
     let mut place = || {

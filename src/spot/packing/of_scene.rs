@@ -5,7 +5,7 @@ use crate::scene::Scene;
 use crate::spot::parameters::Parameters;
 
 /// The quantities on which a packing depends.
-struct Choice {
+struct PackingKey {
     /// Version of the method: another version makes other packings.
     version: u32,
     spheres: usize,
@@ -18,7 +18,7 @@ struct Choice {
 /// Version of the method.
 const VERSION: u32 = 3;
 
-impl Choice {
+impl PackingKey {
     fn of(scene: &Scene) -> Self {
         let tank = scene.tank.clone().unwrap_or_default();
         Self {
@@ -34,7 +34,7 @@ impl Choice {
 /// The name of the packing that a scene starts with: scenes with the same name start with the same
 /// packing. The height of the floor and everything else in the scene do not matter.
 pub fn name(scene: &Scene) -> String {
-    let choice = Choice::of(scene);
+    let choice = PackingKey::of(scene);
     let text = format!(
         "{} {} {:?} {:?} {}",
         choice.version, choice.spheres, choice.radius, choice.sides, choice.seed
@@ -47,7 +47,7 @@ pub fn name(scene: &Scene) -> String {
 /// # Errors
 /// If the spheres cannot be pushed apart.
 pub fn make(scene: &Scene, threads: usize) -> Result<Vec<[f64; 3]>, PackingError> {
-    let choice = Choice::of(scene);
+    let choice = PackingKey::of(scene);
     let diameter = 2.0 * choice.radius;
     let [half_width, half_depth] = choice.sides.map(|side| 0.5 * side);
     let parameters = Parameters {
