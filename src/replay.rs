@@ -2,7 +2,7 @@
 
 mod states;
 
-pub use states::{Moment, StatesError, WrittenState, replay_states};
+pub use states::{StateTime, StatesError, WrittenState, replay_states};
 
 use crate::observe::{FrameView, Observer};
 use crate::record::{Guard, Instability, Outcome, Program, RunRecord};

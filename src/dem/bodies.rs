@@ -10,7 +10,7 @@
 use super::neighbours::Reference;
 use super::threads::{split, split_shared};
 use crate::particles::Particles;
-use crate::particles::block::{BLOCK, Columns, ROWS, row};
+use crate::particles::block::{BLOCK, ROWS, VectorColumns, row};
 use crate::particles::bodies::{Asked, Bodies};
 use crate::particles::vector::Vector;
 use fearless_simd::Simd;
@@ -146,7 +146,7 @@ impl Bodies {
 }
 
 #[inline(always)]
-fn fill<S: Simd>(simd: S, columns: &mut Columns, vectors: &[Vector]) {
+fn fill<S: Simd>(simd: S, columns: &mut VectorColumns, vectors: &[Vector]) {
     if vectors.len() == BLOCK {
         columns.fill::<S>(
             #[inline(always)]
@@ -162,7 +162,7 @@ fn fill<S: Simd>(simd: S, columns: &mut Columns, vectors: &[Vector]) {
 }
 
 #[inline(always)]
-fn spread<S: Simd>(simd: S, columns: &Columns, vectors: &mut [Vector]) {
+fn spread<S: Simd>(simd: S, columns: &VectorColumns, vectors: &mut [Vector]) {
     let mut eights = vectors.chunks_exact_mut(ROWS);
     let mut at = 0;
     for eight in &mut eights {

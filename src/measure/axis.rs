@@ -2,7 +2,7 @@
 
 /// An axis along which something is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
+pub enum SpaceAxis {
     /// Across a box, from side wall to side wall.
     X,
     /// Through its depth.
@@ -11,7 +11,7 @@ pub enum Axis {
     Z,
 }
 
-impl Axis {
+impl SpaceAxis {
     /// Index of the coordinate along it.
     pub fn index(self) -> usize {
         self as usize

@@ -2,7 +2,7 @@
 
 use super::bins::Bins;
 use super::blocks::{Blocks, quotient};
-use super::{Axis, Region};
+use super::{Region, SpaceAxis};
 use crate::particles::vector::Vector;
 use crate::simulation::Snapshot;
 use crate::statistics::Estimate;
@@ -81,18 +81,18 @@ impl Diffusion {
     }
 
     /// Mean square of the displacement about the mean flow along an axis (m2).
-    pub fn mean_square(&self, axis: Axis) -> Option<Estimate> {
+    pub fn mean_square(&self, axis: SpaceAxis) -> Option<Estimate> {
         self.estimate(|total| total.mean_square(axis))
     }
 
     /// Diffusivity along an axis over the mean velocity, D / V (m): mean square of the displacement
     /// over twice the distance dropped.
-    pub fn length(&self, axis: Axis) -> Option<Estimate> {
+    pub fn length(&self, axis: SpaceAxis) -> Option<Estimate> {
         self.estimate(|total| quotient(total.mean_square(axis)?, 2.0 * total.drop()?))
     }
 
     /// Peclet number V d / D along an axis, for spheres of a diameter d (m).
-    pub fn peclet(&self, axis: Axis, diameter: f64) -> Option<Estimate> {
+    pub fn peclet(&self, axis: SpaceAxis, diameter: f64) -> Option<Estimate> {
         self.estimate(|total| quotient(2.0 * diameter * total.drop()?, total.mean_square(axis)?))
     }
 
@@ -134,7 +134,7 @@ impl Total {
         total
     }
 
-    fn mean_square(&self, axis: Axis) -> Option<f64> {
+    fn mean_square(&self, axis: SpaceAxis) -> Option<f64> {
         quotient(self.squares[axis.index()], self.freedom)
     }
 
@@ -238,10 +238,13 @@ mod tests {
                 usize::from((it.value - value).abs() < it.half_width)
             };
             let square = |axis: usize| deviation[axis] * deviation[axis];
-            covered[0] += covers(diffusion.mean_square(Axis::Y).unwrap(), square(1));
-            covered[1] += covers(diffusion.length(Axis::X).unwrap(), square(0) / (2.0 * fall));
+            covered[0] += covers(diffusion.mean_square(SpaceAxis::Y).unwrap(), square(1));
+            covered[1] += covers(
+                diffusion.length(SpaceAxis::X).unwrap(),
+                square(0) / (2.0 * fall),
+            );
             covered[2] += covers(
-                diffusion.peclet(Axis::Z, 1.0).unwrap(),
+                diffusion.peclet(SpaceAxis::Z, 1.0).unwrap(),
                 2.0 * fall / square(2),
             );
             covered[3] += covers(diffusion.drop().unwrap(), fall);
@@ -263,7 +266,8 @@ mod tests {
             let [before, after] = walk(&mut random, 60_000, sheared, deviation);
             let mut diffusion = Diffusion::new(REGION, 2.0);
             diffusion.add(&before, &after);
-            [Axis::X, Axis::Y, Axis::Z].map(|axis| diffusion.mean_square(axis).unwrap().value)
+            [SpaceAxis::X, SpaceAxis::Y, SpaceAxis::Z]
+                .map(|axis| diffusion.mean_square(axis).unwrap().value)
         };
         for square in squares([0.0; 3]) {
             assert!(square.abs() < 1e-12, "{square}");
@@ -283,11 +287,15 @@ mod tests {
         }
         let mut diffusion = Diffusion::new(REGION, 2.0);
         diffusion.add(&before, &after);
-        for (axis, expected) in [(Axis::X, 0.01), (Axis::Y, 0.0), (Axis::Z, 0.01)] {
+        for (axis, expected) in [
+            (SpaceAxis::X, 0.01),
+            (SpaceAxis::Y, 0.0),
+            (SpaceAxis::Z, 0.01),
+        ] {
             let square = diffusion.mean_square(axis).unwrap().value;
             assert!((square - expected).abs() < 3e-4, "{axis:?}: {square}");
         }
-        assert_eq!(diffusion.peclet(Axis::Y, 1.0), None);
+        assert_eq!(diffusion.peclet(SpaceAxis::Y, 1.0), None);
     }
 
     #[test]
@@ -296,7 +304,7 @@ mod tests {
         let [before, after] = walk(&mut random, 20, |_| [0.0, 0.0, -1.0], [0.1; 3]);
         let mut diffusion = Diffusion::new(REGION, 1.0);
         diffusion.add(&before, &after);
-        assert_eq!(diffusion.peclet(Axis::X, 1.0), None);
+        assert_eq!(diffusion.peclet(SpaceAxis::X, 1.0), None);
         assert_eq!(diffusion.drop(), None);
     }
 }

@@ -1,7 +1,7 @@
 //! A box filled with spheres, and the regions in which drainages are measured.
 
 use super::voronoi::reach_of_cells;
-use super::{Centres, Region, Walls, voronoi_cells};
+use super::{CellBounds, Centres, Region, voronoi_cells};
 use crate::simulation::Snapshot;
 use std::f64::consts::PI;
 
@@ -62,7 +62,7 @@ impl FilledBox {
         let region = self.middle();
         let heights = centres.place.iter().map(|it| it.z);
         let top = heights.fold(self.floor + self.filled, f64::max);
-        let walls = Walls {
+        let walls = CellBounds {
             low: [-self.half_width, -self.half_depth, self.floor],
             high: [self.half_width, self.half_depth, top + 0.5 * self.diameter],
             farthest: reach_of_cells(&centres, &region, self.diameter),

@@ -35,7 +35,7 @@ impl FlowWidth {
     /// The velocity (m/s) of the fit at a place (m), with images in the same walls as in the fit.
     pub fn velocity(&self, place: f64, half_width: Option<f64>) -> f64 {
         let width = self.width.value;
-        self.amplitude.value * Shape { width, half_width }.at(place)
+        self.amplitude.value * GaussianShape { width, half_width }.at(place)
     }
 }
 
@@ -142,7 +142,7 @@ fn fit(profile: &VelocityProfile, half_width: Option<f64>, sums: &[f64]) -> Opti
     let most = half_width.map_or(WIDEST * farthest, |it| WIDEST_BETWEEN_WALLS * it);
     let ratio = libm::pow(most / least, 1.0 / f64::from(TRIALS));
     let width = |trial: u32| least * libm::pow(ratio, f64::from(trial));
-    let project = |width: f64| Projection::of(&points, &Shape { width, half_width });
+    let project = |width: f64| Projection::of(&points, &GaussianShape { width, half_width });
     let explained = |trial: &u32| project(width(*trial)).explained();
     let best = (0..=TRIALS).max_by(|one, other| explained(one).total_cmp(&explained(other)))?;
     if best == 0 || best == TRIALS {
@@ -160,12 +160,12 @@ fn fit(profile: &VelocityProfile, half_width: Option<f64>, sums: &[f64]) -> Opti
 }
 
 /// A Gaussian of amplitude 1, and its images in the walls if there are any (m).
-struct Shape {
+struct GaussianShape {
     width: f64,
     half_width: Option<f64>,
 }
 
-impl Shape {
+impl GaussianShape {
     fn at(&self, place: f64) -> f64 {
         let gaussian = |place: f64| {
             let deviations = place / self.width;
@@ -190,7 +190,7 @@ struct Projection {
 }
 
 impl Projection {
-    fn of(points: &[[f64; 2]], shape: &Shape) -> Self {
+    fn of(points: &[[f64; 2]], shape: &GaussianShape) -> Self {
         let (mut product, mut norm) = (0.0, 0.0);
         for [place, velocity] in points {
             let value = shape.at(*place);
@@ -232,7 +232,7 @@ fn golden_section([mut low, mut high]: [f64; 2], value: impl Fn(f64) -> f64) -> 
 mod tests {
     use super::*;
     use crate::measure::synthetic::{Random, falling};
-    use crate::measure::{Axis, Region};
+    use crate::measure::{Region, SpaceAxis};
 
     const HALF_WIDTH: f64 = 25.0;
     const WALLS: Option<f64> = Some(HALF_WIDTH);
@@ -246,7 +246,7 @@ mod tests {
         };
         let heights = [10.0, 20.0, 30.0, 40.0].into_iter();
         heights
-            .map(|height| VelocityProfile::new(Axis::X, layer(height), bins))
+            .map(|height| VelocityProfile::new(SpaceAxis::X, layer(height), bins))
             .collect()
     }
 

@@ -26,7 +26,7 @@ pub struct VelocityCorrelation {
 }
 
 /// A sphere half way between two snapshots.
-struct Moved {
+struct MidwaySphere {
     place: Vector,
     /// Displacement along x (m).
     displacement: f64,
@@ -53,10 +53,10 @@ impl VelocityCorrelation {
             region,
             counts: [0, 1, 2].map(count),
         };
-        let moved: Vec<Vec<Moved>> = pairs.iter().map(|pair| moved(&cells, *pair)).collect();
+        let moved: Vec<Vec<MidwaySphere>> = pairs.iter().map(|pair| moved(&cells, *pair)).collect();
         let mean = mean_flow(&cells, &moved);
         let width = farthest / bins as f64;
-        let row = |moved: &Vec<Moved>| row(moved, &mean, (width, bins));
+        let row = |moved: &Vec<MidwaySphere>| row(moved, &mean, (width, bins));
         Self {
             width,
             bins,
@@ -142,7 +142,7 @@ fn common_volume(distance: f64) -> f64 {
     }
 }
 
-fn moved(cells: &Bins, (before, after): (&Snapshot, &Snapshot)) -> Vec<Moved> {
+fn moved(cells: &Bins, (before, after): (&Snapshot, &Snapshot)) -> Vec<MidwaySphere> {
     let spheres = before
         .position
         .rows()
@@ -152,7 +152,7 @@ fn moved(cells: &Bins, (before, after): (&Snapshot, &Snapshot)) -> Vec<Moved> {
         // NaN, and so in no region, if a sphere has left.
         let middle = [0, 1, 2].map(|axis| 0.5 * (before[axis] + after[axis]));
         let place = Vector::from(middle);
-        Some(Moved {
+        Some(MidwaySphere {
             place,
             displacement: after[0] - before[0],
             bin: cells.index(place)?,
@@ -162,7 +162,7 @@ fn moved(cells: &Bins, (before, after): (&Snapshot, &Snapshot)) -> Vec<Moved> {
 }
 
 /// The mean displacement (m) in each cell.
-fn mean_flow(cells: &Bins, moved: &[Vec<Moved>]) -> Vec<f64> {
+fn mean_flow(cells: &Bins, moved: &[Vec<MidwaySphere>]) -> Vec<f64> {
     let (mut sums, mut counts) = (vec![0.0; cells.len()], vec![0.0; cells.len()]);
     for sphere in moved.iter().flatten() {
         sums[sphere.bin] += sphere.displacement;
@@ -174,7 +174,7 @@ fn mean_flow(cells: &Bins, moved: &[Vec<Moved>]) -> Vec<f64> {
         .collect()
 }
 
-fn row(moved: &[Moved], mean: &[f64], (width, bins): (f64, usize)) -> Vec<f64> {
+fn row(moved: &[MidwaySphere], mean: &[f64], (width, bins): (f64, usize)) -> Vec<f64> {
     let places: Vec<Vector> = moved.iter().map(|it| it.place).collect();
     let strays = moved.iter().map(|it| it.displacement - mean[it.bin]);
     let strays: Vec<f64> = strays.collect();

@@ -2,7 +2,7 @@
 
 use super::bins::Bins;
 use super::blocks::{Blocks, quotient};
-use super::{Axis, Region};
+use super::{Region, SpaceAxis};
 use crate::particles::vector::Vector;
 use crate::simulation::Snapshot;
 use crate::statistics::Estimate;
@@ -15,7 +15,7 @@ use crate::statistics::Estimate;
 /// longer than the correlation time of velocities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VelocityProfile {
-    axis: Axis,
+    axis: SpaceAxis,
     bins: Bins,
     /// For each pair of snapshots the sums of the velocities (m/s) in the bins, then the numbers of
     /// spheres.
@@ -33,7 +33,7 @@ pub struct ProfilePoint {
 
 impl VelocityProfile {
     /// No velocities yet; one or more bins of equal width divide the region along the axis.
-    pub fn new(axis: Axis, region: Region, bins: usize) -> Self {
+    pub fn new(axis: SpaceAxis, region: Region, bins: usize) -> Self {
         let mut counts = [1; 3];
         counts[axis.index()] = bins;
         Self {
@@ -139,7 +139,7 @@ mod tests {
         let [before, mut after] = fall(&mut random, |[x, _, _], _| 3.0 + x.floor());
         // One sphere has left.
         after.position.row_mut(17).fill(f64::NAN);
-        let mut profile = VelocityProfile::new(Axis::X, REGION, 10);
+        let mut profile = VelocityProfile::new(SpaceAxis::X, REGION, 10);
         assert!(profile.values().is_empty() && profile.mean().is_none());
         profile.add(&before, &after);
         for (bin, point) in profile.values().into_iter().enumerate() {
@@ -152,7 +152,7 @@ mod tests {
             high: [5.0, 1.0, 8.0],
             ..REGION
         };
-        let mut upwards = VelocityProfile::new(Axis::Z, above, 8);
+        let mut upwards = VelocityProfile::new(SpaceAxis::Z, above, 8);
         upwards.add(&before, &after);
         assert_eq!(upwards.values().len(), 4);
     }
@@ -160,7 +160,7 @@ mod tests {
     #[test]
     fn a_profile_across_the_depth_is_normalized() {
         let mut random = Random::new("normalized profile");
-        let mut profile = VelocityProfile::new(Axis::Y, REGION, 4);
+        let mut profile = VelocityProfile::new(SpaceAxis::Y, REGION, 4);
         for pair in 0..20 {
             // The flow as a whole fluctuates, its shape does not.
             let flow = 1.0 + 0.5 * f64::from(pair % 3);
@@ -182,7 +182,7 @@ mod tests {
         let mut random = Random::new("intervals of velocities");
         let (mut covered, mut all) = (0, 0);
         for _ in 0..20 {
-            let mut profile = VelocityProfile::new(Axis::X, REGION, 20);
+            let mut profile = VelocityProfile::new(SpaceAxis::X, REGION, 20);
             for _ in 0..10 {
                 let [before, after] = fall(&mut random, |_, random| 2.0 + random.normal());
                 profile.add(&before, &after);

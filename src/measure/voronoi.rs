@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 /// Boundaries of cells besides their neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Walls {
+pub struct CellBounds {
     /// The corner of the box with the least coordinates (m).
     pub low: [f64; 3],
     /// The corner with the largest coordinates (m).
@@ -28,12 +28,12 @@ pub struct VoronoiCell {
 /// The Voronoi cell of every sphere: all places nearer to its centre than to others, inside the
 /// walls. Planes between it and its neighbours, the nearest first, cut it out of the box until no
 /// remaining one can reach its corners (Rycroft, Chaos 19, 041111 (2009)).
-pub fn voronoi_cells(centres: &Centres, walls: &Walls) -> Vec<VoronoiCell> {
+pub fn voronoi_cells(centres: &Centres, walls: &CellBounds) -> Vec<VoronoiCell> {
     let count = centres.place.len() as f64;
     let extent = (0..3).map(|axis| (walls.high[axis] - walls.low[axis]).min(2.0 * walls.farthest));
     // Approximate distance of neighbours.
     let spacing = libm::cbrt(extent.product::<f64>() / count.max(1.0)).min(walls.farthest);
-    let mut search = Search {
+    let mut search = VoronoiSearch {
         grid: CellGrid::new(&centres.place, spacing),
         first: 1.5 * spacing,
         near: Vec::new(),
@@ -45,15 +45,15 @@ pub fn voronoi_cells(centres: &Centres, walls: &Walls) -> Vec<VoronoiCell> {
 }
 
 /// A search for the neighbours of one sphere after the other.
-struct Search<'a> {
+struct VoronoiSearch<'a> {
     grid: CellGrid<'a>,
     /// Distance of the first search (m).
     first: f64,
     near: Vec<(f64, Vector)>,
 }
 
-impl Search<'_> {
-    fn cell(&mut self, place: Vector, own: usize, walls: &Walls) -> VoronoiCell {
+impl VoronoiSearch<'_> {
+    fn cell(&mut self, place: Vector, own: usize, walls: &CellBounds) -> VoronoiCell {
         let at = [place.x, place.y, place.z];
         let farthest = walls.farthest;
         let side =
@@ -162,8 +162,8 @@ mod tests {
     use crate::measure::synthetic::{cubic, ideal_gas, of};
     use proptest::prelude::*;
 
-    fn walls(side: f64) -> Walls {
-        Walls {
+    fn walls(side: f64) -> CellBounds {
+        CellBounds {
             low: [0.0; 3],
             high: [side; 3],
             farthest: 1e3,
@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn at_a_free_surface_cells_end_at_the_farthest() {
-        let walls = Walls {
+        let walls = CellBounds {
             low: [-1.0; 3],
             high: [1.0, 1.0, f64::INFINITY],
             farthest: 3.0,
@@ -249,7 +249,7 @@ mod tests {
             for place in &mut gas.place {
                 place.z *= flat;
             }
-            let walls = Walls { low: [0.0; 3], high: [1.0, 1.0, flat], farthest: 9.0 };
+            let walls = CellBounds { low: [0.0; 3], high: [1.0, 1.0, flat], farthest: 9.0 };
             let volume: f64 = voronoi_cells(&gas, &walls).iter().map(|cell| cell.volume).sum();
             prop_assert!((volume / flat - 1.0).abs() < 1e-9, "{volume}");
         }

@@ -5,5 +5,5 @@ mod observer;
 mod reduce;
 
 pub use crate::simulation::{Column, FRAME_BLOCK, Flow, Frame, FrameView, Ledger, Snapshot};
-pub use observations::{Observations, OwnSeries, Series};
+pub use observations::{Observations, OwnSeries, ScalarSeries};
 pub use observer::Observer;

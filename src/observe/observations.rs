@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// A scalar observable with its values.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Series<'a> {
+pub struct ScalarSeries<'a> {
     /// Name, as in the record.
     pub name: &'a str,
     /// Unit, as in the record.
@@ -79,16 +79,16 @@ macro_rules! scalars {
             ];
 
             /// The scalar observables that are not empty, in a fixed order.
-            pub fn scalars(&self) -> Vec<Series<'_>> {
+            pub fn scalars(&self) -> Vec<ScalarSeries<'_>> {
                 let of_spheres = [$(self.$name.as_slice(),)*];
                 let of_spheres = Self::COLUMNS.iter().zip(of_spheres);
-                let of_spheres = of_spheres.map(|(column, values)| Series {
+                let of_spheres = of_spheres.map(|(column, values)| ScalarSeries {
                     name: column.name,
                     unit: column.unit,
                     description: column.description,
                     values,
                 });
-                let own = self.own.iter().map(|series| Series {
+                let own = self.own.iter().map(|series| ScalarSeries {
                     name: &series.name,
                     unit: &series.unit,
                     description: &series.description,

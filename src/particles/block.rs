@@ -12,19 +12,19 @@ use fearless_simd::{Simd, SimdBase, SimdCombine, SimdSplit, f64x4, f64x8};
 pub(crate) const BLOCK: usize = 32;
 
 /// Four numbers side by side.
-pub(crate) type Row = [f64; 4];
+pub(crate) type VectorRow = [f64; 4];
 
 /// One quantity of every pair in a block.
-pub(crate) type Column = [f64; BLOCK];
+pub(crate) type BlockColumn = [f64; BLOCK];
 
 /// The columns of one kind of row.
 #[repr(align(64))]
-pub(crate) struct Columns(pub(crate) [Column; 3]);
+pub(crate) struct VectorColumns(pub(crate) [BlockColumn; 3]);
 
 /// Rows that are turned into columns, or columns into rows, at once.
 pub(crate) const ROWS: usize = 8;
 
-impl Columns {
+impl VectorColumns {
     pub(crate) const ZERO: Self = Self([[0.0; BLOCK]; 3]);
 
     /// Fills the columns, each with the row of its lane.
@@ -52,7 +52,7 @@ impl Columns {
     #[inline(always)]
     pub(crate) fn fill_four<S: Simd>(
         &mut self,
-        fourth: &mut Column,
+        fourth: &mut BlockColumn,
         row: impl Fn(usize) -> f64x4<S>,
     ) {
         let [first, second, third] = &mut self.0;
@@ -96,7 +96,7 @@ impl Columns {
         &self,
         simd: S,
         at: usize,
-        fourth: &Column,
+        fourth: &BlockColumn,
     ) -> [f64x4<S>; ROWS] {
         let [first, second, third] = &self.0;
         let (first, second, third, fourth) = (

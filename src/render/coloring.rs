@@ -1,7 +1,7 @@
 //! The meaning of the spheres' colours.
 
 use crate::color::ColorMap;
-use crate::measure::{Centres, Layers, Walls, voronoi_cells};
+use crate::measure::{CellBounds, Centres, Layers, voronoi_cells};
 use crate::observe::Snapshot;
 use std::f64::consts::PI;
 
@@ -46,7 +46,7 @@ pub enum ColorBy {
     /// [`LOOSEST`](Self::LOOSEST) to [`DENSEST`](Self::DENSEST).
     PackingFraction {
         /// Where cells end.
-        walls: Walls,
+        walls: CellBounds,
     },
 }
 
@@ -80,7 +80,7 @@ impl ColorBy {
     /// spheres.
     pub fn packing_fraction(reach: [Option<f64>; 2], floor: Option<f64>, diameter: f64) -> Self {
         let [x, y] = reach.map(|it| it.unwrap_or(f64::MAX));
-        let walls = Walls {
+        let walls = CellBounds {
             low: [-x, -y, floor.unwrap_or(-f64::MAX)],
             high: [x, y, f64::MAX],
             farthest: FARTHEST * diameter,
@@ -135,7 +135,7 @@ impl ColorBy {
     }
 }
 
-fn by_packing_fraction(snapshot: &Snapshot, radius: &[f64], walls: &Walls) -> Vec<Rgb> {
+fn by_packing_fraction(snapshot: &Snapshot, radius: &[f64], walls: &CellBounds) -> Vec<Rgb> {
     let centres = Centres::of(snapshot);
     let cells = voronoi_cells(&centres, walls);
     let mut colors = vec![PLAIN; snapshot.position.nrows()];

@@ -16,7 +16,7 @@ const FARTHEST: f64 = 1e4;
 #[derive(Clone, Debug, PartialEq)]
 pub struct WrittenState {
     /// When it is.
-    pub moment: Moment,
+    pub moment: StateTime,
     /// Whether the file has numbers of the spheres; otherwise they count from 0 in order.
     pub are_numbered: bool,
     /// Number of each sphere, and its centre.
@@ -25,7 +25,7 @@ pub struct WrittenState {
 
 /// When a state is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Moment {
+pub enum StateTime {
     /// At a time (s).
     Time(f64),
     /// After a number of steps, whose length the file does not give.
@@ -114,7 +114,7 @@ pub fn replay_states(states: &[WrittenState], scene: &Scene) -> Result<RunRecord
     check_places(states, scene)?;
     let mut scene = scene.clone();
     scene.spheres.count = count;
-    let has_clock = matches!(states[0].moment, Moment::Time(_) | Moment::Step(0));
+    let has_clock = matches!(states[0].moment, StateTime::Time(_) | StateTime::Step(0));
     scene.dem.door = (scene.dem.door).filter(|door| has_clock && door.opens.is_some());
     scene.time.duration = times.last().copied().unwrap_or_default();
     let radius = vec![scene.spheres.radius.mean(); count];
@@ -280,7 +280,7 @@ fn observe(
 
 fn times(states: &[WrittenState], scene: &Scene) -> Result<Vec<f64>, StatesError> {
     let dt = scene.time.dt;
-    let counts = |it: &WrittenState| matches!(it.moment, Moment::Step(_));
+    let counts = |it: &WrittenState| matches!(it.moment, StateTime::Step(_));
     if scene.spot.is_some() && states.iter().any(counts) {
         return Err(StatesError::Steps);
     }
@@ -289,9 +289,9 @@ fn times(states: &[WrittenState], scene: &Scene) -> Result<Vec<f64>, StatesError
         _ => return Err(StatesError::Few),
     };
     let time = |state: &WrittenState| match (state.moment, first) {
-        (Moment::Time(time), _) => time,
-        (Moment::Step(step), Moment::Step(first)) => step.saturating_sub(first) as f64 * dt,
-        (Moment::Step(step), Moment::Time(_)) => step as f64 * dt,
+        (StateTime::Time(time), _) => time,
+        (StateTime::Step(step), StateTime::Step(first)) => step.saturating_sub(first) as f64 * dt,
+        (StateTime::Step(step), StateTime::Time(_)) => step as f64 * dt,
     };
     let times: Vec<f64> = states.iter().map(time).collect();
     match times.windows(2).position(|two| !(two[1] > two[0])) {

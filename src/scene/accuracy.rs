@@ -19,7 +19,7 @@ pub enum Accuracy {
 }
 
 /// The settings that a word stands for.
-struct Settings {
+struct AccuracySettings {
     integrator: &'static str,
     safety_factor: f64,
     /// Frames in the time sqrt(r / g), in which a sphere falls from rest by half its radius.
@@ -43,19 +43,19 @@ impl Accuracy {
     }
 
     /// Chosen by the studies of `sweeps/accuracy`: `words.toml` compares the three.
-    fn settings(self) -> Settings {
+    fn settings(self) -> AccuracySettings {
         match self {
-            Self::Draft => Settings {
+            Self::Draft => AccuracySettings {
                 integrator: "symplectic-euler",
                 safety_factor: 1.0,
                 frames_per_fall: 5.0,
             },
-            Self::Standard => Settings {
+            Self::Standard => AccuracySettings {
                 integrator: "symplectic-euler",
                 safety_factor: 0.5,
                 frames_per_fall: 10.0,
             },
-            Self::Reference => Settings {
+            Self::Reference => AccuracySettings {
                 integrator: "synchronised-verlet",
                 safety_factor: 0.2,
                 frames_per_fall: 20.0,

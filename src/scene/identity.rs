@@ -10,7 +10,7 @@ use serde::Serialize;
 /// The keys that determine the motion, in the order in which identities are computed. Random
 /// numbers derive from the identity, so another order would change the motion.
 #[derive(Serialize)]
-struct Motion<'a> {
+struct MotionKeys<'a> {
     seed: u64,
     spheres: &'a Spheres,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -50,7 +50,7 @@ fn is_empty(driven: &&[Driven]) -> bool {
     driven.is_empty()
 }
 
-impl Motion<'_> {
+impl MotionKeys<'_> {
     fn identity(&self) -> String {
         // Numbers are written shortest-round-trip, so the text is canonical. It is hashed while it
         // is written, because a start with a million spheres would make a long text.
@@ -69,7 +69,7 @@ impl Scene {
         self.motion().identity()
     }
 
-    fn motion(&self) -> Motion<'_> {
+    fn motion(&self) -> MotionKeys<'_> {
         let Self {
             title: _,
             seed,
@@ -96,7 +96,7 @@ impl Scene {
             neighbours: _,
             guards,
         } = dem;
-        Motion {
+        MotionKeys {
             seed: *seed,
             spheres,
             contact,
@@ -138,7 +138,7 @@ impl Scene {
     pub fn random_stream(&self, purpose: &str) -> rand_pcg::Pcg64 {
         use rand::SeedableRng;
         let mut hasher = blake3::Hasher::new();
-        let without_end = Motion {
+        let without_end = MotionKeys {
             steady: None,
             friction_form: None,
             ..self.motion()

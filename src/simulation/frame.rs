@@ -99,11 +99,11 @@ impl Frame for FrameView<'_> {
 impl Snapshot {
     /// A copy of all spheres of a frame at `time` (s). Spheres that are not in are NaN.
     pub fn take(time: f64, frame: &dyn Frame) -> Self {
-        let mut rows = Rows::default();
+        let mut rows = SnapshotRows::default();
         let mut first = 0;
         frame.show(&mut |block| {
             if first == 0 {
-                rows = Rows::new(frame.count(), block);
+                rows = SnapshotRows::new(frame.count(), block);
             }
             rows.add(first, block);
             first += block.count();
@@ -120,9 +120,9 @@ impl Snapshot {
 
 /// Positions, velocities and spins, one row per sphere.
 #[derive(Default)]
-struct Rows([Array2<f64>; 3]);
+struct SnapshotRows([Array2<f64>; 3]);
 
-impl Rows {
+impl SnapshotRows {
     /// Rows of spheres that are not in.
     fn new(count: usize, view: &FrameView<'_>) -> Self {
         let rows = |rows| match view.flow {

@@ -2,7 +2,7 @@
 
 mod scatter;
 
-use self::scatter::{ATTEMPTS, Room, scatter};
+use self::scatter::{ATTEMPTS, StartRoom, scatter};
 use crate::particles::Particles;
 use crate::particles::vector::Vector;
 use crate::scene::{Geometry, Radii, Scene, Start, StartSphere};
@@ -104,7 +104,7 @@ fn place_at_random(
     scene: &Scene,
     heights: [f64; 2],
 ) -> Result<(), StartError> {
-    let room = Room::of_scene(scene, heights).ok_or(StartError::NoTank)?;
+    let room = StartRoom::of_scene(scene, heights).ok_or(StartError::NoTank)?;
     let mut random = scene.random_stream("positions");
     particles.position = scatter(&particles.radius, &room, &fixed(scene), &mut random)?;
     Ok(())

@@ -10,7 +10,7 @@ use rand::Rng;
 pub(super) const ATTEMPTS: usize = 100_000;
 
 /// Where centres may be at the start.
-pub(super) struct Room {
+pub(super) struct StartRoom {
     /// How far the walls are from the axis along x and y (m).
     reach: [f64; 2],
     /// Whether they are a cylinder.
@@ -19,7 +19,7 @@ pub(super) struct Room {
     heights: [f64; 2],
 }
 
-impl Room {
+impl StartRoom {
     /// The room within the walls of a scene, if they enclose it.
     pub(super) fn of_scene(scene: &Scene, heights: [f64; 2]) -> Option<Self> {
         let tank = scene.tank.as_ref()?;
@@ -60,12 +60,12 @@ impl Room {
 /// the walls nor the spheres that are fixed.
 pub(super) fn scatter(
     radii: &[f64],
-    room: &Room,
+    room: &StartRoom,
     fixed: &Particles,
     random: &mut impl Rng,
 ) -> Result<Vec<Vector>, StartError> {
     let all = [&fixed.radius, radii].concat();
-    let mut grid = Grid::new(&all, room);
+    let mut grid = ScatterGrid::new(&all, room);
     let mut placed = fixed.position.clone();
     placed.reserve(radii.len());
     for &centre in &placed {
@@ -93,7 +93,7 @@ pub(super) fn scatter(
 }
 
 /// Cells over a room, at least as wide as the largest sphere, with the spheres placed so far.
-struct Grid {
+struct ScatterGrid {
     /// The corner of the room with the least coordinates (m), and the width of a cell (m).
     corner: Vector,
     width: f64,
@@ -105,10 +105,10 @@ struct Grid {
     before: Vec<u32>,
 }
 
-impl Grid {
+impl ScatterGrid {
     const NONE: u32 = u32::MAX;
 
-    fn new(radii: &[f64], room: &Room) -> Self {
+    fn new(radii: &[f64], room: &StartRoom) -> Self {
         let [x, y] = room.reach;
         let [low, high] = room.heights;
         let corner = Vector::new(-x, -y, low);

@@ -55,7 +55,7 @@ impl Trend {
             return None;
         }
         let blocks = means(values, BLOCKS);
-        let line = Line::through(&blocks);
+        let line = FittedLine::through(&blocks);
         let squares: f64 = blocks.iter().map(|it| line.miss(it) * line.miss(it)).sum();
         let freedom = BLOCKS - 2;
         let error_of_slope = (squares / freedom as f64 / line.spread).sqrt();
@@ -105,14 +105,14 @@ fn means(values: &[f64], count: usize) -> Vec<Mean> {
 }
 
 /// A straight line by least squares.
-struct Line {
+struct FittedLine {
     middle: Mean,
     slope: f64,
     /// Sum of the squares of the places, from the middle.
     spread: f64,
 }
 
-impl Line {
+impl FittedLine {
     fn through(points: &[Mean]) -> Self {
         let count = points.len() as f64;
         let middle = Mean {

@@ -46,7 +46,7 @@ pub fn critical_rotation_with_friction(scene: &Scene) -> Option<f64> {
         scene.tank.as_ref()?.radius?,
         scene.dem.effects.gravity.as_ref()?.acceleration,
     );
-    let bed = Bed::of(scene, without)?;
+    let bed = TurningBed::of(scene, without)?;
     // The torque of the air rises with its rotation, and the load on the floor does not.
     let moves = |omega: f64| bed.drag_at(omega) >= bed.friction_at(omega);
     let mut high = 2.0 * without.max(f64::MIN_POSITIVE);
@@ -68,7 +68,7 @@ pub fn critical_rotation_with_friction(scene: &Scene) -> Option<f64> {
 }
 
 /// A bed that turns with Omega_c.
-struct Bed<'a> {
+struct TurningBed<'a> {
     drag: &'a Drag,
     updraught: Option<&'a Updraught>,
     /// Coefficient of friction mu.
@@ -89,7 +89,7 @@ struct Bed<'a> {
     pressed_mass_ratio: f64,
 }
 
-impl<'a> Bed<'a> {
+impl<'a> TurningBed<'a> {
     fn of(scene: &'a Scene, rotation: f64) -> Option<Self> {
         let (spheres, effects) = (&scene.spheres, &scene.dem.effects);
         effects.swirl.as_ref()?;
@@ -229,7 +229,7 @@ mod tests {
             let full = critical_rotation_with_friction(&scene).unwrap();
             // Both parts of the load, from the growth of the drag with the slip.
             let drag = |omega: f64| {
-                let bed = Bed::of(&scene, without(radius)).unwrap();
+                let bed = TurningBed::of(&scene, without(radius)).unwrap();
                 bed.drag_at(omega)
             };
             let centrifugal = without(radius) * without(radius) * 0.06;

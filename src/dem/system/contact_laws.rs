@@ -8,7 +8,7 @@ use super::contact_state::ContactState;
 use crate::dem::walls::Wall;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::{
-    Change, History, LoadedSpring, Spring, TangentialLaw, Touch, Traction, Turning,
+    ForceChange, History, LoadedSpring, Spring, TangentialLaw, Touch, Traction, Turning,
     sliding_velocity,
 };
 use crate::particles::math::inverse_square_root;
@@ -142,7 +142,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         if !Self::HAS_HISTORY {
             return history;
         }
-        let turned = |force: Vector, change: Change| {
+        let turned = |force: Vector, change: ForceChange| {
             let spring = Spring { force };
             match geometry.loading {
                 Some(earlier) => spring.turned_by(geometry.normal, earlier.turn, change),
@@ -151,7 +151,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         };
         let change = match T::History::HAS_RADIUS {
             true => (self.tangential.keeps()).change(history.radius(), geometry.contact_radius),
-            false => Change::NONE,
+            false => ForceChange::NONE,
         };
         let now = T::History::of_spring(turned(history.spring().force, change));
         if !T::History::TURNS {
@@ -159,7 +159,7 @@ impl<N: NormalLaw, T: TangentialLaw> Laws<N, T> {
         }
         let turning = history.turning();
         now.with_turning(Turning {
-            force: turned(turning.force, Change::NONE).force,
+            force: turned(turning.force, ForceChange::NONE).force,
             ..turning
         })
     }

@@ -5,7 +5,7 @@ use super::partners::Partners;
 use crate::forces::contact::NormalLaw;
 use crate::forces::friction::TangentialLaw;
 use crate::particles::Particles;
-use crate::particles::block::Row;
+use crate::particles::block::VectorRow;
 use crate::particles::vector::Vector;
 
 /// Two spheres at a contact, or a sphere and a wall. Forces act on the first.
@@ -60,7 +60,7 @@ impl ContactState {
             spin: [of(spheres.spin), Vector::ZERO],
             properties: [sphere, SphereProperties::WALL],
             inverse_sum: 1.0 / sphere.radius,
-            earlier: earlier.map(|&[velocity, spin]: &[Row; 2]| EarlierMotion {
+            earlier: earlier.map(|&[velocity, spin]: &[VectorRow; 2]| EarlierMotion {
                 velocity: Vector::of_row(velocity),
                 spin: [Vector::of_row(spin), Vector::ZERO],
             }),

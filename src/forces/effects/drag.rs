@@ -297,9 +297,9 @@ pub(super) trait DragKernel: Copy + Send + Sync + 'static {
 
 /// c1 u.
 #[derive(Clone, Copy)]
-pub(super) struct Linear;
+pub(super) struct LinearDrag;
 
-impl DragKernel for Linear {
+impl DragKernel for LinearDrag {
     #[inline(always)]
     fn vector(c1: f64, _: f64, air: Vector) -> Vector {
         air * c1

@@ -1,7 +1,7 @@
 //! Drag toward air in rigid rotation about the axis, and the pressure of a rotating fluid.
 
 use super::drag::{
-    Coefficients, DragKernel, Form, Linear, QuadraticComponents, QuadraticVector, missing_drag,
+    Coefficients, DragKernel, Form, LinearDrag, QuadraticComponents, QuadraticVector, missing_drag,
 };
 use super::schiller_naumann::SchillerNaumann;
 use super::{Effect, EffectKeys, Effects, OneBody, SceneFacts, Targets};
@@ -43,7 +43,7 @@ impl EffectKeys for Swirl {
         let pressure = all.pressed_mass_ratio(targets.scene.density) * self.omega * self.omega;
         let rates = [self.omega, pressure];
         Some(match drag.kernel() {
-            Form::Linear => boxed::<Linear>(rates, coefficients),
+            Form::Linear => boxed::<LinearDrag>(rates, coefficients),
             Form::Vector => boxed::<QuadraticVector>(rates, coefficients),
             Form::Components => boxed::<QuadraticComponents>(rates, coefficients),
             Form::SchillerNaumann => boxed::<SchillerNaumann>(rates, coefficients),

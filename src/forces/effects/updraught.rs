@@ -1,6 +1,6 @@
 //! Rising air with the rectangular counting shield.
 
-use super::drag::{Coefficients, DragKernel, Form, Linear, QuadraticComponents, missing_drag};
+use super::drag::{Coefficients, DragKernel, Form, LinearDrag, QuadraticComponents, missing_drag};
 use super::schiller_naumann::SchillerNaumann;
 use super::{Effect, EffectKeys, Effects, OneBody, SceneFacts, Swirl, Targets};
 use crate::document::quantities::{fraction, place};
@@ -79,7 +79,7 @@ impl EffectKeys for Updraught {
             ..self.clone()
         };
         Some(match drag.kernel() {
-            Form::Linear => boxed::<Linear>(parameters, coefficients),
+            Form::Linear => boxed::<LinearDrag>(parameters, coefficients),
             // Along one axis the two quadratic forms are the same.
             Form::Vector | Form::Components => {
                 boxed::<QuadraticComponents>(parameters, coefficients)

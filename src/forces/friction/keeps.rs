@@ -1,7 +1,7 @@
 //! What a tangential spring keeps while its stiffness changes.
 
 use super::{History, Spring, Touch};
-use crate::particles::block::Row;
+use crate::particles::block::VectorRow;
 use crate::particles::vector::Vector;
 use serde::{Deserialize, Serialize};
 
@@ -24,14 +24,14 @@ impl Keeps {
     /// How the force of a spring changes with the contact radius (m). A new contact had a radius of
     /// zero and no force before.
     #[inline(always)]
-    pub(crate) fn change(self, before: f64, now: f64) -> Change {
+    pub(crate) fn change(self, before: f64, now: f64) -> ForceChange {
         match self {
-            Self::Force => Change::NONE,
-            Self::Displacement => Change {
+            Self::Force => ForceChange::NONE,
+            Self::Displacement => ForceChange {
                 from: before,
                 to: now,
             },
-            Self::Lesser => Change {
+            Self::Lesser => ForceChange {
                 from: before,
                 to: lesser(now, before),
             },
@@ -55,12 +55,12 @@ impl Keeps {
 /// The quotient is part of the root by which a spring [turns](Spring::turned_to), and so costs no
 /// time.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Change {
+pub(crate) struct ForceChange {
     pub(super) from: f64,
     pub(super) to: f64,
 }
 
-impl Change {
+impl ForceChange {
     /// No change.
     pub(crate) const NONE: Self = Self { from: 1.0, to: 1.0 };
 
@@ -82,7 +82,7 @@ fn lesser(one: f64, other: f64) -> f64 {
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 #[repr(C, align(32))]
 pub struct SpringAtRadius {
-    row: Row,
+    row: VectorRow,
 }
 
 impl SpringAtRadius {
@@ -118,12 +118,12 @@ impl History for SpringAtRadius {
     }
 
     #[inline(always)]
-    fn row(self) -> Row {
+    fn row(self) -> VectorRow {
         self.row
     }
 
     #[inline(always)]
-    fn of_row(row: Row) -> Self {
+    fn of_row(row: VectorRow) -> Self {
         Self { row }
     }
 

@@ -13,7 +13,7 @@ mod spring;
 
 pub use coulomb::{Coulomb, CoulombLaw};
 pub use cundall_strack::{CundallStrack, CundallStrackLaw};
-pub(crate) use keeps::Change;
+pub(crate) use keeps::ForceChange;
 pub use keeps::{Keeps, SpringAtRadius};
 pub use keys::Friction;
 pub(crate) use keys::{FrictionKeys, with_pairs_of_laws};
@@ -23,7 +23,7 @@ pub use silbert::{SilbertFriction, SilbertFrictionLaw};
 pub use spin::{Spin, SpinLaw};
 pub use spring::{LoadedSpring, Spring};
 
-use crate::particles::block::Row;
+use crate::particles::block::VectorRow;
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
 use serde::de::DeserializeOwned;
@@ -170,13 +170,13 @@ pub trait History: Copy + Default + Send + Sync + Serialize + DeserializeOwned {
     /// The row of the spring's force and the contact radius. The last number has no meaning without
     /// the radius.
     #[inline(always)]
-    fn row(self) -> Row {
+    fn row(self) -> VectorRow {
         self.spring().force.row()
     }
 
     /// The history of a contact with this row.
     #[inline(always)]
-    fn of_row(row: Row) -> Self {
+    fn of_row(row: VectorRow) -> Self {
         Self::of_spring(Spring {
             force: Vector::of_row(row),
         })

@@ -1,6 +1,6 @@
 //! The loaded spring of a contact that sticks.
 
-use super::{Change, Touch, Traction};
+use super::{ForceChange, Touch, Traction};
 use crate::particles::math::inverse_square_root;
 use crate::particles::vector::Vector;
 use serde::{Deserialize, Serialize};
@@ -46,12 +46,12 @@ impl Spring {
     /// length.
     #[inline(always)]
     pub fn turned(&self, normal: Vector) -> Self {
-        self.turned_to(normal, Change::NONE)
+        self.turned_to(normal, ForceChange::NONE)
     }
 
     /// The same with a change of its force.
     #[inline(always)]
-    pub(crate) fn turned_to(&self, normal: Vector, change: Change) -> Self {
+    pub(crate) fn turned_to(&self, normal: Vector, change: ForceChange) -> Self {
         self.lengthened(self.force.perpendicular_to(normal), change)
     }
 
@@ -62,14 +62,14 @@ impl Spring {
     /// / (1 + n' n). A projection uses n instead of (n' + n) / 2: each step then has an angular
     /// error of second order, and the motion is of first order.
     #[inline(always)]
-    pub(crate) fn turned_by(&self, normal: Vector, turn: Vector, change: Change) -> Self {
+    pub(crate) fn turned_by(&self, normal: Vector, turn: Vector, change: ForceChange) -> Self {
         let half = turn.perpendicular_to(normal) * (0.5 * self.force.dot(normal));
         self.lengthened(self.force.perpendicular_to(normal) + half, change)
     }
 
     /// The spring in the direction of `turned`, with its length times the change.
     #[inline(always)]
-    fn lengthened(&self, turned: Vector, change: Change) -> Self {
+    fn lengthened(&self, turned: Vector, change: ForceChange) -> Self {
         let (before, after) = (self.force.norm_squared(), turned.norm_squared());
         // One root for |before| / |after| and the change. Forces too small for it are set to zero.
         let product = before * after * (change.from * change.from);
@@ -218,7 +218,7 @@ mod tests {
             for step in 1..=steps {
                 let now = normal(step);
                 spring = match second_order {
-                    true => spring.turned_by(now, now - normal(step - 1), Change::NONE),
+                    true => spring.turned_by(now, now - normal(step - 1), ForceChange::NONE),
                     false => spring.turned(now),
                 };
             }
