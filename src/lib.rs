@@ -7,7 +7,7 @@
 //! | step | module |
 //! |---|---|
 //! | a [`Scene`](scene::Scene), from a file or built in code | [`scene`] |
-//! | a [`Simulation`](dem::Simulation), advanced step by step | [`dem`] |
+//! | a [`DemSimulation`](dem::DemSimulation), advanced step by step | [`dem`] |
 //! | what is measured at every frame | [`observe`] |
 //! | all of that in one call: a [`RunRecord`](record::RunRecord) | [`run`](mod@run) |
 //! | a run that is interrupted and goes on from its checkpoint | [`resume`] |
