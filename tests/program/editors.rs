@@ -476,8 +476,8 @@ fn commands_without_a_result_for_programs_refuse_json() {
         &["generate", "schema", "scene", "--json"],
     ] {
         let answer = place.phase(arguments).code(2);
-        answer.complains("no result for programs; leave out --json");
         assert_eq!(answer.stdout, "");
+        answer.complains("no result for programs; leave out --json");
     }
     assert!(!place.path("tank.toml").exists());
 }
