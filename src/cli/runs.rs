@@ -69,7 +69,7 @@ pub(super) fn check_labels(
 ) -> Result<(), Failure> {
     match labels {
         [] => Ok(()),
-        _ if folders => Err(Failure::refused("--label names records, not folders")),
+        _ if folders => Err(Failure::refused("--label is for records, not for folders")),
         _ if labels.len() == records => Ok(()),
         _ => Err(Failure::refused(format_args!(
             "--label must be given once for each of the {records} records, in their order"

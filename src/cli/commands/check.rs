@@ -348,34 +348,16 @@ impl LimitAnswer {
 /// What the sweep will cost.
 #[derive(Serialize)]
 struct ForecastAnswer {
-    tried: usize,
     workers: usize,
-    sphere_steps: u64,
-    rate: f64,
-    seconds: f64,
-    memory: f64,
-    /// `None` if the jobs leave no records.
-    disk: Option<f64>,
+    #[serde(flatten)]
+    forecast: Forecast,
 }
 
 impl ForecastAnswer {
     fn new(forecast: &Forecast, workers: usize) -> Self {
-        let Forecast {
-            tried,
-            work,
-            rate,
-            seconds,
-            memory,
-            disk,
-        } = *forecast;
         Self {
-            tried,
             workers,
-            sphere_steps: work,
-            rate,
-            seconds,
-            memory,
-            disk,
+            forecast: *forecast,
         }
     }
 }

@@ -59,10 +59,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         None => label_folders(&arguments.dir, edited.as_ref(), workers, console)?,
     };
     let exit = Entry::exit(&folders, |summary| summary.problems.is_empty());
-    console.answer(&Answer {
-        folders,
-        files: console.files(),
-    });
+    console.answer_with_files(&Answer { folders });
     Ok(exit)
 }
 
@@ -110,6 +107,4 @@ fn sweep_with_records(folder: &Folder) -> Result<Sweep, Undone> {
 #[derive(Serialize)]
 struct Answer {
     folders: Vec<Entry<Summary>>,
-    /// The files written.
-    files: Vec<String>,
 }

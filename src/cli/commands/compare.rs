@@ -84,13 +84,12 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         table::write(path, &rows, &names)?;
         console.file(path);
     }
-    console.answer(&Answer {
+    console.answer_with_files(&Answer {
         records: names,
         rows: rows
             .iter()
             .map(|row| Entry::new(row, is_of_one_run))
             .collect(),
-        files: console.files(),
     });
     Ok(Exit::Done)
 }
@@ -162,8 +161,6 @@ struct Answer {
     /// The records: file, and what differs.
     records: Vec<String>,
     rows: Vec<Entry>,
-    /// The files written.
-    files: Vec<String>,
 }
 
 /// A quantity of all records.

@@ -172,10 +172,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         true => Exit::Done,
         false => Exit::Failed,
     };
-    console.answer(&Answer {
-        failed,
-        files: console.files(),
-    });
+    console.answer_with_files(&Answer { failed });
     Ok(exit)
 }
 
@@ -184,8 +181,6 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 struct Answer {
     /// Of several records the ones that could not be exported.
     failed: Vec<FailedRecord>,
-    /// The files written.
-    files: Vec<String>,
 }
 
 /// A record that could not be exported, and why.

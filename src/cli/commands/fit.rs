@@ -140,9 +140,8 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         }
     }
     let entry = |it: &Parameter| Entry::new(it, &fit, &record.scene);
-    console.answer(&Answer {
+    console.answer_with_files(&Answer {
         parameters: PARAMETERS.iter().map(entry).collect(),
-        files: console.files(),
     });
     Ok(Exit::Done)
 }
@@ -230,8 +229,6 @@ fn scene(drainage: &Drainage<'_>, fit: &SpotFit) -> String {
 #[derive(Serialize)]
 struct Answer {
     parameters: Vec<Entry>,
-    /// The files written.
-    files: Vec<String>,
 }
 
 /// A parameter.

@@ -80,8 +80,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         [] => Entry::exit(&answer.folders, |folder| folder.problems.is_empty()),
         [_, ..] => Exit::Failed,
     };
-    answer.files = console.files();
-    console.answer(&answer);
+    console.answer_with_files(&answer);
     Ok(exit)
 }
 
@@ -139,8 +138,6 @@ struct Answer {
     folders: Vec<Entry<FolderAnswer>>,
     /// Figures of records that could not be drawn, and why.
     problems: Vec<String>,
-    /// The files written.
-    files: Vec<String>,
 }
 
 /// A figure that can be drawn.

@@ -15,6 +15,7 @@ use phase::record::{Milestone, MilestoneKind, Outcome, RunRecord};
 use phase::resume::{Checkpoints, DEFAULT_INTERVAL};
 use phase::run::{Edits, frame_of_state, model_of};
 use phase::scene::{Scene, Start};
+use phase::simulation::Instability;
 use phase::store::{self, Lock, StoreError};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -278,7 +279,7 @@ struct Answer<'a> {
     seed: u64,
     outcome: &'static str,
     /// What ended an unstable run.
-    instability: Option<Broken>,
+    instability: Option<&'a Instability>,
     seconds: f64,
     cpu_seconds: f64,
     sphere_steps: u64,
@@ -299,16 +300,6 @@ struct Answer<'a> {
     same_bits: Option<bool>,
 }
 
-/// The guard that ended a run.
-#[derive(Serialize)]
-struct Broken {
-    guard: &'static str,
-    step: u64,
-    time: f64,
-    sphere: usize,
-    detail: String,
-}
-
 impl<'a> Answer<'a> {
     fn new(record: &'a RunRecord, seconds: f64, path: &'a Path) -> Self {
         let observations = &record.observations;
@@ -327,13 +318,7 @@ impl<'a> Answer<'a> {
             record: path,
             seed: record.scene.seed,
             outcome,
-            instability: instability.map(|instability| Broken {
-                guard: instability.guard.name(),
-                step: instability.step,
-                time: instability.time,
-                sphere: instability.sphere,
-                detail: instability.detail.clone(),
-            }),
+            instability,
             seconds,
             cpu_seconds: record.cpu_seconds,
             sphere_steps: record.work,

@@ -131,21 +131,21 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             format::count(run.report.left, "job")
         ));
         answer.interrupted = true;
-        console.answer(&answer);
+        console.answer_with_files(&answer);
         return Ok(Exit::Interrupted);
     }
     if let Some(error) = &run.report.halted {
-        console.answer(&answer);
+        console.answer_with_files(&answer);
         return Err(Failure::failed(error));
     }
     if leaves_rest_to_others(&folder, &plan, console) {
-        console.answer(&answer);
+        console.answer_with_files(&answer);
         return Ok(Exit::Done);
     }
     let mut failed = !run.report.failures.is_empty();
     if !arguments.no_classify {
         let labelled = labels::label_folder(&folder, &sweep, &jobs, workers, console);
-        let labelled = labelled.inspect_err(|_| console.answer(&answer))?;
+        let labelled = labelled.inspect_err(|_| console.answer_with_files(&answer))?;
         failed |= !labelled.problems.is_empty();
         if !arguments.no_plot {
             let problems = figures::draw_default_figures(&folder, &sweep, &labelled.table, console);
@@ -155,8 +155,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         tell_of_earlier_borders(&folder, &sweep, console);
         answer.labels = Some(labels::Summary::new(&folder, &labelled));
     }
-    answer.files = console.files();
-    console.answer(&answer);
+    console.answer_with_files(&answer);
     Ok(if failed { Exit::Failed } else { Exit::Done })
 }
 
@@ -365,8 +364,6 @@ struct Answer {
     refined: Option<refined::Answer>,
     /// Figures that could not be drawn, and why.
     problems: Vec<String>,
-    /// The files written, but for the records.
-    files: Vec<String>,
 }
 
 impl Answer {
@@ -388,7 +385,6 @@ impl Answer {
             labels: None,
             refined: None,
             problems: Vec::new(),
-            files: Vec::new(),
         }
     }
 }

@@ -100,11 +100,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     if let Some(folder) = &arguments.out {
         write(&rows, &errors, folder, console)?;
     }
-    console.answer(&Answer {
+    console.answer_with_files(&Answer {
         runs: runs.len(),
         failed,
         checks: rows,
-        files: console.files(),
     });
     Ok(if failed == 0 {
         Exit::Done
@@ -119,7 +118,6 @@ struct Answer {
     runs: usize,
     failed: usize,
     checks: Vec<Row>,
-    files: Vec<String>,
 }
 
 /// What `--list --json` prints.

@@ -17,6 +17,7 @@ use phase::record::RunRecord;
 use phase::render::lacking_letters;
 use phase::scene::Tank;
 use phase::store;
+use serde::Serialize;
 use sheets::{Run, Sheets};
 use std::path::{Path, PathBuf};
 use target::Target;
@@ -121,6 +122,10 @@ enum Color {
     None,
 }
 
+/// What `--json` prints, apart from the picture's file.
+#[derive(Serialize)]
+struct Answer {}
+
 /// Panels if no times are asked for.
 const PANELS: usize = 5;
 /// Largest height of a picture (pixels).
@@ -159,7 +164,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
             console.file(&target.path);
         }
     }
-    console.answer_files();
+    console.answer_with_files(&Answer {});
     Ok(Exit::Done)
 }
 

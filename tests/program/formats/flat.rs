@@ -218,7 +218,7 @@ fn every_state_is_a_picture() {
     each(&["--json"])
         .code(0)
         .says("{\"files\":[\"frames\"]}")
-        .complains("19 pictures of 60 pixels' width");
+        .complains("19 pictures, 60 pixels wide");
     let count = |folder: &str| std::fs::read_dir(place.path(folder)).unwrap().count();
     assert_eq!(count("frames"), 19);
     let sizes = (0..19).map(|frame| {

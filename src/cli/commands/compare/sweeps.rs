@@ -50,13 +50,12 @@ pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         table::write(path, &rows, &names)?;
         console.file(path);
     }
-    console.answer(&Answer {
+    console.answer_with_files(&Answer {
         records: names.to_vec(),
         rows: rows
             .iter()
             .map(|row| Entry::of_pairs(row, &agreement))
             .collect(),
-        files: console.files(),
     });
     Ok(Exit::Done)
 }

@@ -34,7 +34,7 @@ pub(super) fn animate(
     let shown = evenly(record.sound_states(), PICTURES);
     if let (States::Snapshots(_), true) = (record.states(), shown.len() < PICTURES / 2) {
         console.note(
-            "few states make a jerky animation: store more of them with `phase run \
+            "few states make a jerky animation: store more states with `phase run \
              --snapshot-interval 0.05`",
         );
     }
@@ -59,7 +59,7 @@ pub(super) fn animate(
     let mut width = sheets.fitted(1, asked, ANIMATION_HEIGHT);
     let pictures = format::count(shown.len(), "picture");
     loop {
-        console.note(format_args!("draws {pictures} of {width} pixels' width"));
+        console.note(format_args!("drawing {pictures}, {width} pixels wide"));
         let drawn = on_all_cores(&shown, |state| sheets.picture_of(state, width))?;
         let animation = Animation::new(&drawn, delay);
         let bytes = match kind {
@@ -78,12 +78,10 @@ pub(super) fn animate(
                     format::bytes(LARGEST as f64)
                 ));
             }
-            console.note(format_args!("{pictures} of {width} pixels' width, {size}"));
+            console.note(format_args!("{pictures}, {width} pixels wide, {size}"));
             return Ok(bytes);
         }
-        console.note(format_args!(
-            "{size} are too much: draws them again, smaller"
-        ));
+        console.note(format_args!("{size} is too large; drawing again, smaller"));
         // The size goes with the area.
         let shrink = (LARGEST as f64 / bytes.len() as f64).sqrt().min(0.95);
         width = (0.97 * shrink * width as f64) as usize;
@@ -108,7 +106,7 @@ fn leave_out_arrivals(
     let later = Sheets::new(&arrived, arguments)?.top();
     if later < sheets.top() {
         console.note(format_args!(
-            "shows up to z = {later:.3} m, where all spheres are after the first quarter"
+            "shows up to z = {later:.3} m, which holds all spheres after the first quarter"
         ));
         sheets.show_up_to(later);
     }
@@ -140,7 +138,7 @@ pub(super) fn each(
         }
     }
     console.note(format_args!(
-        "{} of {width} pixels' width",
+        "{}, {width} pixels wide",
         format::count(shown.len(), "picture")
     ));
     Ok(())

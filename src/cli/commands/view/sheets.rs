@@ -67,15 +67,14 @@ impl<'a> Sheets<'a> {
         let mut sheets: Vec<Sheet> = runs.iter().map(|run| sheet(run, color(run))).collect();
         if sheets.iter().any(|it| it.flat.is_some()) && sheets.iter().any(|it| it.flat.is_none()) {
             return Err(Failure::refused(
-                "scenes of discs are drawn flat, others from two sides: draw them apart",
+                "discs are drawn flat, spheres from two sides: draw them in separate pictures",
             ));
         }
         if sheets.iter().any(|it| it.flat.is_some())
             && (sides != Sides::Both || arguments.color == Color::PackingFraction)
         {
             return Err(Failure::refused(
-                "scenes of discs are drawn flat: they have neither --cut nor --window, nor packing \
-                 fractions",
+                "discs are drawn flat: --cut, --window and packing fractions do not apply",
             ));
         }
         if runs.len() == 1 {
@@ -201,7 +200,7 @@ fn window(numbers: &[f64]) -> Result<Option<[[f64; 2]; 2]>, Failure> {
             Ok(Some([[left, right], [low, high]]))
         }
         _ => Err(Failure::refused(
-            "--window takes four numbers: the least and the largest x, then the same of z, such as \
+            "--window takes four numbers: least and largest x, least and largest z, such as \
              -15,15,0,40",
         )),
     }
