@@ -45,7 +45,7 @@ pub struct Permit<'b> {
 #[derive(Default)]
 struct Tally {
     /// By place.
-    progress: Vec<Progress>,
+    progress: Vec<JobProgress>,
     finished: usize,
     resumed: usize,
     /// Jobs that other processes have made.
@@ -59,15 +59,15 @@ struct Tally {
 
 /// How far a job is.
 #[derive(Clone, Default)]
-struct Progress {
-    state: State,
+struct JobProgress {
+    state: JobState,
     is_resumed: bool,
     /// Work that has been told.
     told: u64,
 }
 
 #[derive(Clone, Copy, Default, PartialEq)]
-enum State {
+enum JobState {
     /// Nobody has claimed it, or who did has given it back.
     #[default]
     Open,
@@ -92,7 +92,7 @@ impl<'a> Batch<'a> {
         let mut jobs = all.clone();
         jobs.sort_by_cached_key(|job| Reverse(job.work()));
         let tally = Tally {
-            progress: vec![Progress::default(); all.len()],
+            progress: vec![JobProgress::default(); all.len()],
             ..Tally::default()
         };
         Self {
@@ -148,18 +148,18 @@ impl<'a> Batch<'a> {
             _lease: lease,
         };
         // Marked before the lease is taken: a lease keeps out threads of this process, too.
-        if self.is_over() || !self.mark(place, State::Open, State::Claimed) {
+        if self.is_over() || !self.mark(place, JobState::Open, JobState::Claimed) {
             return Claim::Refused;
         }
         match self.results.claim(job) {
             Ok(Claim::Granted(lease)) => return Claim::Granted(claim(lease)),
             Ok(Claim::Elsewhere) => {
-                self.mark(place, State::Claimed, State::Elsewhere);
+                self.mark(place, JobState::Claimed, JobState::Elsewhere);
                 self.tell(Event::Elsewhere(job));
                 return Claim::Elsewhere;
             }
             Ok(Claim::Made) => {
-                self.mark(place, State::Claimed, State::Settled);
+                self.mark(place, JobState::Claimed, JobState::Settled);
                 self.tally().elsewhere += 1;
                 self.tell(Event::Made(job));
                 return Claim::Made;
@@ -184,7 +184,7 @@ impl<'a> Batch<'a> {
     }
 
     /// Whether a job was in one state; it is in the other now.
-    fn mark(&self, place: usize, from: State, to: State) -> bool {
+    fn mark(&self, place: usize, from: JobState, to: JobState) -> bool {
         let state = &mut self.tally().progress[place].state;
         let was = *state == from;
         if was {
@@ -217,7 +217,7 @@ impl<'a> Batch<'a> {
     fn left_by_others(&self) -> Vec<&'a Job> {
         let is_elsewhere = |job: &&Job| {
             let place = self.places[job.id.as_str()];
-            self.tally().progress[place].state == State::Elsewhere
+            self.tally().progress[place].state == JobState::Elsewhere
         };
         let elsewhere: Vec<&Job> = self.all.iter().copied().filter(is_elsewhere).collect();
         if !elsewhere.is_empty() && !self.is_over() {
@@ -229,7 +229,11 @@ impl<'a> Batch<'a> {
             let free: Vec<&Job> = free.collect();
             if !free.is_empty() {
                 for job in &free {
-                    self.mark(self.places[job.id.as_str()], State::Elsewhere, State::Open);
+                    self.mark(
+                        self.places[job.id.as_str()],
+                        JobState::Elsewhere,
+                        JobState::Open,
+                    );
                 }
                 return free;
             }
@@ -299,7 +303,7 @@ impl<'b> Permit<'b> {
         let progress = {
             let mut tally = self.batch.tally();
             let progress = &mut tally.progress[self.place];
-            progress.state = State::Settled;
+            progress.state = JobState::Settled;
             let progress = progress.clone();
             tally.finished += 1;
             tally.resumed += usize::from(progress.is_resumed);
@@ -322,7 +326,7 @@ impl<'b> Permit<'b> {
             self.batch.halt(error);
         }
         let mut tally = self.batch.tally();
-        tally.progress[self.place].state = State::Settled;
+        tally.progress[self.place].state = JobState::Settled;
         tally.failures.insert(self.place, failure);
     }
 
@@ -339,8 +343,8 @@ impl<'b> Permit<'b> {
 impl Drop for Permit<'_> {
     fn drop(&mut self) {
         let progress = &mut self.batch.tally().progress[self.place];
-        if progress.state == State::Claimed {
-            *progress = Progress::default();
+        if progress.state == JobState::Claimed {
+            *progress = JobProgress::default();
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a folder holds already: runs and labels that a refined sweep goes on from.
 
-use super::sweeps::{REFINE, bare, content, rows, sweep, tiny};
+use super::sweeps::{REFINE, bare, content, rows, tiny};
 use crate::support::Workplace;
 use serde_json::Value;
 

@@ -70,7 +70,7 @@ fn a_coarse_grid_and_rounds_spend_the_budget() {
     assert_eq!(refined.len(), 9 * 3);
     for row in &refined {
         let probabilities: Vec<f64> = row[4..].iter().map(|it| it.parse().unwrap()).collect();
-        assert_eq!(probabilities.len(), TANK.labels.len());
+        assert_eq!(probabilities.len(), TANK.labels().len());
         let sum = probabilities.iter().sum::<f64>();
         assert!((sum - 1.0).abs() < 1e-9, "{row:?}");
     }
@@ -216,7 +216,7 @@ fn what_is_asked_is_apart_from_what_was_run() {
     for key in ["chosen", "given", "widths", "end"] {
         assert!(!sweep.contains(&format!("\"{key}\"")), "{key}");
     }
-    let asked: Value = serde_json::from_str(&sweep).unwrap();
+    let asked: serde_json::Value = serde_json::from_str(&sweep).unwrap();
     assert_eq!(asked["refine"]["budget"], 14);
     // A larger budget goes on from the same progress.
     let larger = REFINE.replace("budget = 14", "budget = 16");
