@@ -68,11 +68,11 @@ impl<'a> FailureTable<'a> {
         for failure in &failures {
             text.extend(self.row(failure)?);
         }
-        if text == before {
-            return Ok(());
-        }
         if !failures.is_empty() {
-            return write_atomic(&self.path, &text);
+            return match text == before {
+                true => Ok(()),
+                false => write_atomic(&self.path, &text),
+            };
         }
         match fs::remove_file(&self.path) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => {

@@ -59,6 +59,7 @@ impl<'a> Pool<'a> {
         plan.check()?;
         self.folder.write_sweep(self.sweep)?;
         let records = Records::new(self, plan);
+        // Nothing has failed yet, but what was noted before may be no failure any more.
         records.note_failures(&[]).map_err(FolderError::from)?;
         for (job, _) in plan.done() {
             // Left by a process that was killed between record and removal. One that cannot be
