@@ -4,6 +4,7 @@ use super::learnt::{FAILED, Learnt};
 use super::{Refining, ends_before};
 use crate::classify::{Family, LabelTable};
 use crate::refine::{Finish, Gap, Observations, RefineError, Round, Rounds, Run, Settings, widths};
+use crate::refusal::Refusal;
 use crate::sweep::{Folder, Job, Labelling, Plan, PointError, Sweep};
 use std::collections::HashSet;
 
@@ -55,6 +56,12 @@ pub enum RefinementError {
     /// The sweep has no table `[refine]`.
     #[error("the sweep is not refined")]
     NotRefined,
+}
+
+impl Refusal for RefinementError {
+    fn is_refusal(&self) -> bool {
+        !matches!(self, Self::Threads(_))
+    }
 }
 
 impl Refinement {
