@@ -2,7 +2,7 @@
 
 use super::console::Console;
 use super::exit::{Exit, Failure};
-use phase::reference::{self, File};
+use phase::reference::{self, InputFile};
 
 /// Print the JSON schema of a kind of file, by which an editor completes and checks it.
 #[derive(clap::Args)]
@@ -30,10 +30,10 @@ enum Kind {
 
 pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
     let file = match arguments.file {
-        Kind::Scene => File::Scene,
-        Kind::Sweep => File::Sweep,
-        Kind::Stability => File::Stability,
-        Kind::Accuracy => File::Accuracy,
+        Kind::Scene => InputFile::Scene,
+        Kind::Sweep => InputFile::Sweep,
+        Kind::Stability => InputFile::Stability,
+        Kind::Accuracy => InputFile::Accuracy,
     };
     console.result(format_args!("{:#}", reference::schema(file)));
     Ok(Exit::Done)
