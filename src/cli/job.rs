@@ -1,5 +1,6 @@
 //! A job of a sweep, as `--json` names it, and what is printed while jobs run.
 
+use super::format;
 use super::progress::Progress;
 use phase::record::RunRecord;
 use phase::run;
@@ -55,8 +56,16 @@ pub(super) fn tell(
         Event::Elsewhere(job) => {
             let name = named(job);
             progress.detail(format_args!("another process is running it: {name}"));
+        }
+        Event::Made(job) => {
+            let name = named(job);
+            progress.detail(format_args!("another process has made it: {name}"));
             progress.job_done(job.work());
         }
+        Event::Waiting(jobs) => progress.note(format_args!(
+            "waiting for {} that other processes are making",
+            format::count(jobs, "job")
+        )),
         Event::Resumed(job, work) => {
             progress.skip(work);
             let job = named(job);

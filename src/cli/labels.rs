@@ -199,8 +199,8 @@ fn counts(table: &LabelTable) -> Vec<(Label, usize)> {
             labels.clone().filter(|&other| other == label).count(),
         )
     };
-    let family = table.family.labels.iter();
-    family.copied().map(count).collect()
+    let family = table.family.labels().into_iter();
+    family.map(count).collect()
 }
 
 fn describe_counts(counts: &[(Label, usize)], runs: usize) -> String {

@@ -34,6 +34,7 @@ pub use import::read_states;
 pub use labels::{read_labels, write_labels, write_points};
 pub use lease::{Holder, Lease};
 pub use lock::Lock;
+pub(crate) use lock::retry;
 pub use own::is_own_file;
 pub use record::{
     HDF5_SIGNATURE, RecordHeader, content_digest, motion_digest, read_record, read_record_header,

@@ -6,7 +6,7 @@ use crate::cli::exit::{Exit, Failure};
 use crate::cli::folders::{self, ANOTHER_FOLDER};
 use clap::CommandFactory;
 use clap_complete::Shell;
-use phase::reference::{self, File};
+use phase::reference::{self, InputFile};
 use phase::store;
 use std::path::{Path, PathBuf};
 
@@ -99,10 +99,10 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 
 fn schema(kind: Kind) -> String {
     let file = match kind {
-        Kind::Scene => File::Scene,
-        Kind::Sweep => File::Sweep,
-        Kind::Stability => File::Stability,
-        Kind::Accuracy => File::Accuracy,
+        Kind::Scene => InputFile::Scene,
+        Kind::Sweep => InputFile::Sweep,
+        Kind::Stability => InputFile::Stability,
+        Kind::Accuracy => InputFile::Accuracy,
     };
     format!("{:#}", reference::schema(file))
 }

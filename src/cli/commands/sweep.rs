@@ -138,10 +138,6 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         console.answer_with_files(&answer);
         return Err(Failure::failed(error));
     }
-    if leaves_rest_to_others(&folder, &plan, console) {
-        console.answer_with_files(&answer);
-        return Ok(Exit::Done);
-    }
     let mut failed = !run.report.failures.is_empty();
     if !arguments.no_classify {
         let labelled = labels::label_folder(&folder, &sweep, &jobs, workers, console);
@@ -202,19 +198,6 @@ fn tell_of_earlier_borders(folder: &Folder, sweep: &Sweep, console: &Console) {
             folder.borders().display()
         ));
     }
-}
-
-/// Whether other processes still make runs of the plan: then they write tables and figures.
-fn leaves_rest_to_others(folder: &Folder, plan: &Plan, console: &Console) -> bool {
-    let is_made = |job: &Job| folder.is_made_elsewhere(&job.id);
-    let others = plan.jobs.iter().filter(|(job, _)| is_made(job)).count();
-    if others > 0 {
-        console.note(format_args!(
-            "another process is running {}, and will write tables and figures when it is done",
-            format::count(others, "job")
-        ));
-    }
-    others > 0
 }
 
 /// Takes the right to run a sweep into a folder, beside other processes that run the same one

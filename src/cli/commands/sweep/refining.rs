@@ -24,7 +24,7 @@ impl Rounds<'_> {
         let report = done.report;
         let done_before = done.plan.labelled().count();
         let run = Run {
-            done_before: done_before.saturating_sub(report.finished),
+            done_before: done_before.saturating_sub(report.finished + report.elsewhere),
             report,
             ..watcher.run.unwrap_or_default()
         };

@@ -43,16 +43,14 @@ impl Rounds<'_> {
     /// Calls `act` with the pool that runs the jobs of a sweep.
     pub(super) fn with_pool<T>(&self, sweep: &Sweep, act: impl FnOnce(&Pool<'_>) -> T) -> T {
         act(&Pool {
-            folder: self.folder,
-            sweep,
-            backend: &LocalThreads::new(self.workers),
             workers: self.workers,
             checkpoint_interval: self.checkpoint_interval,
             wishes: Wishes {
                 stop: self.stop,
                 resume: !self.force,
-                watch: &|_| {},
+                ..Wishes::default()
             },
+            ..Pool::new(self.folder, sweep, &LocalThreads::new(self.workers))
         })
     }
 
