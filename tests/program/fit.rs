@@ -66,7 +66,7 @@ fn a_silo_of_discrete_elements_opens_and_drains() {
     place
         .phase(&["view", "run.h5", "--time", "60", "--since-opening"])
         .code(2)
-        .complains("no state at t = 60 τ: the record holds them from -1 to 5 τ");
+        .complains("no state at t = 60 τ: the record holds states from -1 to 5 τ");
     let drawn = place.phase(&["plot", "run.h5", "--figure", "outflow,velocity-correlation"]);
     drawn.code(0);
 }
