@@ -23,6 +23,8 @@ pub enum LoadError {
     Invalid(Vec<LocatedProblem>),
 }
 
+crate::refusal::always!(true: LoadError);
+
 impl Display for LoadError {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> Result {
         match self {

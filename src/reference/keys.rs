@@ -7,9 +7,9 @@ use serde_json::Value;
 const INTRODUCTION: &str = "\
 # Keys of scene, sweep and study files
 
-This page is made by `phase reference keys`. Units are SI throughout, angles are in radians, z
-points up, and the tank's axis is the z axis. A key whose default is *needed* must be there; one
-without a default may be left out, which then means what its description says.
+This page is made by `phase generate reference keys`. Units are SI throughout, angles are in
+radians, z points up, and the tank's axis is the z axis. A key whose default is *needed* must be
+there; one without a default may be left out, which then means what its description says.
 ";
 
 /// The page of all keys of all files, in Markdown: type, unit, default, description.

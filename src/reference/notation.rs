@@ -7,7 +7,7 @@ const INTRODUCTION: &str = "\
 # Notation
 
 Symbol, unit and name of every numeric key of a scene, as figures write them. This page is made by
-`phase reference notation`.
+`phase generate reference notation`.
 
 | symbol | quantity | unit | key |
 |---|---|---|---|

@@ -13,7 +13,7 @@ pub const FAILED: Code = i8::MIN;
 
 /// Name of the label with a code.
 pub fn label_name(family: &Family, code: Code) -> &'static str {
-    let mut labels = family.labels.iter();
+    let mut labels = family.labels().into_iter();
     let label = labels.find(|label| label.code == code);
     label.map_or("failed", |label| label.name)
 }
@@ -84,7 +84,11 @@ impl Learnt {
     pub fn write(&self, folder: &Folder, sweep: &Sweep, family: &Family) -> Result<(), StoreError> {
         let axes: Vec<&str> = sweep.axes.iter().map(|axis| axis.name.as_str()).collect();
         let name = |code: Code| label_name(family, code);
-        let mut codes: Vec<Code> = family.labels.iter().map(|label| label.code).collect();
+        let mut codes: Vec<Code> = family
+            .labels()
+            .into_iter()
+            .map(|label| label.code)
+            .collect();
         codes.extend(self.map.codes().iter().filter(|code| **code == FAILED));
         let path = folder.refined();
         store::write_probabilities(&axes, &self.lattice, &self.map, (&codes, &name), &path)?;

@@ -6,6 +6,7 @@ use crate::classify::{Family, LabelTable};
 use crate::refine::{
     Finish, Gap, Observations, RefineError, Round, Rounds, Settings, Trial, widths,
 };
+use crate::refusal::Refusal;
 use crate::sweep::{Folder, Job, Labelling, Plan, PointError, Sweep};
 use std::collections::HashSet;
 
@@ -57,6 +58,12 @@ pub enum RefinementError {
     /// The sweep has no table `[refine]`.
     #[error("the sweep is not refined")]
     NotRefined,
+}
+
+impl Refusal for RefinementError {
+    fn is_refusal(&self) -> bool {
+        !matches!(self, Self::Threads(_))
+    }
 }
 
 impl Refinement {
