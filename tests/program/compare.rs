@@ -167,7 +167,7 @@ fn steps_are_no_times_of_spots() {
     place
         .phase(&["compare", "run.h5", "run.dump"])
         .code(2)
-        .complains("run.dump: it counts steps, and the scene is of spots");
+        .complains("run.dump: it counts steps, but a scene of spots has no time step");
 }
 
 /// Symptom: what a run with a door had been exported to gave another outflow than its record, as
@@ -214,9 +214,9 @@ fn spheres_that_cannot_be_told_apart_are_refused() {
     for (states, reason) in [
         (
             format!("{one}2\nTime=1\nA 0 0 1\nA 0 0 3\n"),
-            "state 2 has another number of spheres",
+            "state 2 and the state before differ in their number",
         ),
-        (format!("{one}{numbered}"), "write an `id` of each sphere"),
+        (format!("{one}{numbered}"), "write an `id` for each sphere"),
         (
             one.to_owned() + "1\nTime=1\nA 50 0 1\n",
             "state 2: sphere 0 is outside the walls of the scene",
