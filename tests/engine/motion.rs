@@ -19,7 +19,11 @@ fn scenes(folder: &Path, found: &mut Vec<String>) {
             scenes(&path, found);
         } else if path.extension().is_some_and(|end| end == "toml") {
             // Windows separates folders otherwise.
-            found.push(path.to_str().unwrap().replace(std::path::MAIN_SEPARATOR, "/"));
+            found.push(
+                path.to_str()
+                    .unwrap()
+                    .replace(std::path::MAIN_SEPARATOR, "/"),
+            );
         }
     }
 }

@@ -226,7 +226,10 @@ impl Results for Shared {
     }
 
     fn checkpoints(&self, job: &Job) -> Checkpoints {
-        Checkpoints::beside(&PathBuf::from("nowhere").join(&job.id), Duration::from_mins(1))
+        Checkpoints::beside(
+            &PathBuf::from("nowhere").join(&job.id),
+            Duration::from_mins(1),
+        )
     }
 }
 
