@@ -93,7 +93,7 @@ impl fmt::Debug for Family {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::{Schema, kind::Kind};
+    use crate::document::{Schema, kind::ValueKind};
     use std::collections::{BTreeMap, BTreeSet};
 
     #[test]
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn every_sieve_is_of_one_family() {
-        let Kind::Table(all) = Schema::of::<Sieves>().kind else {
+        let ValueKind::Table(all) = Schema::of::<Sieves>().kind else {
             panic!("sieves are a table");
         };
         let names: BTreeSet<&str> = all.keys.iter().map(|key| key.name.as_str()).collect();

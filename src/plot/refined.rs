@@ -197,14 +197,14 @@ fn curves(
     let of_panel = |(panel, place): (&Panel<Cell>, &usize)| {
         let mut curves = Vec::new();
         if let Some(y) = &grid.y {
-            let plane = refine::Panel {
+            let plane = refine::LatticePlane {
                 lattice: &learnt.lattice,
                 map: &learnt.map,
                 x: grid.x.index,
                 y: y.index,
                 place: *place,
             };
-            let shown = |curve: refine::Curve| {
+            let shown = |curve: refine::BorderCurve| {
                 let points = curve.into_iter();
                 points
                     .map(|[at, height]| (grid.x.show(at), y.show(height)))

@@ -43,6 +43,7 @@ pub use record::{
 pub use refined::{BorderRow, write_borders, write_probabilities};
 pub use rows::write_rows;
 
+use crate::refusal::Refusal;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -185,6 +186,16 @@ pub enum StoreError {
         /// The file.
         path: PathBuf,
     },
+}
+
+/// What cannot be read was asked for; what cannot be written is no fault of who asked.
+impl Refusal for StoreError {
+    fn is_refusal(&self) -> bool {
+        !matches!(
+            self,
+            Self::Write { .. } | Self::DiskFull { .. } | Self::Content { .. }
+        )
+    }
 }
 
 impl StoreError {

@@ -3,6 +3,7 @@
 use super::{Refining, Sweep};
 use crate::classify::LabelRow;
 use crate::record::RunRecord;
+use crate::refusal::Refusal;
 use crate::resume::Checkpoints;
 use crate::store::{self, StoreError};
 use serde::Serialize;
@@ -88,6 +89,17 @@ pub enum FolderError {
     /// A file of the folder cannot be read or written.
     #[error(transparent)]
     Store(#[from] store::StoreError),
+}
+
+/// A path that leads to no results, or a folder in use. What a results folder holds is no fault of
+/// who names it.
+impl Refusal for FolderError {
+    fn is_refusal(&self) -> bool {
+        matches!(
+            self,
+            Self::Missing(_) | Self::NotAFolder(_) | Self::NoSweep(_) | Self::Locked(_)
+        )
+    }
 }
 
 impl Folder {

@@ -4,6 +4,7 @@ use super::backend::{Backend, Batch, Report, Results, Wishes};
 use super::plan::{ForeignRecord, Plan};
 use super::records::Records;
 use super::{Folder, FolderError, Sweep, work};
+use crate::refusal::Refusal;
 use crate::resume::DEFAULT_INTERVAL;
 use std::time::Duration;
 
@@ -33,6 +34,12 @@ pub enum PoolError {
     /// The results folder cannot be used.
     #[error(transparent)]
     Folder(#[from] FolderError),
+}
+
+impl Refusal for PoolError {
+    fn is_refusal(&self) -> bool {
+        matches!(self, Self::Foreign(_))
+    }
 }
 
 impl<'a> Pool<'a> {
@@ -308,7 +315,7 @@ mod tests {
             }
         };
         let faulty: Begin<'_> = &|job| match job.values[0] {
-            2.0 | 3.0 => Err(BuildError::new(dem::BuildError::FrictionWithoutContact)),
+            2.0 | 3.0 => Err(BuildError::new(dem::DemBuildError::FrictionWithoutContact)),
             _ => Run::new(&job.scene),
         };
         let threads = LocalThreads::new(1).beginning(faulty);

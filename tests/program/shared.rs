@@ -113,7 +113,7 @@ fn files_of_one_name_do_not_share_a_folder() {
     place
         .phase(&["sweep", "other/tiny.toml"])
         .code(2)
-        .complains("results/tiny: this folder has the results of ")
+        .complains("results/tiny: this folder holds the results of ")
         .complains(
             "one/tiny.toml, another sweep of the same name; choose another folder with --out",
         );

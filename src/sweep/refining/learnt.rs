@@ -3,7 +3,7 @@
 use super::{Refining, borders};
 use crate::classify::{Family, LabelTable};
 use crate::refine::{
-    Borders, Code, Lattice, Observations, ProbabilityMap, RefineError, Run, probabilities,
+    Borders, Code, Lattice, Observations, ProbabilityMap, RefineError, Trial, probabilities,
 };
 use crate::store::{self, BorderRow, StoreError};
 use crate::sweep::{Folder, Sweep};
@@ -45,13 +45,13 @@ impl Learnt {
         };
         let lattice = sweep.lattice()?;
         let chosen = refining.map(Refining::runs);
-        let is_of_sweep = |run: &Run| {
+        let is_of_sweep = |run: &Trial| {
             let mut chosen = chosen.iter();
             chosen.all(|runs| runs.binary_search_by(|it| it.order(run)).is_ok())
         };
         let mut runs = Observations::new();
         for row in &table.rows {
-            let run = Run {
+            let run = Trial {
                 values: row.values.clone(),
                 seed: row.seed,
             };

@@ -2,6 +2,7 @@
 
 use super::{Refinement, RefinementError, Refining, Step};
 use crate::refine::Finish;
+use crate::refusal::Refusal;
 use crate::store::StoreError;
 use crate::sweep::{FolderError, Job, Plan, Pool, PoolError, Report, Standing};
 use std::collections::HashSet;
@@ -58,6 +59,16 @@ pub enum RoundsError {
     /// A table cannot be written.
     #[error(transparent)]
     Store(#[from] StoreError),
+}
+
+impl Refusal for RoundsError {
+    fn is_refusal(&self) -> bool {
+        match self {
+            Self::Refinement(error) => error.is_refusal(),
+            Self::Pool(error) => error.is_refusal(),
+            Self::Folder(_) | Self::Store(_) => false,
+        }
+    }
 }
 
 /// A sweep that has been refined, or as far as it came.

@@ -110,7 +110,7 @@ fn labels_that_cannot_be_read_are_not_forgotten() {
             .phase(&keep)
             .code(2)
             .complains(reason)
-            .complains("mend it");
+            .complains("repair the file");
         assert_eq!(place.read("results/labels.csv"), damaged);
     }
 }

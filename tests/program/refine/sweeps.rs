@@ -52,7 +52,7 @@ fn a_coarse_grid_and_rounds_spend_the_budget() {
         "round 2: 9 runs of at most 14; ",
         "round 4: 14 runs of at most 14; ",
         "refined with 14 runs: the budget of 14 runs is spent; ",
-        "across may have been missed, such as at omega = ",
+        "may have been missed, for example at omega = ",
     ] {
         assert!(said.contains(text), "no `{text}` in {said}");
     }
@@ -138,7 +138,7 @@ fn the_status_says_how_wide_borders_are() {
         .code(0)
         .says("6 to start, then rounds of 3 up to 14 in total")
         .says("1, 2 at most");
-    assert!(!status_text(&place).contains("if all of it is spent"));
+    assert!(!status_text(&place).contains("if it is used up"));
     // As after an interruption.
     let sweep = place.read("results/sweep.json");
     place.write(
@@ -147,7 +147,7 @@ fn the_status_says_how_wide_borders_are() {
     );
     let text = status_text(&place);
     assert!(text.contains("refined    14 runs of at most 20"), "{text}");
-    assert!(text.contains("if all of it is spent"), "{text}");
+    assert!(text.contains("if it is used up"), "{text}");
 }
 
 fn status_text(place: &Workplace) -> String {
@@ -310,7 +310,7 @@ fn what_does_not_go_with_refining_is_refused() {
         (&["tiny.toml", "--no-classify"][..], "refining needs labels"),
         (
             &["tiny.toml", "--seed", "4,5"],
-            "a refined sweep takes one --seed, the first; each point has at most 2 seeds from",
+            "a refined sweep takes one --seed, the first one; each point then uses at most 2 seeds",
         ),
         (
             &["alone.toml", "--refine"],
