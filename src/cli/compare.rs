@@ -22,10 +22,10 @@ use std::path::PathBuf;
 /// over the diameter of the spheres. Of tanks and silos the label and the measures of `labels.csv`
 /// are told. Of two records the difference is told, too.
 ///
-/// Beside records of phase there may be dumps of LAMMPS, extended XYZ files, and files of VTK by
-/// the collection (`.pvd`) or series (`.series`) that says their times. The scene of the first
-/// record says what they do not (or `--scene`). A table that this command wrote takes the place of
-/// its records.
+/// Dumps of LAMMPS, extended XYZ files, and files of VTK are compared with records of phase too; of
+/// VTK, give the collection (`.pvd`) that says the times of the files. What they do not say is taken
+/// from the scene of the first record (or `--scene`). A table that this command wrote takes the
+/// place of its records.
 ///
 /// Of two folders, runs of one point and seed are paired: the share with one label, and the mean
 /// differences of measures.

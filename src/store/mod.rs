@@ -164,20 +164,10 @@ pub enum StoreError {
         /// What is wrong and what is expected.
         reason: String,
     },
-    /// An array of a file that has no lines is not as it should be.
-    #[error("{}: array `{array}`: {reason}", path.display())]
-    Array {
-        /// The file.
-        path: PathBuf,
-        /// Name of the array, or of the section of the file.
-        array: String,
-        /// What is wrong and what is expected.
-        reason: String,
-    },
-    /// A file of VTK is given in place of a list of such files.
+    /// A file of VTK, or a series of ParaView, is given in place of a collection of files.
     #[error(
-        "{} holds one state and does not say its time; give a collection (`.pvd`) or a series \
-         (`.series`) that names the files of all times",
+        "{}: files of VTK do not say their time, and series of ParaView cannot be read; give a \
+         collection (`.pvd`) that names the files of all times",
         path.display()
     )]
     OneState {
@@ -231,14 +221,6 @@ impl StoreError {
         Self::Text {
             path: path.to_owned(),
             line,
-            reason: reason.to_string(),
-        }
-    }
-
-    fn array(path: &Path, array: &str, reason: impl ToString) -> Self {
-        Self::Array {
-            path: path.to_owned(),
-            array: array.to_owned(),
             reason: reason.to_string(),
         }
     }

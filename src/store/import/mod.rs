@@ -1,12 +1,8 @@
 //! States of spheres that other programs wrote: one file per format.
 
+mod collection;
 mod lammps;
-mod series;
-mod vtk_bytes;
-mod vtk_legacy;
-mod vtk_numbers;
-mod vtk_reader;
-mod vtk_xml;
+mod vtk;
 mod xyz;
 
 use super::StoreError;
@@ -15,17 +11,16 @@ use crate::replay::WrittenState;
 use std::path::Path;
 
 /// Reads the states of a text dump of LAMMPS (`ITEM: TIMESTEP`), of an extended XYZ file, or of the
-/// files of VTK that a collection (`.pvd`) or a series of ParaView (`.series`) names.
+/// files of VTK that a collection (`.pvd`) names.
 ///
 /// # Errors
-/// [`StoreError::Read`] or [`StoreError::ReadNamed`]; [`StoreError::Text`] with the line at fault,
-/// or [`StoreError::Array`]; [`StoreError::OneState`] for a file of VTK, which has no time.
+/// [`StoreError::Read`] or [`StoreError::ReadNamed`]; [`StoreError::Text`] with the line at fault;
+/// [`StoreError::OneState`] for a file of VTK, which has no time, or a series of ParaView.
 pub fn read_states(path: &Path) -> Result<Vec<WrittenState>, StoreError> {
     let end = path.extension().unwrap_or_default().to_string_lossy();
     match &end.to_ascii_lowercase()[..] {
-        "pvd" => series::collection(path),
-        "series" => series::series(path),
-        "vtk" | "vtp" | "vtu" => Err(StoreError::OneState {
+        "pvd" => collection::states(path),
+        "series" | "vtk" | "vtp" | "vtu" => Err(StoreError::OneState {
             path: path.to_owned(),
         }),
         _ => text_states(path),
