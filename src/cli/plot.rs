@@ -9,7 +9,7 @@ use super::folders::{self, Entry};
 use super::runs::check_labels;
 use folder::{FitEntry, FolderAnswer};
 use phase::classify::{Family, LabelTable};
-use phase::plot::{self, About, PlotError, Svg};
+use phase::plot::{self, Figure, PlotError, Svg};
 use phase::record::Program;
 use phase::store;
 use phase::sweep::{Folder, Selection, Sweep, parse_point};
@@ -175,18 +175,27 @@ impl Answer {
     /// Prints name and description of every figure, or of those that can be drawn of what is at
     /// `dir`.
     fn list(&mut self, dir: Option<&Path>, console: &Console) -> Result<(), Failure> {
-        let (known, of_record) = match dir {
-            None => (plot::figures(), records::of_one()),
-            Some(path) if path.is_file() => (Vec::new(), records::list(path)?),
-            Some(dir) => (self.drawable(dir, console)?, Vec::new()),
+        let known: Vec<&Figure> = match dir {
+            None => {
+                let figures = plot::figures().iter();
+                figures
+                    .filter(|it| it.is_of_sweep() || it.is_of_one_record())
+                    .collect()
+            }
+            Some(path) if path.is_file() => records::drawable(path)?,
+            Some(dir) => self.drawable(dir, console)?,
         };
+        let of_record = dir.is_some_and(Path::is_file);
         let figures = known.into_iter().map(|figure| Listed {
             name: figure.name,
-            description: figure.description,
-            default_runs: figure.default_runs,
-            families: figure.families.iter().map(|it| it.name).collect(),
+            description: figure.description.clone(),
+            default_runs: figure.default_runs().filter(|_| !of_record),
+            families: match of_record {
+                true => Vec::new(),
+                false => figure.families.iter().map(|it| it.name).collect(),
+            },
         });
-        self.figures = figures.chain(of_record).collect();
+        self.figures = figures.collect();
         for figure in &self.figures {
             figure.print(dir.is_none(), console);
         }
@@ -194,11 +203,9 @@ impl Answer {
     }
 
     /// The figures that can be drawn of the results folders at `dir`: a try succeeds.
-    fn drawable(&mut self, dir: &Path, console: &Console) -> Result<Vec<About>, Failure> {
-        let mut is_drawn: Vec<(About, bool)> = plot::figures()
-            .into_iter()
-            .map(|figure| (figure, false))
-            .collect();
+    fn drawable(&mut self, dir: &Path, console: &Console) -> Result<Vec<&'static Figure>, Failure> {
+        let of_sweeps = plot::figures().iter().filter(|figure| figure.is_of_sweep());
+        let mut is_drawn: Vec<(&Figure, bool)> = of_sweeps.map(|figure| (figure, false)).collect();
         let found = Folder::find(dir).map_err(Failure::refused)?;
         self.folders = folders::go_through(dir, found, console, |folder| {
             let sweep = folder.read_sweep().map_err(Failure::failed)?;
@@ -220,17 +227,22 @@ impl Answer {
         arguments: &Arguments,
         console: &Console,
     ) -> Result<(), Failure> {
-        let is_known = |name: &String| plot::figures().iter().any(|known| known.name == name);
-        if let Some(name) = arguments.figure.iter().find(|name| !is_known(name)) {
-            if records::OF_ONE.iter().any(|known| known.name == *name) {
-                return Err(Failure::refused(format_args!(
-                    "`{name}` is drawn from the record of one run; name its .h5 file instead of {}",
-                    dir.display()
-                )));
+        for name in &arguments.figure {
+            match plot::figures().iter().find(|known| known.name == name) {
+                Some(figure) if figure.is_of_sweep() => {}
+                Some(figure) if figure.is_of_one_record() => {
+                    return Err(Failure::refused(format_args!(
+                        "`{name}` is drawn from the record of one run; name its .h5 file instead \
+                         of {}",
+                        dir.display()
+                    )));
+                }
+                _ => {
+                    return Err(Failure::refused(format_args!(
+                        "there is no figure `{name}`; `phase plot --list` names them all"
+                    )));
+                }
             }
-            return Err(Failure::refused(format_args!(
-                "there is no figure `{name}`; `phase plot --list` names them all"
-            )));
         }
         let points = arguments.points.iter().map(|point| parse_point(point));
         let points: Vec<Selection> = points.collect::<Result<_, _>>().map_err(Failure::refused)?;
@@ -379,8 +391,6 @@ fn drawn(
         record: &|id| folder.read_record(id),
         points,
         times,
-        captions: &[],
-        data: &[],
         program: &Program::current(),
     };
     plot::draw(name, &source).map_err(|error| refused_or_failed(folder, error))

@@ -4,7 +4,7 @@ use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::plot::ANOTHER_FOLDER;
 use super::{folders, format, plot};
-use phase::plot::verification::{self, CaseError};
+use phase::plot::{Study, draw, verification::CaseError};
 use phase::record::Program;
 use phase::scene::Integrator;
 use phase::store;
@@ -253,6 +253,10 @@ fn write(
     let place = |end: &str| folder.join(format!("verification.{end}"));
     store::write_rows(rows, &place("csv")).map_err(Failure::failed)?;
     console.file(&place("csv"));
-    let figure = verification::draw(errors, &Program::current()).map_err(Failure::failed)?;
+    let figure = draw(
+        "verification",
+        Study::Verification(errors, &Program::current()),
+    );
+    let figure = figure.map_err(Failure::failed)?;
     plot::write(&figure, place, console)
 }

@@ -32,7 +32,7 @@ pub fn draw(
     program: &Program,
 ) -> Result<Svg, PlotError> {
     if ablated.is_empty() {
-        return Err(PlotError::NoMeasures { figure: "ablation" });
+        return Err(PlotError::no_measures("ablation"));
     }
     let title = sweep
         .title

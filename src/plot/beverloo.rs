@@ -14,8 +14,8 @@ use crate::scene::{Scene, Units};
 use crate::statistics::Estimate;
 use std::f64::consts::PI;
 
-/// The discharge rate over the opening.
-pub(super) struct Beverloo;
+/// Name of the figure.
+const NAME: &str = "beverloo";
 
 /// What spheres leave through, and where the numbers of the law stand.
 struct Outlet {
@@ -70,9 +70,11 @@ impl Outlet {
                 .filter(|it| it.key == axis.key)
                 .map(move |outlet| (outlet, index))
         });
-        let (outlet, index) = found.last().ok_or_else(|| PlotError::NeedsAxis {
-            figure: Beverloo.name(),
-            key: own().map(|it| it.key).next().unwrap_or_default(),
+        let (outlet, index) = found.last().ok_or_else(|| {
+            let key = own().map(|it| it.key).next().unwrap_or_default();
+            PlotError::request(format_args!(
+                "the figure `{NAME}` needs a sweep over `{key}`"
+            ))
         })?;
         let axis = GridAxis::new(index, source.sweep, source.table);
         Ok((outlet, axis))
@@ -104,60 +106,55 @@ pub struct FittedLine {
     pub without_rate: usize,
 }
 
-impl Figure for Beverloo {
-    fn name(&self) -> &'static str {
-        "beverloo"
-    }
+pub(super) fn figure() -> Figure {
+    Figure::of_sweep(
+        NAME,
+        "discharge rate over the opening, with the law of Beverloo fitted",
+        draw,
+    )
+    .for_families([&SILO, &DRAINAGE])
+}
 
-    fn description(&self) -> String {
-        "discharge rate over the opening, with the law of Beverloo fitted".to_owned()
+fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
+    let (outlet, axis) = Outlet::of(source)?;
+    let (lines, left_out) = series::lines(source, &axis)?;
+    let fitted = lines
+        .iter()
+        .map(|line| fitted(source, outlet, line))
+        .collect::<Result<Vec<_>, _>>()?;
+    let widest = axis.shown().last().copied().unwrap_or(1.0);
+    let mut panel = Panel {
+        x: (0.0, 1.05 * widest),
+        ..Panel::default()
+    };
+    for (line, fitted) in lines.iter().zip(&fitted) {
+        let width = outlet.width / axis.factor;
+        panel.lines.push(curve(fitted, line, width, panel.x.1));
+        panel.bars.extend(bars(source, outlet, line, axis.factor));
     }
-
-    fn families(&self) -> Vec<&'static Family> {
-        vec![&SILO, &DRAINAGE]
+    let bars = panel.bars.iter().map(|bar| bar.ends()[1]);
+    let curves = panel.lines.iter().flat_map(|line| &line.points);
+    let tops = bars.chain(curves.map(|point| point.1));
+    panel.y = (0.0, 1.03 * tops.fold(0.0, f64::max));
+    let legend = lines.iter().zip(&fitted);
+    let units = source.sweep.scene.units();
+    Chart {
+        name: NAME,
+        common: vec![law(outlet)],
+        columns: 1,
+        height: px(400),
+        panels: vec![panel],
+        x_label: axis.label(),
+        y_label: format!("discharge rate $W$ (grains/{})", units.of_time()),
+        legend: legend
+            .map(|(line, fitted)| (line.color, entry(&line.name, &fitted.fit)))
+            .collect(),
+        notes: notes(&fitted, outlet, units)
+            .into_iter()
+            .chain(left_out)
+            .collect(),
     }
-
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let (outlet, axis) = Outlet::of(source)?;
-        let (lines, left_out) = series::lines(source, &axis)?;
-        let fitted = lines
-            .iter()
-            .map(|line| fitted(source, outlet, line))
-            .collect::<Result<Vec<_>, _>>()?;
-        let widest = axis.shown().last().copied().unwrap_or(1.0);
-        let mut panel = Panel {
-            x: (0.0, 1.05 * widest),
-            ..Panel::default()
-        };
-        for (line, fitted) in lines.iter().zip(&fitted) {
-            let width = outlet.width / axis.factor;
-            panel.lines.push(curve(fitted, line, width, panel.x.1));
-            panel.bars.extend(bars(source, outlet, line, axis.factor));
-        }
-        let bars = panel.bars.iter().map(|bar| bar.ends()[1]);
-        let curves = panel.lines.iter().flat_map(|line| &line.points);
-        let tops = bars.chain(curves.map(|point| point.1));
-        panel.y = (0.0, 1.03 * tops.fold(0.0, f64::max));
-        let legend = lines.iter().zip(&fitted);
-        let units = source.sweep.scene.units();
-        Chart {
-            name: self.name(),
-            common: vec![law(outlet)],
-            columns: 1,
-            height: px(400),
-            panels: vec![panel],
-            x_label: axis.label(),
-            y_label: format!("discharge rate $W$ (grains/{})", units.of_time()),
-            legend: legend
-                .map(|(line, fitted)| (line.color, entry(&line.name, &fitted.fit)))
-                .collect(),
-            notes: notes(&fitted, outlet, units)
-                .into_iter()
-                .chain(left_out)
-                .collect(),
-        }
-        .draw(source)
-    }
+    .draw(&source.origin())
 }
 
 /// The law fitted to each line that the figure `beverloo` shows.
@@ -192,13 +189,9 @@ fn runs<'a>(source: &'a Source<'_>, line: &'a Series) -> impl Iterator<Item = (f
 
 fn fitted(source: &Source<'_>, outlet: &Outlet, line: &Series) -> Result<FittedLine, PlotError> {
     let name = super::text::plain(&line.name);
-    let fail = |reason: String| PlotError::Fit {
-        line: if name.is_empty() {
-            "the fit".to_owned()
-        } else {
-            name.clone()
-        },
-        reason,
+    let fail = |reason: String| {
+        let line = if name.is_empty() { "the fit" } else { &name };
+        PlotError::file(format_args!("{line}: {reason}"))
     };
     let bed = bed(source, outlet, line).ok_or_else(|| {
         let reason = "the law needs gravity and runs with a packing fraction at rest, in a scene \

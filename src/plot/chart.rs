@@ -6,9 +6,9 @@ use super::page::{Frame, Page, Plan};
 use super::scale::Span;
 use super::spacing::Spacing;
 use super::style::{self, Drawn, Sheet, px};
-use super::svg::Svg;
+use super::svg::{Origin, Svg};
 use super::ticks::Ticks;
-use super::{PlotError, Source, palette};
+use super::{PlotError, palette};
 use plotters::element::{ErrorBar, PathElement};
 use plotters::style::{Color, RGBColor};
 
@@ -154,9 +154,9 @@ pub(super) struct Chart {
 }
 
 impl Chart {
-    pub(super) fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let body = self.body(source.sweep.title.as_deref())?;
-        Ok(Svg::new(self.name, source, &body))
+    pub(super) fn draw(&self, origin: &Origin<'_>) -> Result<Svg, PlotError> {
+        let body = self.body(origin.title)?;
+        Ok(Svg::new(self.name, origin, &body))
     }
 
     /// Size of the canvas, and what is drawn on it below a title.

@@ -177,8 +177,6 @@ mod tests {
             record: &|id| panic!("the grid read the record {id}"),
             points: &[],
             times: None,
-            captions: &[],
-            data: &[],
             program: &Program::current(),
         })
         .unwrap();

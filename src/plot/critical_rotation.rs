@@ -7,66 +7,59 @@ use super::style::px;
 use super::svg::Svg;
 use super::ticks::Ticks;
 use super::{Figure, PlotError, Source, choice, palette};
-use crate::classify::{Family, TANK};
+use crate::classify::TANK;
 use crate::scene::Scene;
 use crate::theory::critical_rotation;
 use plotters::style::RGBColor;
 
-/// The critical rotation over the radius of the spheres.
-pub(super) struct CriticalRotation;
+/// Name of the figure.
+const NAME: &str = "critical-rotation";
 
 /// Axes of a sweep that move the curve, each value to one line, as many as there are colours.
 const MOVING: [&str; 3] = ["spheres.count", "tank.radius", "gravity.acceleration"];
 
-impl Figure for CriticalRotation {
-    fn name(&self) -> &'static str {
-        "critical-rotation"
-    }
+pub(super) fn figure() -> Figure {
+    Figure::of_sweep(
+        NAME,
+        "theory: critical rotation over the radius of the spheres (eq. 43)",
+        draw,
+    )
+    .for_families([&TANK])
+}
 
-    fn description(&self) -> String {
-        "theory: critical rotation over the radius of the spheres (eq. 43)".to_owned()
+fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
+    let (low, high) = radii(source);
+    let x = (low * 1e3, high * 1e3);
+    let (spacing, ticks) = axis(source);
+    let (mut lines, mut legend) = (Vec::new(), Vec::new());
+    for (name, color, scene) in scenes(source) {
+        let omega = |radius: f64| critical(&scene, radius * 1e-3).map(|omega| (radius, omega));
+        let radii = samples(0.0, 1.0).map(|share| spacing.along(share, x.0, x.1));
+        let points: Option<Vec<_>> = radii.map(omega).collect();
+        let points =
+            points.ok_or_else(|| PlotError::needs(NAME, "a tank with a radius, and gravity"))?;
+        lines.push(Line { points, color });
+        legend.push((color, name));
     }
-
-    fn families(&self) -> Vec<&'static Family> {
-        vec![&TANK]
+    if lines.len() == 1 {
+        legend.clear();
     }
-
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let (low, high) = radii(source);
-        let x = (low * 1e3, high * 1e3);
-        let (spacing, ticks) = axis(source);
-        let (mut lines, mut legend) = (Vec::new(), Vec::new());
-        for (name, color, scene) in scenes(source) {
-            let omega = |radius: f64| critical(&scene, radius * 1e-3).map(|omega| (radius, omega));
-            let radii = samples(0.0, 1.0).map(|share| spacing.along(share, x.0, x.1));
-            let points: Option<Vec<_>> = radii.map(omega).collect();
-            let points = points.ok_or(PlotError::Scene {
-                figure: self.name(),
-                needs: "a tank with a radius, and gravity",
-            })?;
-            lines.push(Line { points, color });
-            legend.push((color, name));
-        }
-        if lines.len() == 1 {
-            legend.clear();
-        }
-        Chart {
-            name: self.name(),
-            common: fixed(source),
-            panels: vec![Panel {
-                spacing: [spacing, Spacing::Linear],
-                ticks,
-                ..Panel::new(Vec::new(), x, lines).down_to_zero()
-            }],
-            columns: 1,
-            height: px(400),
-            x_label: "radius of the spheres $r$ (mm)".to_owned(),
-            y_label: "critical rotation $Ω_c$ (rad/s)".to_owned(),
-            legend,
-            ..Chart::default()
-        }
-        .draw(source)
+    Chart {
+        name: NAME,
+        common: fixed(source),
+        panels: vec![Panel {
+            spacing: [spacing, Spacing::Linear],
+            ticks,
+            ..Panel::new(Vec::new(), x, lines).down_to_zero()
+        }],
+        columns: 1,
+        height: px(400),
+        x_label: "radius of the spheres $r$ (mm)".to_owned(),
+        y_label: "critical rotation $Ω_c$ (rad/s)".to_owned(),
+        legend,
+        ..Chart::default()
     }
+    .draw(&source.origin())
 }
 
 /// How radii (mm) are spaced, and where they have ticks: as on other figures of the sweep.

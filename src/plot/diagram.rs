@@ -137,7 +137,7 @@ impl Diagram<'_> {
         let entries = Curve::entries(&curves, critical::WORDS);
         let title = source.sweep.title.as_deref();
         let body = self.body(title, &curves, entries)?;
-        Ok(Svg::new(self.name, source, &body))
+        Ok(Svg::new(self.name, &source.origin(), &body))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::chart::{self, Chart, Line, Panel};
 use super::style::px;
 use super::svg::Svg;
-use super::{PlotError, palette};
+use super::{Figure, PlotError, palette};
 use crate::observe::Observations;
 use crate::record::RunRecord;
 use plotters::style::BLACK;
@@ -11,14 +11,18 @@ use plotters::style::BLACK;
 /// The name of a kind of energy, and its values over time (J).
 type Account = (&'static str, Line);
 
-/// Draws the ledger of a run.
-///
-/// # Errors
-/// [`PlotError::NoLedger`] if the record holds none.
-pub fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
+pub(super) fn figure() -> Figure {
+    let description = "where the energy went, from the record of one run with its ledger";
+    Figure::of_record("ledger", description, draw)
+}
+
+fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
     let observations = &record.observations;
     if observations.residual.is_empty() {
-        return Err(PlotError::NoLedger);
+        return Err(PlotError::nothing(
+            "the record holds no ledger of energy; add `ledger = true` to [output] of the scene \
+             and run it again",
+        ));
     }
     let accounts = accounts(observations);
     let residual = Line::over(&observations.time, &observations.residual, BLACK);

@@ -38,6 +38,11 @@ pub(super) static MAPS: LazyLock<Vec<Map>> = LazyLock::new(|| {
     FAMILIES.into_iter().flat_map(of_family).collect()
 });
 
+pub(super) fn figure(map: &'static Map) -> Figure {
+    let description = format!("map: {}", super::text::plain(&map.label(Units::Si)));
+    Figure::of_sweep(map.name, description, |source| map.draw(source)).for_families([map.family])
+}
+
 /// The maps of what runs of a family did, without the evidence of its sieves.
 pub(super) fn of_measures(family: &'static Family) -> impl Iterator<Item = &'static Map> {
     let maps = MAPS.iter();
@@ -77,20 +82,6 @@ impl Map {
     /// Mean over the seeds of a point that have a value.
     fn mean(&self, source: &Source<'_>, point: &Point) -> Option<f64> {
         Estimate::of_mean(&self.values(source, point)).map(|mean| mean.value)
-    }
-}
-
-impl Figure for Map {
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
-    fn description(&self) -> String {
-        format!("map: {}", super::text::plain(&self.label(Units::Si)))
-    }
-
-    fn families(&self) -> Vec<&'static Family> {
-        vec![self.family]
     }
 
     fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {

@@ -11,48 +11,45 @@ use super::svg::Svg;
 use super::{Figure, PlotError, Source};
 use crate::sweep::Sweep;
 
-/// Every measure over the horizontal axis.
-pub(super) struct MeasuresFigure;
+/// Name of the figure.
+const NAME: &str = "measures";
 
 /// Distance of the bars of two lines at one place, over the length of the axis: so that they do not
 /// hide each other.
 const ASIDE: f64 = 0.012;
 
-impl Figure for MeasuresFigure {
-    fn name(&self) -> &'static str {
-        "measures"
-    }
+pub(super) fn figure() -> Figure {
+    Figure::of_sweep(
+        NAME,
+        "every measure over the x axis: means over the seeds with their 95 % intervals",
+        draw,
+    )
+}
 
-    fn description(&self) -> String {
-        "every measure over the x axis: means over the seeds with their 95 % intervals".to_owned()
+fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
+    let axis = Grid::new(source)?.x;
+    let (lines, left_out) = series::lines(source, &axis)?;
+    let panels: Vec<Panel> = map::of_measures(source.table.family)
+        .filter_map(|map| panel(source, map, &lines, &axis))
+        .collect();
+    if panels.is_empty() {
+        return Err(PlotError::no_measures(NAME));
     }
-
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let axis = Grid::new(source)?.x;
-        let (lines, left_out) = series::lines(source, &axis)?;
-        let panels: Vec<Panel> = map::of_measures(source.table.family)
-            .filter_map(|map| panel(source, map, &lines, &axis))
-            .collect();
-        if panels.is_empty() {
-            let figure = self.name();
-            return Err(PlotError::NoMeasures { figure });
-        }
-        let named = lines.iter().filter(|line| !line.name.is_empty());
-        Chart {
-            name: self.name(),
-            columns: 2,
-            height: px(130),
-            panels,
-            x_label: axis.label(),
-            legend: named.map(|line| (line.color, line.name.clone())).collect(),
-            notes: [Some(note(source.sweep)), left_out]
-                .into_iter()
-                .flatten()
-                .collect(),
-            ..Chart::default()
-        }
-        .draw(source)
+    let named = lines.iter().filter(|line| !line.name.is_empty());
+    Chart {
+        name: NAME,
+        columns: 2,
+        height: px(130),
+        panels,
+        x_label: axis.label(),
+        legend: named.map(|line| (line.color, line.name.clone())).collect(),
+        notes: [Some(note(source.sweep)), left_out]
+            .into_iter()
+            .flatten()
+            .collect(),
+        ..Chart::default()
     }
+    .draw(&source.origin())
 }
 
 /// What bars are.

@@ -10,52 +10,49 @@ use crate::classify::Label;
 use crate::classify::Point;
 use plotters::style::WHITE;
 
-/// The phase diagram.
-pub(super) struct PhaseDiagram;
+/// Name of the figure.
+const NAME: &str = "phase";
 
-impl Figure for PhaseDiagram {
-    fn name(&self) -> &'static str {
-        "phase"
-    }
-
-    fn description(&self) -> String {
+pub(super) fn figure() -> Figure {
+    Figure::of_sweep(
+        NAME,
         "phase diagram: the majority label at every point, paler and with a dot where seeds \
-         disagree, hatched where a run did not become steady"
-            .to_owned()
-    }
+         disagree, hatched where a run did not become steady",
+        draw,
+    )
+}
 
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let grid = Grid::new(source)?;
-        let points: Vec<&Point> = grid
-            .panels
-            .iter()
-            .flat_map(|panel| panel.cells.iter().flatten())
-            .collect();
-        let occurs = |label: &Label| {
-            let mut points = points.iter();
-            points.any(|point| has_majority(point) && point.label == *label)
-        };
-        let labels = source.table.family.labels.iter();
-        let mut legend: Vec<Entry> = labels
-            .filter(|label| occurs(label))
-            .map(|label| Entry::new(Key::Fill(fill(*label)), &label.name.replace('-', " ")))
-            .collect();
-        legend.extend(of_disagreement(&points));
-        let is_unsteady = |point: &Point| source.table.is_unsteady(point);
-        if points.iter().any(|point| is_unsteady(point)) {
-            let key = Key::Fill(Fill::Falling(WHITE));
-            legend.push(Entry::new(key, "not steady"));
-        }
-        Diagram {
-            name: self.name(),
-            grid: &grid,
-            look: &|point| Some(look(point, is_unsteady(point))),
-            empty: "not run".to_owned(),
-            legend,
-            bar: None,
-        }
-        .draw(source)
+fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
+    let grid = Grid::new(source)?;
+    let points: Vec<&Point> = grid
+        .panels
+        .iter()
+        .flat_map(|panel| panel.cells.iter().flatten())
+        .collect();
+    let occurs = |label: &Label| {
+        let mut points = points.iter();
+        points.any(|point| has_majority(point) && point.label == *label)
+    };
+    let labels = source.table.family.labels.iter();
+    let mut legend: Vec<Entry> = labels
+        .filter(|label| occurs(label))
+        .map(|label| Entry::new(Key::Fill(fill(*label)), &label.name.replace('-', " ")))
+        .collect();
+    legend.extend(of_disagreement(&points));
+    let is_unsteady = |point: &Point| source.table.is_unsteady(point);
+    if points.iter().any(|point| is_unsteady(point)) {
+        let key = Key::Fill(Fill::Falling(WHITE));
+        legend.push(Entry::new(key, "not steady"));
     }
+    Diagram {
+        name: NAME,
+        grid: &grid,
+        look: &|point| Some(look(point, is_unsteady(point))),
+        empty: "not run".to_owned(),
+        legend,
+        bar: None,
+    }
+    .draw(source)
 }
 
 /// Whether more than half of the seeds of a point have its label.

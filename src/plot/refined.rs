@@ -23,8 +23,8 @@ const BOUNDS: [f64; 2] = [0.84, 0.975];
 /// Share of a colour that is left in the bands, as for seeds of which this share agrees.
 const SHADES: [f64; 2] = [0.45, 0.75];
 
-/// The figure of a refined sweep.
-pub(super) struct RefinedDiagram;
+/// Name of the figure.
+const NAME: &str = "refined";
 
 /// A point of the grid.
 #[derive(Clone, Copy, Debug)]
@@ -37,43 +37,45 @@ struct Cell {
     is_unsteady: bool,
 }
 
-impl Figure for RefinedDiagram {
-    fn name(&self) -> &'static str {
-        "refined"
-    }
-
-    fn description(&self) -> String {
+pub(super) fn figure() -> Figure {
+    Figure::of_sweep(
+        NAME,
         "of a refined sweep: the most probable label at every point, paler in the bands of its \
-         borders; the borders, and the runs"
-            .to_owned()
-    }
+         borders; the borders, and the runs",
+        draw,
+    )
+}
 
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        grid::check(source.sweep, source.table)?;
-        let learnt = Learnt::of(source.sweep, source.refining, source.table)?;
-        let learnt = learnt.ok_or(PlotError::NotRefined)?;
-        let (grid, places) = grid_of(source, &learnt)?;
-        let curves = curves(source, &learnt, &grid, &places);
-        let cells = || grid.panels.iter().flat_map(|it| it.cells.iter().flatten());
-        // Borders between places of one column are no curves.
-        let is_plane = grid.x.values.len() > 1 && grid.cells().1 > 1;
-        let diagram = Diagram {
-            name: self.name(),
-            grid: &grid,
-            look: &|cell: &Cell| Some(look(source, *cell, is_plane)),
-            empty: "no value".to_owned(),
-            legend: legend(source, &cells().copied().collect::<Vec<_>>()),
-            bar: None,
-        };
-        let mut entries = Curve::entries(&curves, critical::WORDS);
-        let mut all = curves.iter().flatten();
-        if all.any(|curve| curve.stroke == Stroke::Border && !curve.pieces.is_empty()) {
-            entries.push(Entry::new(Key::Border, "border"));
-        }
-        let title = source.sweep.title.as_deref();
-        let body = diagram.body(title, &curves, entries)?;
-        Ok(Svg::new(self.name(), source, &body))
+fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
+    grid::check(source.sweep, source.table)?;
+    let learnt = Learnt::of(source.sweep, source.refining, source.table)?;
+    let learnt = learnt.ok_or_else(|| {
+        PlotError::request(
+            "the figure `refined` needs a refined sweep: a table [refine] in its file, or `phase \
+             sweep --refine`",
+        )
+    })?;
+    let (grid, places) = grid_of(source, &learnt)?;
+    let curves = curves(source, &learnt, &grid, &places);
+    let cells = || grid.panels.iter().flat_map(|it| it.cells.iter().flatten());
+    // Borders between places of one column are no curves.
+    let is_plane = grid.x.values.len() > 1 && grid.cells().1 > 1;
+    let diagram = Diagram {
+        name: NAME,
+        grid: &grid,
+        look: &|cell: &Cell| Some(look(source, *cell, is_plane)),
+        empty: "no value".to_owned(),
+        legend: legend(source, &cells().copied().collect::<Vec<_>>()),
+        bar: None,
+    };
+    let mut entries = Curve::entries(&curves, critical::WORDS);
+    let mut all = curves.iter().flatten();
+    if all.any(|curve| curve.stroke == Stroke::Border && !curve.pieces.is_empty()) {
+        entries.push(Entry::new(Key::Border, "border"));
     }
+    let title = source.sweep.title.as_deref();
+    let body = diagram.body(title, &curves, entries)?;
+    Ok(Svg::new(NAME, &source.origin(), &body))
 }
 
 /// The grid of the figure, and a place of the lattice in each panel.
@@ -91,7 +93,7 @@ fn grid_of(source: &Source<'_>, learnt: &Learnt) -> Result<(Grid<Cell>, Vec<usiz
         Some(axis)
     };
     let mut grid = Grid {
-        x: axis(0).ok_or(PlotError::NoAxis)?,
+        x: axis(0).ok_or_else(PlotError::no_axis)?,
         y: axis(1),
         columns: panels_of(2),
         rows: panels_of(3),

@@ -7,7 +7,7 @@ use super::scale::Span;
 use super::style::{Drawn, Sheet, px};
 use super::svg::Svg;
 use super::ticks::Ticks;
-use super::{PlotError, palette};
+use super::{Figure, PlotError, Study, palette};
 use crate::record::Program;
 use crate::scene::Integrator;
 use plotters::element::{Circle, PathElement};
@@ -33,11 +33,15 @@ const LETTERS: i32 = px(10);
 /// Title of the figure.
 const TITLE: &str = "Verification";
 
+pub(super) fn figure() -> Figure {
+    let description = "errors of the cases of `phase verify` over their tolerances";
+    Figure::of_study("verification", description, |study| match study {
+        Study::Verification(errors, program) => draw(errors, program),
+    })
+}
+
 /// Draws a dot for every case and integrator, at its error over the tolerance.
-///
-/// # Errors
-/// [`PlotError`] if the figure cannot be drawn.
-pub fn draw(errors: &[CaseError], program: &Program) -> Result<Svg, PlotError> {
+fn draw(errors: &[CaseError], program: &Program) -> Result<Svg, PlotError> {
     let mut rows: Vec<&str> = errors.iter().map(|error| error.name.as_str()).collect();
     rows.dedup();
     let is_used =

@@ -53,9 +53,7 @@ pub(super) fn draw(
         .flat_map(|panel| panel.cells.iter().flatten().copied());
     let bar = ColorBar::new(values, true, "labels changed".to_owned());
     let Some(bar) = bar else {
-        return Err(PlotError::NoMeasures {
-            figure: "label-changes",
-        });
+        return Err(PlotError::no_measures("label-changes"));
     };
     let diagram = Diagram {
         name: "label-changes",

@@ -39,9 +39,7 @@ pub(super) fn draw(
 ) -> Result<Svg, PlotError> {
     let dots = dots(evaluation);
     if dots.is_empty() {
-        return Err(PlotError::NoMeasures {
-            figure: "work-precision",
-        });
+        return Err(PlotError::no_measures("work-precision"));
     }
     let mut methods: Vec<&str> = Vec::new();
     for dot in dots.iter().filter(|dot| !dot.is_base) {

@@ -2,80 +2,70 @@
 //! processor time that it takes.
 
 use super::overlay::{GUIDES, color};
-use super::{Drainage, each};
-use crate::classify::{DRAINAGE, Family};
+use super::{Drainage, each, of_drainages};
 use crate::compare::{QUANTITIES, Quantity};
 use crate::plot::chart::{self, Bar, Chart, Line, Panel};
 use crate::plot::page::columns;
+use crate::plot::runs::Runs;
 use crate::plot::style::px;
 use crate::plot::svg::Svg;
 use crate::plot::ticks::Ticks;
-use crate::plot::{Figure, PlotError, Source, numbers, palette};
+use crate::plot::{Figure, PlotError, numbers, palette};
 use crate::scene::Units;
 use crate::statistics::Estimate;
 use plotters::style::RGBColor;
 
-/// Error against cost.
-pub(super) struct CostError;
+/// Name of the figure.
+const NAME: &str = "cost-error";
 
 /// Room beyond the data, as a factor.
 const BEYOND: f64 = 1.5;
 /// Colour of the line at the cost of the reference.
 const COST: RGBColor = GUIDES[0];
 
-impl Figure for CostError {
-    fn name(&self) -> &'static str {
-        "cost-error"
-    }
+pub(super) fn figure() -> Figure {
+    of_drainages(
+        NAME,
+        "how far measures are from those of the first run, against processor time",
+        false,
+        draw,
+    )
+}
 
-    fn description(&self) -> String {
-        "how far measures are from those of the first run, against processor time".to_owned()
-    }
-
-    fn default_runs(&self) -> Option<&'static str> {
-        Some("a typical run of every state")
-    }
-
-    fn families(&self) -> Vec<&'static Family> {
-        vec![&DRAINAGE]
-    }
-
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let mut units = Units::Si;
-        let (common, measured) = each(source, self.name(), |place, drainage| {
-            units = drainage.units();
-            Measured::of(place, drainage)
-        })?;
-        let (reference, others) = match measured.split_first() {
-            Some((reference, others)) if !others.is_empty() => (reference, others),
-            _ => {
-                return Err(PlotError::Scene {
-                    figure: self.name(),
-                    needs: "two runs or more, the first of which is the reference",
-                });
-            }
-        };
-        let figure = self.name();
-        let panels = panels(reference, others).ok_or(PlotError::NoMeasures { figure })?;
-        let time = units.of_time();
-        Chart {
-            name: self.name(),
-            common,
-            columns: columns(panels.len()),
-            height: px(170),
-            panels,
-            x_label: format!("processor time (s) per {time} of the run"),
-            y_label: "difference from the reference, over its value".to_owned(),
-            legend: legend(reference, others),
-            notes: vec![
-                "Bars: 95 % over ten states or blocks of time, of both runs; where nothing tells \
-                 the scatter, there is none. A difference below the interval of the reference \
-                 cannot be told."
-                    .to_owned(),
-            ],
+fn draw(runs: &Runs<'_>) -> Result<Svg, PlotError> {
+    let mut units = Units::Si;
+    let measured = each(runs, NAME, |place, drainage| {
+        units = drainage.units();
+        Measured::of(place, drainage)
+    })?;
+    let (reference, others) = match measured.split_first() {
+        Some((reference, others)) if !others.is_empty() => (reference, others),
+        _ => {
+            return Err(PlotError::needs(
+                NAME,
+                "two runs or more, the first of which is the reference",
+            ));
         }
-        .draw(source)
+    };
+    let panels = panels(reference, others).ok_or_else(|| PlotError::no_measures(NAME))?;
+    let time = units.of_time();
+    Chart {
+        name: NAME,
+        common: runs.common.clone(),
+        columns: columns(panels.len()),
+        height: px(170),
+        panels,
+        x_label: format!("processor time (s) per {time} of the run"),
+        y_label: "difference from the reference, over its value".to_owned(),
+        legend: legend(reference, others),
+        notes: vec![
+            "Bars: 95 % over ten states or blocks of time, of both runs; where nothing tells \
+             the scatter, there is none. A difference below the interval of the reference \
+             cannot be told."
+                .to_owned(),
+        ],
     }
+    .draw(&runs.origin)
 }
 
 /// What a run costs, and its values of the quantities that are shown.

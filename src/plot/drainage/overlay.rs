@@ -1,13 +1,13 @@
 //! Figures in which each run is a line.
 
-use super::{Drainage, each};
-use crate::classify::{DRAINAGE, Family};
+use super::{Drainage, each, of_drainages};
 use crate::color::ColorMap;
 use crate::plot::chart::{self, Bar, Chart, Line, Panel};
 use crate::plot::page::columns;
+use crate::plot::runs::Runs;
 use crate::plot::style::px;
 use crate::plot::svg::Svg;
-use crate::plot::{Figure, PlotError, Source, palette};
+use crate::plot::{Figure, PlotError, palette};
 use crate::scene::Units;
 use crate::store::DataSet;
 use plotters::style::RGBColor;
@@ -86,34 +86,19 @@ impl Curve {
     }
 }
 
-impl Figure for Overlay {
-    fn name(&self) -> &'static str {
-        self.name
+impl Overlay {
+    pub(super) fn figure(&'static self) -> Figure {
+        let draw = |runs: &Runs<'_>| self.draw(runs);
+        of_drainages(self.name, self.description, true, draw)
     }
 
-    fn description(&self) -> String {
-        self.description.to_owned()
-    }
-
-    fn default_runs(&self) -> Option<&'static str> {
-        Some("a typical run of every state")
-    }
-
-    fn families(&self) -> Vec<&'static Family> {
-        vec![&DRAINAGE]
-    }
-
-    fn takes_data(&self) -> bool {
-        true
-    }
-
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
+    fn draw(&self, runs: &Runs<'_>) -> Result<Svg, PlotError> {
         let mut first = None;
-        let (common, mut shown) = each(source, self.name, |place, drainage| {
+        let mut shown = each(runs, self.name, |place, drainage| {
             first.get_or_insert_with(|| ((self.guides)(drainage), drainage.units()));
             (place, (self.lines)(drainage))
         })?;
-        shown.extend(source.data.iter().map(|data| self.of_data(data)));
+        shown.extend(runs.data.iter().map(|data| self.of_data(data)));
         let (guides, units) = first.unwrap_or((Vec::new(), Units::Si));
         let panels = self.panels.iter().enumerate();
         let mut panels: Vec<Panel> = panels
@@ -127,7 +112,7 @@ impl Figure for Overlay {
             .iter()
             .all(|panel| panel.lines.iter().all(|it| it.points.is_empty()))
         {
-            return Err(PlotError::NoMeasures { figure: self.name });
+            return Err(PlotError::no_measures(self.name));
         }
         let count = shown.len();
         let named = shown.into_iter().enumerate();
@@ -141,7 +126,7 @@ impl Figure for Overlay {
         let [x_label, y_label] = self.labels.map(|label| in_units(label, units));
         Chart {
             name: self.name,
-            common,
+            common: runs.common.clone(),
             columns: columns(panels.len()),
             height: px(300),
             legend: legend.chain(named_guides).collect(),
@@ -150,11 +135,9 @@ impl Figure for Overlay {
             y_label,
             notes: Vec::from_iter((!self.note.is_empty()).then(|| self.note.to_owned())),
         }
-        .draw(source)
+        .draw(&runs.origin)
     }
-}
 
-impl Overlay {
     /// What data of another source show: a line in the first panel.
     fn of_data(&self, data: &DataSet) -> (Vec<String>, Lines) {
         let mut curves = vec![Curve::default(); self.panels.len()];

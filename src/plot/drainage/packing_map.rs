@@ -1,21 +1,21 @@
 //! Maps of the local packing fraction (Rycroft, Wong and Bazant, 2010, figure 4).
 
-use super::{Drainage, each};
-use crate::classify::{DRAINAGE, Family};
+use super::{Drainage, each, of_drainages};
 use crate::measure::{CellGrid, Centres, Walls, local_packing_fraction, voronoi_cells};
 use crate::observe::Snapshot;
 use crate::particles::vector::Vector;
 use crate::plot::canvas::SNAP;
 use crate::plot::color_bar::ColorBar;
 use crate::plot::page::{Frame, Page, Plan};
+use crate::plot::runs::Runs;
 use crate::plot::scale::Span;
 use crate::plot::style::px;
 use crate::plot::svg::{Placed, Svg};
-use crate::plot::{Figure, PlotError, Source, numbers};
+use crate::plot::{Figure, PlotError, numbers};
 use crate::render::Image;
 
-/// Maps of the local packing fraction at two times.
-pub(super) struct PackingMap;
+/// Name of the figure.
+const NAME: &str = "packing-map";
 
 /// Distance of the spheres that count at a place, in diameters.
 const DISTANCE: f64 = 2.2;
@@ -30,31 +30,22 @@ const SHOWN: [f64; 2] = [0.11, 0.67];
 /// Maps beside each other.
 const COLUMNS: usize = 4;
 
-impl Figure for PackingMap {
-    fn name(&self) -> &'static str {
-        "packing-map"
-    }
+pub(super) fn figure() -> Figure {
+    of_drainages(
+        NAME,
+        "maps of the local packing fraction in the middle of the depth, at two times",
+        false,
+        draw,
+    )
+}
 
-    fn description(&self) -> String {
-        "maps of the local packing fraction in the middle of the depth, at two times".to_owned()
-    }
-
-    fn default_runs(&self) -> Option<&'static str> {
-        Some("a typical run of every state")
-    }
-
-    fn families(&self) -> Vec<&'static Family> {
-        vec![&DRAINAGE]
-    }
-
-    fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let (common, maps) = each(source, self.name(), |place, drainage| {
-            let duration = drainage.record.scene.time.duration;
-            let shown = source.times.unwrap_or(SHOWN.map(|share| share * duration));
-            shown.map(|time| Map::new(drainage, time, place.clone()))
-        })?;
-        draw(self.name(), source, &common, maps.as_flattened())
-    }
+fn draw(runs: &Runs<'_>) -> Result<Svg, PlotError> {
+    let maps = each(runs, NAME, |place, drainage| {
+        let duration = drainage.record.scene.time.duration;
+        let shown = runs.times.unwrap_or(SHOWN.map(|share| share * duration));
+        shown.map(|time| Map::new(drainage, time, place.clone()))
+    })?;
+    draw_maps(runs, maps.as_flattened())
 }
 
 /// Packing fractions of a state in the plane y = 0.
@@ -126,12 +117,7 @@ impl Map {
     }
 }
 
-fn draw(
-    name: &'static str,
-    source: &Source<'_>,
-    common: &[String],
-    maps: &[Map],
-) -> Result<Svg, PlotError> {
+fn draw_maps(runs: &Runs<'_>, maps: &[Map]) -> Result<Svg, PlotError> {
     let extent = maps.iter().fold([0.0; 2], |most: [f64; 2], map| {
         [0, 1].map(|axis| most[axis].max(map.extent[axis]))
     });
@@ -142,7 +128,7 @@ fn draw(
     };
     let label = "local packing fraction".to_owned();
     let bar = ColorBar::new(RANGE.into_iter(), false, label);
-    let bar = bar.ok_or(PlotError::NoMeasures { figure: name })?;
+    let bar = bar.ok_or_else(|| PlotError::no_measures(NAME))?;
     let height = px(420);
     let notes = [format!(
         "Volume over that of the Voronoi cells, of the spheres within {DISTANCE} diameters of a \
@@ -150,8 +136,8 @@ fn draw(
     )];
     let page_beside = |bar: &ColorBar| {
         Page::new(Plan {
-            title: source.sweep.title.as_deref(),
-            common,
+            title: runs.origin.title,
+            common: &runs.common,
             frames: maps.iter().map(frame).collect(),
             columns: maps.len().min(COLUMNS),
             height,
@@ -189,5 +175,5 @@ fn draw(
             corner,
         }
     });
-    Svg::new(name, source, &body).with_pictures(pictures.collect())
+    Svg::new(NAME, &runs.origin, &body).with_pictures(pictures.collect())
 }

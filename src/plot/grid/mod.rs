@@ -41,7 +41,7 @@ impl Grid {
         let places = places(sweep)?;
         let axis = |place: usize| places[place].map(|index| GridAxis::new(index, sweep, table));
         let mut grid = Self {
-            x: axis(0).ok_or(PlotError::NoAxis)?,
+            x: axis(0).ok_or_else(PlotError::no_axis)?,
             y: axis(1),
             columns: axis(2),
             rows: axis(3),
@@ -116,18 +116,22 @@ impl<P> Grid<P> {
 pub(super) fn check(sweep: &Sweep, table: &LabelTable) -> Result<(), PlotError> {
     let names: Vec<&str> = sweep.axes.iter().map(|axis| axis.name.as_str()).collect();
     if names != table.axes {
-        return Err(PlotError::OtherAxes {
-            sweep: names.join(", "),
-            table: table.axes.join(", "),
-        });
+        return Err(PlotError::file(format_args!(
+            "the table has the axes {}, but the sweep has {}; classify it again",
+            table.axes.join(", "),
+            names.join(", ")
+        )));
     }
     if table.rows.is_empty() {
-        return Err(PlotError::EmptyTable);
+        return Err(PlotError::empty_table());
     }
     for row in &table.rows {
         let finite = row.values.iter().all(|value| value.is_finite());
         if row.values.len() != names.len() || !finite {
-            return Err(PlotError::BadRow { id: row.id.clone() });
+            return Err(PlotError::file(format_args!(
+                "run {}: its row does not hold one finite value per axis; classify it again",
+                row.id
+            )));
         }
     }
     Ok(())
@@ -143,7 +147,9 @@ pub(super) fn places(sweep: &Sweep) -> Result<[Option<usize>; 4], PlotError> {
         let Some(name) = name else { continue };
         let index = find(&sweep.axes, name)?;
         if places.contains(&Some(index)) {
-            return Err(PlotError::AxisTwice { name: name.clone() });
+            return Err(PlotError::file(format_args!(
+                "[plot] uses the axis `{name}` twice; x, y and panels must differ"
+            )));
         }
         places[place] = Some(index);
     }
@@ -155,7 +161,9 @@ pub(super) fn places(sweep: &Sweep) -> Result<[Option<usize>; 4], PlotError> {
         }
     }
     match others.next() {
-        Some(_) => Err(PlotError::TooManyAxes),
+        Some(_) => Err(PlotError::file(
+            "a figure shows at most four axes: x, y, and two of small multiples",
+        )),
         None => Ok(places),
     }
 }
@@ -165,9 +173,9 @@ fn find(axes: &[Axis], name: &str) -> Result<usize, PlotError> {
     let found = positions.position(|axis| axis.name == name || axis.key == name);
     found.ok_or_else(|| {
         let known: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
-        PlotError::UnknownAxis {
-            name: name.to_owned(),
-            known: known.join(", "),
-        }
+        PlotError::file(format_args!(
+            "[plot] names the axis `{name}`, but the axes of this sweep are {}",
+            known.join(", ")
+        ))
     })
 }

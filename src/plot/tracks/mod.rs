@@ -10,7 +10,7 @@ use super::page::{Frame, Page, Plan};
 use super::scale::Span;
 use super::style::{Drawn, Sheet, px};
 use super::svg::Svg;
-use super::{PlotError, palette};
+use super::{Figure, PlotError, palette};
 use crate::record::RunRecord;
 use plotters::element::{Circle, PathElement, Polygon};
 use plotters::style::{BLACK, Color, WHITE};
@@ -31,13 +31,17 @@ const MOST_SPHERES: usize = 32;
 /// Stroke of a path.
 const STROKE: u32 = 18;
 
-/// Draws the tracks of a run.
-///
-/// # Errors
-/// [`PlotError::NoTrajectory`] if the record holds no trajectory.
-pub fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
+pub(super) fn figure() -> Figure {
+    let description = "paths of the spheres, from the record of one run with its trajectory";
+    Figure::of_record("tracks", description, draw)
+}
+
+fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
     if record.trajectory.len() < 2 {
-        return Err(PlotError::NoTrajectory);
+        return Err(PlotError::nothing(
+            "the record holds no trajectory; add `trajectory = true` to [output] of the scene and \
+             run it again",
+        ));
     }
     let view = View::new(record);
     let mut tracks = Tracks {
