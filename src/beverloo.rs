@@ -99,14 +99,15 @@ pub struct Fit {
 
 /// Why the law cannot be fitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum FitError {
-    /// Two constants and their scatter need more.
-    #[error("the fit needs three discharges or more, of two openings or more")]
-    TooFew,
-    /// The rates are not those of any such law.
-    #[error("the rates do not grow with the opening as the law has it")]
-    NoLaw,
-}
+#[error("{0}")]
+pub struct FitError(&'static str);
+
+/// Two constants and their scatter need more discharges.
+const TOO_FEW: FitError =
+    FitError("the fit needs three discharges or more, of two openings or more");
+
+/// No such law has these rates.
+const NO_LAW: FitError = FitError("the rates do not grow with the opening as the law has it");
 
 /// Steps after which a fit that has not converged is given up; it takes about five.
 const MOST_STEPS: usize = 200;
@@ -128,17 +129,17 @@ pub fn fit(discharges: &[Discharge], bed: &Bed) -> Result<Fit, FitError> {
     widths.sort_by(f64::total_cmp);
     widths.dedup();
     if discharges.len() < 3 || widths.len() < 2 {
-        return Err(FitError::TooFew);
+        return Err(TOO_FEW);
     }
     let squares = |constants| -> f64 {
         let residuals = discharges.iter().map(|it| residual(it, bed, constants));
         residuals.map(|it| it * it).sum()
     };
-    let mut constants = straightened(discharges, bed).ok_or(FitError::NoLaw)?;
+    let mut constants = straightened(discharges, bed).ok_or(NO_LAW)?;
     let mut least = squares(constants);
     for _ in 0..MOST_STEPS {
         let normal = Normal::at(discharges, bed, constants);
-        let step = normal.step().ok_or(FitError::NoLaw)?;
+        let step = normal.step().ok_or(NO_LAW)?;
         let moved = |share: f64| {
             [
                 constants[0] + share * step[0],
@@ -154,7 +155,7 @@ pub fn fit(discharges: &[Discharge], bed: &Bed) -> Result<Fit, FitError> {
         };
         (constants, least) = (next, squares(next));
     }
-    Err(FitError::NoLaw)
+    Err(NO_LAW)
 }
 
 fn residual(measured: &Discharge, bed: &Bed, constants: [f64; 2]) -> f64 {
@@ -307,15 +308,15 @@ mod tests {
     #[test]
     fn three_discharges_at_least_of_two_openings() {
         let all = exact(&BED, [1.0, 1.5]);
-        assert_eq!(fit(&all[..2], &BED), Err(FitError::TooFew));
-        assert_eq!(fit(&[all[0]; 5], &BED), Err(FitError::TooFew));
+        assert_eq!(fit(&all[..2], &BED), Err(TOO_FEW));
+        assert_eq!(fit(&[all[0]; 5], &BED), Err(TOO_FEW));
         assert!(fit(&[all[0], all[0], all[5]], &BED).is_ok());
         let mut falling = all;
         falling.reverse();
         for (it, width) in falling.iter_mut().zip(WIDTHS) {
             it.width = width;
         }
-        assert_eq!(fit(&falling, &BED), Err(FitError::NoLaw));
+        assert_eq!(fit(&falling, &BED), Err(NO_LAW));
     }
 
     /// A normal deviate: Box and Muller.

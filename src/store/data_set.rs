@@ -23,7 +23,7 @@ pub struct DataSet {
 /// Reads the points of a curve, which is named by its file.
 ///
 /// # Errors
-/// [`StoreError::Read`], or [`StoreError::Text`] with the line at fault.
+/// [`StoreError::Read`], with the line at fault.
 pub fn read_data_set(path: &Path) -> Result<DataSet, StoreError> {
     let content = text::read(path).map_err(|error| StoreError::reading(path, error))?;
     let mut reader = csv::ReaderBuilder::new()

@@ -143,11 +143,14 @@ fn values(record: &RunRecord, states: &[&Snapshot]) -> Array3<f64> {
 /// Reads the array of a dump: frames x n x 4.
 ///
 /// # Errors
-/// [`StoreError::Read`], or [`StoreError::NotADump`] if it is another kind of array.
+/// [`StoreError::Read`].
 pub fn read_dump(path: &Path) -> Result<Array3<f64>, StoreError> {
-    let not_a_dump = |reason: String| StoreError::NotADump {
-        path: path.to_owned(),
-        reason,
+    let not_a_dump = |reason: String| {
+        StoreError::Read(format!(
+            "{} is no dump, an array of frames x spheres x 4 of 64-bit floating point numbers: \
+             {reason}",
+            path.display()
+        ))
     };
     let bytes = fs::read(path).map_err(|error| StoreError::reading(path, error))?;
     // A header may promise more numbers than there are; a view asks for no memory before it knows.

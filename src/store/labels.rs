@@ -79,7 +79,7 @@ pub fn write_points(table: &LabelTable, path: &Path) -> Result<(), StoreError> {
 /// Reads a table of labels.
 ///
 /// # Errors
-/// [`StoreError::Read`], or [`StoreError::Text`] with the line at fault.
+/// [`StoreError::Read`], with the line at fault.
 pub fn read_labels(path: &Path) -> Result<LabelTable, StoreError> {
     let content = text::read(path).map_err(|error| StoreError::reading(path, error))?;
     let mut reader = csv::Reader::from_reader(content.as_bytes());

@@ -2,7 +2,7 @@
 
 use super::line_at;
 use super::vtk;
-use crate::document::text;
+use crate::document::{advice, text};
 use crate::replay::{Moment, WrittenState};
 use crate::store::StoreError;
 use roxmltree::{Document, Node};
@@ -57,10 +57,13 @@ pub(super) fn states(path: &Path) -> Result<Vec<WrittenState>, StoreError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let state = |file: &NamedFile<'_>| {
         let named = folder.join(file.name);
-        let bytes = fs::read(&named).map_err(|source| StoreError::ReadNamed {
-            path: named.clone(),
-            list: path.to_owned(),
-            source,
+        let bytes = fs::read(&named).map_err(|error| {
+            StoreError::Read(format!(
+                "cannot read {}, which {} names: {error}{}",
+                named.display(),
+                path.display(),
+                advice(&error)
+            ))
         })?;
         let spheres = vtk::read(&named, &bytes)?;
         Ok(WrittenState {

@@ -14,15 +14,16 @@ use std::path::Path;
 /// files of VTK that a collection (`.pvd`) names.
 ///
 /// # Errors
-/// [`StoreError::Read`] or [`StoreError::ReadNamed`]; [`StoreError::Text`] with the line at fault;
-/// [`StoreError::OneState`] for a file of VTK, which has no time, or a series of ParaView.
+/// [`StoreError::Read`], with the line at fault.
 pub fn read_states(path: &Path) -> Result<Vec<WrittenState>, StoreError> {
     let end = path.extension().unwrap_or_default().to_string_lossy();
     match &end.to_ascii_lowercase()[..] {
         "pvd" => collection::states(path),
-        "series" | "vtk" | "vtp" | "vtu" => Err(StoreError::OneState {
-            path: path.to_owned(),
-        }),
+        "series" | "vtk" | "vtp" | "vtu" => Err(StoreError::Read(format!(
+            "{}: files of VTK do not say their time, and series of ParaView cannot be read; give \
+             a collection (`.pvd`) that names the files of all times",
+            path.display()
+        ))),
         _ => text_states(path),
     }
 }
