@@ -45,7 +45,7 @@ impl Opening {
 
 /// What the law needs to know of a bed of grains.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bed {
+pub struct GrainBed {
     /// Acceleration g (m/s2).
     pub gravity: f64,
     /// Number n of grains: per area of the plane of the flow (1/m2) with a flat opening, per volume
@@ -57,7 +57,7 @@ pub struct Bed {
     pub opening: Opening,
 }
 
-impl Bed {
+impl GrainBed {
     /// Grains per second through an opening of that width (m): C sqrt(g) n (D - k d)^p, none where
     /// D < k d.
     pub fn discharge_rate(&self, width: f64, [c, k]: [f64; 2]) -> f64 {
@@ -124,7 +124,7 @@ const PROGRESS: f64 = 1e-13;
 ///
 /// # Errors
 /// If there are too few discharges, or they do not follow the law.
-pub fn fit(discharges: &[Discharge], bed: &Bed) -> Result<Fit, FitError> {
+pub fn fit(discharges: &[Discharge], bed: &GrainBed) -> Result<Fit, FitError> {
     let mut widths: Vec<f64> = discharges.iter().map(|it| it.width).collect();
     widths.sort_by(f64::total_cmp);
     widths.dedup();
@@ -158,7 +158,7 @@ pub fn fit(discharges: &[Discharge], bed: &Bed) -> Result<Fit, FitError> {
     Err(NO_LAW)
 }
 
-fn residual(measured: &Discharge, bed: &Bed, constants: [f64; 2]) -> f64 {
+fn residual(measured: &Discharge, bed: &GrainBed, constants: [f64; 2]) -> f64 {
     measured.rate - bed.discharge_rate(measured.width, constants)
 }
 
@@ -180,7 +180,7 @@ fn estimates(count: usize, [c, k]: [f64; 2], squares: f64, normal: &Normal) -> F
 }
 
 /// A first guess: W^(1/p) is a straight line over D.
-fn straightened(discharges: &[Discharge], bed: &Bed) -> Option<[f64; 2]> {
+fn straightened(discharges: &[Discharge], bed: &GrainBed) -> Option<[f64; 2]> {
     let exponent = bed.opening.exponent();
     let root = |rate: f64| libm::pow(rate, 1.0 / exponent);
     let count = discharges.len() as f64;
@@ -210,7 +210,7 @@ struct Normal {
 }
 
 impl Normal {
-    fn at(discharges: &[Discharge], bed: &Bed, constants: [f64; 2]) -> Self {
+    fn at(discharges: &[Discharge], bed: &GrainBed, constants: [f64; 2]) -> Self {
         let mut normal = Self {
             matrix: [[0.0; 2]; 2],
             right: [0.0; 2],
@@ -259,14 +259,14 @@ mod tests {
     use rand::{Rng, SeedableRng};
     use rand_pcg::Pcg64;
 
-    const BED: Bed = Bed {
+    const BED: GrainBed = GrainBed {
         gravity: 9.81,
         number_density: 160.0,
         diameter: 0.08,
         opening: Opening::Flat,
     };
 
-    const ROUND: Bed = Bed {
+    const ROUND: GrainBed = GrainBed {
         number_density: 2300.0,
         opening: Opening::Round,
         ..BED
@@ -274,7 +274,7 @@ mod tests {
 
     const WIDTHS: [f64; 8] = [0.32, 0.36, 0.40, 0.44, 0.48, 0.52, 0.56, 0.64];
 
-    fn exact(bed: &Bed, constants: [f64; 2]) -> Vec<Discharge> {
+    fn exact(bed: &GrainBed, constants: [f64; 2]) -> Vec<Discharge> {
         let of = |width| Discharge {
             width,
             rate: bed.discharge_rate(width, constants),

@@ -9,7 +9,7 @@ use super::exit::{Exit, Failure};
 use super::folders;
 use super::runs::check_labels;
 use inputs::Column;
-use phase::compare::{Row, are_of_one_run};
+use phase::compare::{ComparisonRow, are_of_one_run};
 use phase::scene::Units;
 use phase::statistics::Estimate;
 use serde::Serialize;
@@ -149,7 +149,7 @@ fn letter(index: usize) -> String {
 }
 
 /// The rows as lines of text, in columns; their scenes are in these units.
-fn lines(rows: &[Row], records: usize, units: Units, is_of_one_run: bool) -> Vec<String> {
+fn lines(rows: &[ComparisonRow], records: usize, units: Units, is_of_one_run: bool) -> Vec<String> {
     let mut head = vec![String::new()];
     head.extend((0..records).map(letter));
     head.extend((records == 2).then(|| "B - A".to_owned()));
@@ -234,7 +234,7 @@ struct Entry {
 }
 
 impl Entry {
-    fn new(row: &Row, is_of_one_run: bool) -> Self {
+    fn new(row: &ComparisonRow, is_of_one_run: bool) -> Self {
         let finite = |value: f64| Some(value).filter(|it| it.is_finite());
         let values = row.values.iter();
         let difference = row.difference(is_of_one_run);

@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::{format, job, kind};
-use phase::cost::{PartCost, SweepCost, Tried};
+use phase::cost::{PartCost, SweepCost, TriedJob};
 use phase::record::Outcome;
 use phase::scene::FileKind;
 use phase::sweep::{Axis, describe};
@@ -65,7 +65,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
 }
 
 /// What of a job was run, and what it stands for.
-fn describe_tried(tried: &Tried<'_>, axes: &[Axis], jobs: usize, unit: &str) -> String {
+fn describe_tried(tried: &TriedJob<'_>, axes: &[Axis], jobs: usize, unit: &str) -> String {
     let cost = &tried.cost;
     let extent = match (&cost.record.outcome, cost.whole) {
         (Outcome::Unstable(instability), _) => {

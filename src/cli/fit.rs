@@ -3,7 +3,7 @@
 use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::folders;
-use phase::compare::{Drainage, SpotFit};
+use phase::compare::{MeasuredDrainage, SpotFit};
 use phase::scene::{Scene, Units};
 use phase::statistics::Estimate;
 use phase::store;
@@ -120,7 +120,7 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
     let path = arguments.record.display();
     let record = store::read_record(&arguments.record).map_err(Failure::refused)?;
     let lacks = |needs: &str| Failure::refused(format_args!("{path}: a fit needs {needs}"));
-    let drainage = Drainage::new(&record, arguments.times).map_err(lacks)?;
+    let drainage = MeasuredDrainage::new(&record, arguments.times).map_err(lacks)?;
     let fit = SpotFit::of(&drainage).map_err(lacks)?;
     let head = ["key", "symbol", "fit", "paper", "from"].map(str::to_owned);
     let rows = PARAMETERS.iter().map(|it| row(it, &fit, &record.scene));
@@ -189,7 +189,7 @@ fn rounded(value: f64) -> f64 {
 const HEAD: &str = "# Parameters of the spot model, fitted by `phase fit`.";
 
 /// The scene of the same drainage by spots.
-fn scene(drainage: &Drainage<'_>, fit: &SpotFit) -> String {
+fn scene(drainage: &MeasuredDrainage<'_>, fit: &SpotFit) -> String {
     let scene = &drainage.record.scene;
     let tank = scene.tank.clone().unwrap_or_default();
     let opening = match (tank.orifice_radius, tank.slit_width) {

@@ -4,12 +4,12 @@ use super::console::Console;
 use super::exit::{Exit, Failure};
 use super::plot::ANOTHER_FOLDER;
 use super::{folders, format, plot};
-use phase::plot::{Study, draw, verification::CaseError};
+use phase::plot::{StudyResult, draw, verification::CaseError};
 use phase::record::Program;
 use phase::scene::Integrator;
 use phase::store;
 use phase::sweep::work;
-use phase::verify::{self, Case, Outcome, VerifyError};
+use phase::verify::{self, Case, CaseOutcome, VerifyError};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -190,7 +190,7 @@ fn list(cases: &[&Case], console: &Console) -> Result<Exit, Failure> {
 }
 
 /// A case with an integrator in one line, and its quantities in further ones.
-fn line(case: &Case, integrator: Integrator, outcome: &Result<Outcome, VerifyError>) -> String {
+fn line(case: &Case, integrator: Integrator, outcome: &Result<CaseOutcome, VerifyError>) -> String {
     let head = format!("{}: {}", case.setup.name(), case.name);
     let with_integrator = format!("{head} ({})", integrator.name());
     let outcome = match outcome {
@@ -214,7 +214,7 @@ fn line(case: &Case, integrator: Integrator, outcome: &Result<Outcome, VerifyErr
     text
 }
 
-fn error_of(case: &Case, integrator: Integrator, outcome: &Outcome) -> CaseError {
+fn error_of(case: &Case, integrator: Integrator, outcome: &CaseOutcome) -> CaseError {
     let ratios = outcome.checks.iter().map(|check| check.error / check.limit);
     CaseError {
         name: format!("{}: {}", case.setup.name(), case.name),
@@ -226,7 +226,7 @@ fn error_of(case: &Case, integrator: Integrator, outcome: &Outcome) -> CaseError
 fn rows_of(
     case: &'static Case,
     integrator: Integrator,
-    outcome: &Outcome,
+    outcome: &CaseOutcome,
 ) -> impl Iterator<Item = Row> {
     outcome.checks.iter().map(move |check| Row {
         family: case.setup.name(),
@@ -255,7 +255,7 @@ fn write(
     console.file(&place("csv"));
     let figure = draw(
         "verification",
-        Study::Verification(errors, &Program::current()),
+        StudyResult::Verification(errors, &Program::current()),
     );
     let figure = figure.map_err(Failure::failed)?;
     plot::write(&figure, place, console)

@@ -1,8 +1,8 @@
 //! The critical rotation over the radius of the spheres (Rice, 2012, eq. 43 and figure 19).
 
-use super::chart::{Chart, Line, Panel, ends, samples};
+use super::chart::{Chart, ChartLine, ChartPanel, ends, samples};
 use super::grid::GridAxis;
-use super::spacing::Spacing;
+use super::spacing::AxisSpacing;
 use super::style::px;
 use super::svg::Svg;
 use super::ticks::Ticks;
@@ -38,7 +38,7 @@ fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
         let points: Option<Vec<_>> = radii.map(omega).collect();
         let points =
             points.ok_or_else(|| PlotError::needs(NAME, "a tank with a radius, and gravity"))?;
-        lines.push(Line { points, color });
+        lines.push(ChartLine { points, color });
         legend.push((color, name));
     }
     if lines.len() == 1 {
@@ -47,10 +47,10 @@ fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
     Chart {
         name: NAME,
         common: fixed(source),
-        panels: vec![Panel {
-            spacing: [spacing, Spacing::Linear],
+        panels: vec![ChartPanel {
+            spacing: [spacing, AxisSpacing::Linear],
             ticks,
-            ..Panel::new(Vec::new(), x, lines).down_to_zero()
+            ..ChartPanel::new(Vec::new(), x, lines).down_to_zero()
         }],
         columns: 1,
         height: px(400),
@@ -63,7 +63,7 @@ fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
 }
 
 /// How radii (mm) are spaced, and where they have ticks: as on other figures of the sweep.
-fn axis(source: &Source<'_>) -> (Spacing, Ticks) {
+fn axis(source: &Source<'_>) -> (AxisSpacing, Ticks) {
     let mut axes = source.sweep.axes.iter();
     let index = axes.position(|axis| axis.key == "spheres.radius");
     let axis = index.map(|index| GridAxis {
@@ -71,9 +71,9 @@ fn axis(source: &Source<'_>) -> (Spacing, Ticks) {
         ..GridAxis::new(index, source.sweep, source.table)
     });
     match axis.map(|axis| (axis.spacing(), axis.shown())) {
-        Some((spacing @ Spacing::Equal(_), radii)) => (spacing, Ticks::Values(radii)),
+        Some((spacing @ AxisSpacing::Equal(_), radii)) => (spacing, Ticks::Values(radii)),
         Some((spacing, _)) => (spacing, Ticks::Round),
-        None => (Spacing::Linear, Ticks::Round),
+        None => (AxisSpacing::Linear, Ticks::Round),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Energies over time, per sphere (Rice, 2012, figures 12 and 15): the whole run, and its begin.
 
-use super::chart::{self, Chart, Line, Panel};
+use super::chart::{self, Chart, ChartLine, ChartPanel};
 use super::runs::{Runs, ShownRun};
 use super::style::px;
 use super::svg::Svg;
@@ -76,7 +76,7 @@ fn draw(name: &'static str, runs: &Runs<'_>, with_states: bool) -> Result<Svg, P
 }
 
 /// Mean energies of a sphere over time (s, J): the whole run, and its begin.
-fn of_run(run: &ShownRun<'_>, head: Vec<String>, record: &RunRecord) -> [Panel; 2] {
+fn of_run(run: &ShownRun<'_>, head: Vec<String>, record: &RunRecord) -> [ChartPanel; 2] {
     let observations = &record.observations;
     let spheres = record.radius.len().max(1) as f64;
     let duration = record.scene.time.duration;
@@ -90,13 +90,13 @@ fn of_run(run: &ShownRun<'_>, head: Vec<String>, record: &RunRecord) -> [Panel; 
     ];
     let kinds = kinds.into_iter().zip(palette::LINES);
     let lines = kinds.map(|((values, zero), color)| {
-        let mut line = Line::over(&observations.time, values, color);
+        let mut line = ChartLine::over(&observations.time, values, color);
         for point in &mut line.points {
             point.1 = (point.1 - zero) / spheres;
         }
         line
     });
-    let lines: Vec<Line> = lines.collect();
+    let lines: Vec<ChartLine> = lines.collect();
     let begin = if duration > BEGIN {
         BEGIN
     } else {
@@ -107,7 +107,7 @@ fn of_run(run: &ShownRun<'_>, head: Vec<String>, record: &RunRecord) -> [Panel; 
         _ => format!("first {} s", numbers::number(begin)),
     };
     [(head, duration), (vec![larger], begin)]
-        .map(|(head, end)| Panel::new(head, (0.0, end), lines.clone()))
+        .map(|(head, end)| ChartPanel::new(head, (0.0, end), lines.clone()))
 }
 
 /// Mean of the values from a time on; the last value if there are none.

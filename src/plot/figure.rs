@@ -2,7 +2,7 @@
 
 use super::choice::DefaultRuns;
 use super::runs::Runs;
-use super::{PlotError, Source, Study, Svg};
+use super::{PlotError, Source, StudyResult, Svg};
 use super::{beverloo, critical_rotation, drainage, energies, ledger, map, measures, net_force};
 use super::{phase, refined, speeds, states, tracks, verification};
 use crate::classify::Family;
@@ -38,7 +38,7 @@ pub(super) enum Draw {
     /// From one record.
     Record(fn(&RunRecord) -> Result<Svg, PlotError>),
     /// From what a study found.
-    Study(fn(&Study<'_>) -> Result<Svg, PlotError>),
+    Study(fn(&StudyResult<'_>) -> Result<Svg, PlotError>),
 }
 
 static FIGURES: LazyLock<Vec<Figure>> = LazyLock::new(|| {
@@ -126,7 +126,7 @@ impl Figure {
     pub(super) fn of_study(
         name: &'static str,
         description: &str,
-        draw: fn(&Study<'_>) -> Result<Svg, PlotError>,
+        draw: fn(&StudyResult<'_>) -> Result<Svg, PlotError>,
     ) -> Self {
         Self::new(name, description, Draw::Study(draw))
     }

@@ -1,6 +1,6 @@
 //! The ledger of a run: where its energy is and went, and what the integrator got wrong.
 
-use super::chart::{self, Chart, Line, Panel};
+use super::chart::{self, Chart, ChartLine, ChartPanel};
 use super::style::px;
 use super::svg::Svg;
 use super::{Figure, PlotError, palette};
@@ -9,7 +9,7 @@ use crate::record::RunRecord;
 use plotters::style::BLACK;
 
 /// The name of a kind of energy, and its values over time (J).
-type Account = (&'static str, Line);
+type Account = (&'static str, ChartLine);
 
 pub(super) fn figure() -> Figure {
     let description = "where the energy went, from the record of one run with its ledger";
@@ -25,7 +25,7 @@ fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
         ));
     }
     let accounts = accounts(observations);
-    let residual = Line::over(&observations.time, &observations.residual, BLACK);
+    let residual = ChartLine::over(&observations.time, &observations.residual, BLACK);
     let legend = accounts.iter();
     let legend = legend
         .map(|(name, line)| (line.color, (*name).to_owned()))
@@ -57,7 +57,7 @@ fn draw(record: &RunRecord) -> Result<Svg, PlotError> {
 /// All kinds of energy that the run knew.
 fn accounts(observations: &Observations) -> Vec<Account> {
     let [blue, red, green, pink, orange, light_blue] = palette::DISTINCT;
-    let line = |values, color| Line::over(&observations.time, values, color);
+    let line = |values, color| ChartLine::over(&observations.time, values, color);
     let mut gravitational = line(&observations.gravitational, green);
     let start = gravitational.points.first().map_or(0.0, |point| point.1);
     for point in &mut gravitational.points {
@@ -91,10 +91,10 @@ fn accounts(observations: &Observations) -> Vec<Account> {
 }
 
 /// A panel in the unit that its largest value asks for, which its head names.
-fn panel(head: &str, lines: Vec<Line>) -> Panel {
+fn panel(head: &str, lines: Vec<ChartLine>) -> ChartPanel {
     let ends = lines.iter().filter_map(|line| line.points.last());
     let end = ends.map(|point| point.0).fold(0.0, f64::max);
-    let mut panel = Panel::new(Vec::new(), (0.0, end), lines);
+    let mut panel = ChartPanel::new(Vec::new(), (0.0, end), lines);
     let unit = chart::scaled("J", std::slice::from_mut(&mut panel));
     panel.head.push(format!("{head} ({unit})"));
     panel

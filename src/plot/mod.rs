@@ -56,7 +56,7 @@ mod words;
 pub use beverloo::{FittedLine, fitted_lines};
 pub use error::{PlotError, PlotErrorKind};
 pub use figure::{Figure, figures};
-pub use records::{Records, captions, differences};
+pub use records::{RecordSet, captions, differences};
 pub use svg::Svg;
 
 use crate::classify::LabelTable;
@@ -69,13 +69,13 @@ use svg::Origin;
 use verification::CaseError;
 
 /// What figures are drawn from: tables and records, never simulations.
-pub enum Input<'a> {
+pub enum FigureInput<'a> {
     /// A sweep with its labels and runs.
     Sweep(&'a Source<'a>),
     /// Records beside each other.
-    Records(Records<'a>),
+    Records(RecordSet<'a>),
     /// What a study found.
-    Study(Study<'a>),
+    Study(StudyResult<'a>),
 }
 
 /// A sweep with its labels and runs.
@@ -99,25 +99,25 @@ pub struct Source<'a> {
 }
 
 /// What studies found, each of which has figures of its own.
-pub enum Study<'a> {
+pub enum StudyResult<'a> {
     /// The cases of `phase verify`, and the program that ran them.
     Verification(&'a [CaseError], &'a Program),
 }
 
-impl<'a> From<&'a Source<'a>> for Input<'a> {
+impl<'a> From<&'a Source<'a>> for FigureInput<'a> {
     fn from(source: &'a Source<'a>) -> Self {
         Self::Sweep(source)
     }
 }
 
-impl<'a> From<Records<'a>> for Input<'a> {
-    fn from(records: Records<'a>) -> Self {
+impl<'a> From<RecordSet<'a>> for FigureInput<'a> {
+    fn from(records: RecordSet<'a>) -> Self {
         Self::Records(records)
     }
 }
 
-impl<'a> From<Study<'a>> for Input<'a> {
-    fn from(study: Study<'a>) -> Self {
+impl<'a> From<StudyResult<'a>> for FigureInput<'a> {
+    fn from(study: StudyResult<'a>) -> Self {
         Self::Study(study)
     }
 }
@@ -142,11 +142,11 @@ impl Source<'_> {
 ///
 /// [`PlotError`] for a figure, an axis or a point that does not exist, for a table that is empty or
 /// not of this sweep, for a record that cannot be read, for records of several families.
-pub fn draw<'a>(name: &str, input: impl Into<Input<'a>>) -> Result<Svg, PlotError> {
+pub fn draw<'a>(name: &str, input: impl Into<FigureInput<'a>>) -> Result<Svg, PlotError> {
     match input.into() {
-        Input::Sweep(source) => draw_sweep(name, source),
-        Input::Records(records) => draw_records(name, &records),
-        Input::Study(study) => {
+        FigureInput::Sweep(source) => draw_sweep(name, source),
+        FigureInput::Records(records) => draw_records(name, &records),
+        FigureInput::Study(study) => {
             let figure = figures().iter().find(|figure| figure.name == name);
             match figure.map(|figure| &figure.draw) {
                 Some(Draw::Study(draw)) => draw(&study),
@@ -190,7 +190,7 @@ fn draw_sweep(name: &str, source: &Source<'_>) -> Result<Svg, PlotError> {
     }
 }
 
-fn draw_records(name: &str, records: &Records<'_>) -> Result<Svg, PlotError> {
+fn draw_records(name: &str, records: &RecordSet<'_>) -> Result<Svg, PlotError> {
     let figure = figures().iter().find(|figure| figure.name == name);
     let Some(figure) = figure.filter(|it| it.is_of_one_record() || it.default_runs().is_some())
     else {

@@ -5,7 +5,7 @@
 //! that the lift at the scene's own Omega is the scene's updraught, whether that depends on Omega
 //! or not.
 
-use super::chart::{self, Chart, Line, Panel, samples};
+use super::chart::{self, Chart, ChartLine, ChartPanel, samples};
 use super::critical_rotation::{radii, volume};
 use super::style::px;
 use super::svg::Svg;
@@ -37,9 +37,9 @@ fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
         let point = |radius: f64| Some((radius * 1e3, net_force(scene, radius, share)?));
         let points: Option<Vec<_>> = samples(0.0, largest).map(point).collect();
         let points = points.ok_or_else(needs)?;
-        lines.push(Line { points, color });
+        lines.push(ChartLine { points, color });
     }
-    let mut panels = vec![Panel::new(Vec::new(), (0.0, largest * 1e3), lines)];
+    let mut panels = vec![ChartPanel::new(Vec::new(), (0.0, largest * 1e3), lines)];
     let unit = chart::scaled("N", &mut panels);
     let omega = scene.dem.effects.swirl.as_ref().ok_or_else(needs)?.omega;
     let name = |share: f64| {

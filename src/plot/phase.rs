@@ -1,8 +1,8 @@
 //! The phase diagram: the state at every point of the grid (Rice, 2012, figures 13 and 14).
 
 use super::diagram::{Diagram, Look};
-use super::grid::Grid;
-use super::legend::{Entry, Key};
+use super::grid::PanelGrid;
+use super::legend::{LegendEntry, LegendKey};
 use super::style::Fill;
 use super::svg::Svg;
 use super::{Figure, PlotError, Source, palette};
@@ -23,7 +23,7 @@ pub(super) fn figure() -> Figure {
 }
 
 fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
-    let grid = Grid::new(source)?;
+    let grid = PanelGrid::new(source)?;
     let points: Vec<&Point> = grid
         .panels
         .iter()
@@ -34,15 +34,15 @@ fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
         points.any(|point| has_majority(point) && point.label == *label)
     };
     let labels = source.table.family.labels.iter();
-    let mut legend: Vec<Entry> = labels
+    let mut legend: Vec<LegendEntry> = labels
         .filter(|label| occurs(label))
-        .map(|label| Entry::new(Key::Fill(fill(*label)), &label.name.replace('-', " ")))
+        .map(|label| LegendEntry::new(LegendKey::Fill(fill(*label)), &label.name.replace('-', " ")))
         .collect();
     legend.extend(of_disagreement(&points));
     let is_unsteady = |point: &Point| source.table.is_unsteady(point);
     if points.iter().any(|point| is_unsteady(point)) {
-        let key = Key::Fill(Fill::Falling(WHITE));
-        legend.push(Entry::new(key, "not steady"));
+        let key = LegendKey::Fill(Fill::Falling(WHITE));
+        legend.push(LegendEntry::new(key, "not steady"));
     }
     Diagram {
         name: NAME,
@@ -93,7 +93,7 @@ fn look(point: &Point, is_unsteady: bool) -> Look {
 
 /// Entries of the legend for points whose seeds disagree: the largest and the smallest agreement
 /// that is a majority, and points without one.
-fn of_disagreement(points: &[&Point]) -> Vec<Entry> {
+fn of_disagreement(points: &[&Point]) -> Vec<LegendEntry> {
     let agreements = points.iter().map(|point| point.agreement);
     let marked = agreements.filter(|&agreement| agreement > 0.5 && agreement < 1.0);
     let mut ends: Vec<f64> = marked.collect();
@@ -102,15 +102,18 @@ fn of_disagreement(points: &[&Point]) -> Vec<Entry> {
     if ends.len() > 2 {
         ends.drain(1..ends.len() - 1);
     }
-    let mut entries: Vec<Entry> = ends
+    let mut entries: Vec<LegendEntry> = ends
         .into_iter()
         .map(|agreement| {
             let text = format!("{:.0} % of seeds agree", 100.0 * agreement);
-            Entry::new(Key::Agreement(agreement), &text)
+            LegendEntry::new(LegendKey::Agreement(agreement), &text)
         })
         .collect();
     if points.iter().any(|point| !has_majority(point)) {
-        entries.push(Entry::new(Key::Fill(Fill::Stipple), "no majority"));
+        entries.push(LegendEntry::new(
+            LegendKey::Fill(Fill::Stipple),
+            "no majority",
+        ));
     }
     entries
 }

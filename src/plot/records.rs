@@ -8,7 +8,7 @@ use crate::store::DataSet;
 /// Records of one family that a figure shows beside each other, one or more. Several are named by
 /// the keys in which their scenes differ.
 #[derive(Clone, Copy)]
-pub struct Records<'a> {
+pub struct RecordSet<'a> {
     /// The records.
     pub records: &'a [RunRecord],
     /// What names them instead, one each. Empty for the keys.
@@ -19,7 +19,7 @@ pub struct Records<'a> {
     pub data: &'a [DataSet],
 }
 
-impl<'a> Records<'a> {
+impl<'a> RecordSet<'a> {
     /// These records, with the names, states and curves that a figure shows by itself.
     pub fn of(records: &'a [RunRecord]) -> Self {
         Self {

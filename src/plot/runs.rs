@@ -1,7 +1,7 @@
 //! The runs that a figure of single runs shows: of a sweep, or of records beside each other.
 
 use super::choice::{self, DefaultRuns};
-use super::records::Records;
+use super::records::RecordSet;
 use super::svg::Origin;
 use super::{PlotError, Source, captions, grid};
 use crate::classify::{Family, Label, LabelRow, Sieves, Verdict, classify};
@@ -30,11 +30,11 @@ pub(super) struct ShownRun<'a> {
     pub(super) name: Vec<String>,
     /// Its label and measures.
     pub(super) verdict: Cow<'a, Verdict>,
-    kept: Kept<'a>,
+    kept: RecordPlace<'a>,
 }
 
 /// Where the record of a run is.
-enum Kept<'a> {
+enum RecordPlace<'a> {
     Here(&'a RunRecord),
     InFolder(&'a Source<'a>, &'a LabelRow),
 }
@@ -52,7 +52,7 @@ impl<'a> Runs<'a> {
             ShownRun {
                 name: choice::place(source, row),
                 verdict: Cow::Borrowed(&row.verdict),
-                kept: Kept::InFolder(source, row),
+                kept: RecordPlace::InFolder(source, row),
             }
         });
         let runs = Self {
@@ -67,7 +67,7 @@ impl<'a> Runs<'a> {
     }
 
     /// Records of one family.
-    pub(super) fn of_records(records: &Records<'a>) -> Result<Self, PlotError> {
+    pub(super) fn of_records(records: &RecordSet<'a>) -> Result<Self, PlotError> {
         let first = records.records.first().ok_or_else(PlotError::empty_table)?;
         let family = Family::of(&first.scene);
         let mut others = records.records.iter().map(|it| Family::of(&it.scene));
@@ -90,7 +90,7 @@ impl<'a> Runs<'a> {
             ShownRun {
                 name,
                 verdict: Cow::Owned(verdict),
-                kept: Kept::Here(record),
+                kept: RecordPlace::Here(record),
             }
         });
         let title = first.scene.title.as_deref();
@@ -127,8 +127,8 @@ impl ShownRun<'_> {
     /// Its record.
     pub(super) fn record(&self) -> Result<Cow<'_, RunRecord>, PlotError> {
         match self.kept {
-            Kept::Here(record) => Ok(Cow::Borrowed(record)),
-            Kept::InFolder(source, row) => {
+            RecordPlace::Here(record) => Ok(Cow::Borrowed(record)),
+            RecordPlace::InFolder(source, row) => {
                 let record = (source.record)(&row.id).map_err(|error| {
                     let point = choice::plainly(source, row);
                     PlotError::file(format_args!("the run at {point}: {error}"))

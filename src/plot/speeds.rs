@@ -1,6 +1,6 @@
 //! Speeds of air and spheres over time (Rice, 2012, figure 4).
 
-use super::chart::{Chart, Line, Panel};
+use super::chart::{Chart, ChartLine, ChartPanel};
 use super::page::columns;
 use super::runs::Runs;
 use super::style::px;
@@ -47,12 +47,12 @@ fn draw(runs: &Runs<'_>) -> Result<Svg, PlotError> {
 const AIR: plotters::style::RGBColor = palette::LINES[2];
 const SPHERES: plotters::style::RGBColor = palette::LINES[0];
 
-fn panel(head: Vec<String>, record: &RunRecord) -> Panel {
+fn panel(head: Vec<String>, record: &RunRecord) -> ChartPanel {
     let observations = &record.observations;
-    let line = |values, color| Line::over(&observations.time, values, color);
+    let line = |values, color| ChartLine::over(&observations.time, values, color);
     let lines = vec![
         line(&observations.air_speed_mean, AIR),
         line(&observations.speed_mean, SPHERES),
     ];
-    Panel::new(head, (0.0, record.scene.time.duration), lines).down_to_zero()
+    ChartPanel::new(head, (0.0, record.scene.time.duration), lines).down_to_zero()
 }

@@ -4,9 +4,9 @@
 use super::canvas::{self, SNAP};
 use super::page::whole;
 use super::runs::{Runs, ShownRun};
-use super::style::{Drawn, LABEL, MARGIN, SMALL, Sheet, WIDTH, frame, letters, px};
+use super::style::{Drawn, FigureSheet, LABEL, MARGIN, SMALL, WIDTH, frame, letters, px};
 use super::svg::{Placed, Svg};
-use super::words::{LINE, Words};
+use super::words::{FigureWords, LINE};
 use super::{Figure, PlotError, chart, choice, numbers, palette, text};
 use crate::classify::{Label, TANK};
 use crate::observe::Snapshot;
@@ -44,7 +44,7 @@ pub(super) fn figure() -> Figure {
 
 fn draw(runs: &Runs<'_>) -> Result<Svg, PlotError> {
     let ends = runs.shown.iter().map(End::new);
-    let strip = Strip::new(ends.collect::<Result<_, _>>()?, runs);
+    let strip = PictureStrip::new(ends.collect::<Result<_, _>>()?, runs);
     let body = canvas::draw((WIDTH, strip.height), |sheet| {
         strip.words.draw(sheet)?;
         strip.draw_length(sheet)
@@ -103,11 +103,11 @@ impl End {
 }
 
 /// Where pictures and words go. Corners of pictures fall on pixels of the PNG.
-struct Strip {
+struct PictureStrip {
     ends: Vec<End>,
     /// The tanks, with what is seen of them.
     stages: Vec<Stage>,
-    words: Words,
+    words: FigureWords,
     /// Pictures per row.
     columns: usize,
     /// Upper left corner of the first picture.
@@ -119,7 +119,7 @@ struct Strip {
     height: i32,
 }
 
-impl Strip {
+impl PictureStrip {
     fn new(ends: Vec<End>, runs: &Runs<'_>) -> Self {
         let stages = stages(&ends);
         let columns = ends.len().clamp(1, MOST);
@@ -132,7 +132,7 @@ impl Strip {
             (height / f64::from(SNAP)).ceil() as i32 * SNAP
         };
         let heights = [height_of(Camera::side), height_of(Camera::top)];
-        let mut words = Words::new(WIDTH);
+        let mut words = FigureWords::new(WIDTH);
         words.title(runs.origin.title, &[]);
         let places = ends.iter().zip(&stages);
         let places: Vec<Vec<String>> = places
@@ -209,7 +209,7 @@ impl Strip {
     }
 
     /// Draws a length to compare with: the radius of the tank, or what is seen, rounded.
-    fn draw_length(&self, sheet: &Sheet<'_>) -> Drawn {
+    fn draw_length(&self, sheet: &FigureSheet<'_>) -> Drawn {
         let Some(stage) = self.stages.first() else {
             return Ok(());
         };

@@ -61,7 +61,7 @@ impl CheckpointError {
 
 /// What is read before the state.
 #[derive(Serialize, Deserialize)]
-struct Header {
+struct CheckpointHeader {
     program_version: String,
     program_commit: String,
     /// The resolved scene (JSON) without the spheres that its start lists: a million make a long
@@ -82,7 +82,7 @@ pub fn write_checkpoint(path: &Path, run: &Run) -> Result<(), StoreError> {
 /// Writes it piece by piece: a state may be most of what fits into memory.
 fn encode(run: &Run, program: &Program, file: &mut impl Write) -> io::Result<()> {
     let scene = run.scene();
-    let header = Header {
+    let header = CheckpointHeader {
         program_version: program.version.clone(),
         program_commit: program.commit.clone(),
         scene: serde_json::to_string(&scene.without_list())
@@ -162,7 +162,7 @@ fn find_state(
         );
         return Err(CheckpointError::new(path, reason));
     }
-    let (header, body) = postcard::take_from_bytes::<Header>(body).map_err(unreadable)?;
+    let (header, body) = postcard::take_from_bytes::<CheckpointHeader>(body).map_err(unreadable)?;
     let program = Program {
         version: header.program_version,
         commit: header.program_commit,

@@ -4,7 +4,7 @@
 
 use crate::made_up::{self, axis, source};
 use crate::support::texts;
-use phase::beverloo::{Bed, Opening};
+use phase::beverloo::{GrainBed, Opening};
 use phase::classify::{FAMILIES, Label, LabelTable, SILO, Verdict};
 use phase::plot::{self, PlotError, fitted_lines};
 use phase::record::Program;
@@ -25,8 +25,8 @@ fn constants(friction: f64) -> [f64; 2] {
     [1.2 - 0.4 * friction, 1.0 + friction]
 }
 
-fn bed() -> Bed {
-    Bed {
+fn bed() -> GrainBed {
+    GrainBed {
         gravity: 9.81,
         number_density: PACKING / (PI * 0.04 * 0.04),
         diameter: 0.08,

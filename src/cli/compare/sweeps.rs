@@ -4,7 +4,7 @@ use super::super::console::Console;
 use super::super::exit::{Exit, Failure};
 use super::{Answer, Arguments, Entry, in_columns, table, written};
 use phase::classify::{Agreement, MeasureDifference};
-use phase::compare::Row;
+use phase::compare::ComparisonRow;
 use phase::statistics::Estimate;
 use phase::store;
 use phase::sweep::Folder;
@@ -103,7 +103,7 @@ fn line(measure: &MeasureDifference) -> [String; 4] {
 }
 
 /// The share of equal labels, and the measures.
-fn rows(agreement: &Agreement) -> Vec<Row> {
+fn rows(agreement: &Agreement) -> Vec<ComparisonRow> {
     let exact = |value: f64| {
         Some(Estimate {
             value,
@@ -111,12 +111,12 @@ fn rows(agreement: &Agreement) -> Vec<Row> {
         })
     };
     let (share, _) = agreement.share();
-    let labels = Row {
+    let labels = ComparisonRow {
         name: "share of equal labels".to_owned(),
         unit: String::new(),
         values: vec![exact(1.0), exact(share)],
     };
-    let measure = |it: &MeasureDifference| Row {
+    let measure = |it: &MeasureDifference| ComparisonRow {
         name: it.name.to_owned(),
         unit: it.unit.to_owned(),
         values: it.means.map(exact).to_vec(),
@@ -127,7 +127,7 @@ fn rows(agreement: &Agreement) -> Vec<Row> {
 
 impl Entry {
     /// The same with the interval of paired differences.
-    fn of_pairs(row: &Row, agreement: &Agreement) -> Self {
+    fn of_pairs(row: &ComparisonRow, agreement: &Agreement) -> Self {
         let own = agreement.measures.iter().find(|it| it.name == row.name);
         let half_width = own.map(|it| it.difference.half_width);
         Self {

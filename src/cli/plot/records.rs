@@ -5,7 +5,7 @@ use crate::cli::console::Console;
 use crate::cli::exit::Failure;
 use crate::cli::{folders, runs};
 use phase::classify::{DRAINAGE, Family};
-use phase::plot::{self, Figure, PlotError, PlotErrorKind, Records};
+use phase::plot::{self, Figure, PlotError, PlotErrorKind, RecordSet};
 use phase::record::RunRecord;
 use phase::store::{self, DataSet};
 use std::ffi::OsString;
@@ -38,7 +38,7 @@ pub(super) fn drawable(path: &Path) -> Result<Vec<&'static Figure>, Failure> {
     let record = store::read_record(path).map_err(Failure::refused)?;
     let records = std::slice::from_ref(&record);
     let mut figures = known(&record);
-    figures.retain(|figure| plot::draw(figure.name, Records::of(records)).is_ok());
+    figures.retain(|figure| plot::draw(figure.name, RecordSet::of(records)).is_ok());
     Ok(figures)
 }
 
@@ -91,7 +91,7 @@ pub(super) fn draw(
     let mut missing = None;
     let mut failures = Vec::new();
     for name in &names {
-        let input = Records {
+        let input = RecordSet {
             records: &records,
             labels: &arguments.labels,
             times: arguments.times,

@@ -2,9 +2,9 @@
 //! processor time that it takes.
 
 use super::overlay::{GUIDES, color};
-use super::{Drainage, each, of_drainages};
-use crate::compare::{QUANTITIES, Quantity};
-use crate::plot::chart::{self, Bar, Chart, Line, Panel};
+use super::{MeasuredDrainage, each, of_drainages};
+use crate::compare::{DrainageQuantity, QUANTITIES};
+use crate::plot::chart::{self, Bar, Chart, ChartLine, ChartPanel};
 use crate::plot::page::columns;
 use crate::plot::runs::Runs;
 use crate::plot::style::px;
@@ -36,7 +36,7 @@ fn draw(runs: &Runs<'_>) -> Result<Svg, PlotError> {
     let mut units = Units::Si;
     let measured = each(runs, NAME, |place, drainage| {
         units = drainage.units();
-        Measured::of(place, drainage)
+        MeasuredRun::of(place, drainage)
     })?;
     let (reference, others) = match measured.split_first() {
         Some((reference, others)) if !others.is_empty() => (reference, others),
@@ -69,7 +69,7 @@ fn draw(runs: &Runs<'_>) -> Result<Svg, PlotError> {
 }
 
 /// What a run costs, and its values of the quantities that are shown.
-struct Measured {
+struct MeasuredRun {
     /// Its name in the legend.
     name: String,
     /// Processor time (s) per second of the run.
@@ -77,8 +77,8 @@ struct Measured {
     values: Vec<Option<Estimate>>,
 }
 
-impl Measured {
-    fn of(place: Vec<String>, drainage: &Drainage<'_>) -> Self {
+impl MeasuredRun {
+    fn of(place: Vec<String>, drainage: &MeasuredDrainage<'_>) -> Self {
         let end = drainage.states().last().map_or(f64::NAN, |it| it.time);
         Self {
             name: place.join(", "),
@@ -88,12 +88,12 @@ impl Measured {
     }
 }
 
-fn shown() -> impl Iterator<Item = &'static Quantity> {
+fn shown() -> impl Iterator<Item = &'static DrainageQuantity> {
     QUANTITIES.iter().filter(|it| it.is_of_flow)
 }
 
 /// The reference and each other run, by colour.
-fn legend(reference: &Measured, others: &[Measured]) -> Vec<(RGBColor, String)> {
+fn legend(reference: &MeasuredRun, others: &[MeasuredRun]) -> Vec<(RGBColor, String)> {
     let first = &reference.name;
     let time = numbers::rounded(reference.cost, 2);
     let head = [
@@ -118,13 +118,13 @@ fn legend(reference: &Measured, others: &[Measured]) -> Vec<(RGBColor, String)> 
 
 /// A panel for each quantity that the reference and another run have, all with the same axes; none
 /// if there is no quantity, or no error above zero.
-fn panels(reference: &Measured, others: &[Measured]) -> Option<Vec<Panel>> {
+fn panels(reference: &MeasuredRun, others: &[MeasuredRun]) -> Option<Vec<ChartPanel>> {
     let costs = others.iter().map(|it| it.cost).chain([reference.cost]);
     let (low, high) = chart::ends(costs.filter(|it| *it > 0.0));
     let x = (low / BEYOND, high * BEYOND);
-    let errors: Vec<Errors> = shown()
+    let errors: Vec<QuantityErrors> = shown()
         .enumerate()
-        .filter_map(|(place, quantity)| Errors::of(quantity, place, reference, others))
+        .filter_map(|(place, quantity)| QuantityErrors::of(quantity, place, reference, others))
         .collect();
     let values = errors.iter().flat_map(|it| it.points.iter().flatten());
     let floors = errors.iter().map(|it| it.floor);
@@ -136,7 +136,7 @@ fn panels(reference: &Measured, others: &[Measured]) -> Option<Vec<Panel>> {
 }
 
 /// The errors of a quantity.
-struct Errors {
+struct QuantityErrors {
     name: &'static str,
     /// Half width of the interval of the reference, over its value.
     floor: f64,
@@ -146,16 +146,16 @@ struct Errors {
     points: Vec<Option<(f64, Estimate)>>,
 }
 
-impl Errors {
+impl QuantityErrors {
     fn of(
-        quantity: &Quantity,
+        quantity: &DrainageQuantity,
         place: usize,
-        reference: &Measured,
-        others: &[Measured],
+        reference: &MeasuredRun,
+        others: &[MeasuredRun],
     ) -> Option<Self> {
         let first = reference.values[place].filter(|it| it.value != 0.0)?;
         let scale = first.value.abs();
-        let error = |run: &Measured| {
+        let error = |run: &MeasuredRun| {
             let other = run.values[place]?;
             let error = Estimate {
                 value: (other.value - first.value).abs() / scale,
@@ -172,8 +172,8 @@ impl Errors {
         })
     }
 
-    fn panel(&self, [x, y]: [(f64, f64); 2]) -> Panel {
-        let line = |points, color| Line { points, color };
+    fn panel(&self, [x, y]: [(f64, f64); 2]) -> ChartPanel {
+        let line = |points, color| ChartLine { points, color };
         let mut lines = vec![line(vec![(self.cost, y.0), (self.cost, y.1)], COST)];
         if (y.0..=y.1).contains(&self.floor) {
             let floor = vec![(x.0, self.floor), (x.1, self.floor)];
@@ -192,7 +192,7 @@ impl Errors {
             };
             Some(Bar::between((cost, error.value), ends, ink))
         });
-        Panel {
+        ChartPanel {
             head: vec![self.name.to_owned()],
             x,
             y,

@@ -21,8 +21,8 @@ mod velocity_profile;
 use super::runs::Runs;
 use super::{Figure, PlotError, Svg, choice};
 use crate::classify::DRAINAGE;
-use crate::compare::Drainage;
-use overlay::{Curve, Lines, Overlay};
+use crate::compare::MeasuredDrainage;
+use overlay::{Overlay, RunCurve, RunLines};
 
 /// All of them.
 pub(super) fn figures() -> [Figure; 14] {
@@ -60,11 +60,11 @@ fn of_drainages(
 fn each<T>(
     runs: &Runs<'_>,
     figure: &str,
-    mut take: impl FnMut(Vec<String>, &Drainage<'_>) -> T,
+    mut take: impl FnMut(Vec<String>, &MeasuredDrainage<'_>) -> T,
 ) -> Result<Vec<T>, PlotError> {
     let taken = runs.shown.iter().map(|run| {
         let record = run.record()?;
-        let drainage = Drainage::new(&record, runs.times);
+        let drainage = MeasuredDrainage::new(&record, runs.times);
         let drainage = drainage.map_err(|needs| PlotError::needs(figure, needs))?;
         Ok(take(run.name.clone(), &drainage))
     });

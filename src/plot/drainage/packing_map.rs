@@ -1,14 +1,14 @@
 //! Maps of the local packing fraction (Rycroft, Wong and Bazant, 2010, figure 4).
 
-use super::{Drainage, each, of_drainages};
+use super::{MeasuredDrainage, each, of_drainages};
 use crate::measure::{CellGrid, Centres, Walls, local_packing_fraction, voronoi_cells};
 use crate::observe::Snapshot;
 use crate::particles::vector::Vector;
 use crate::plot::canvas::SNAP;
 use crate::plot::color_bar::ColorBar;
-use crate::plot::page::{Frame, Page, Plan};
+use crate::plot::page::{FigurePage, PagePlan, PanelFrame};
 use crate::plot::runs::Runs;
-use crate::plot::scale::Span;
+use crate::plot::scale::AxisSpan;
 use crate::plot::style::px;
 use crate::plot::svg::{Placed, Svg};
 use crate::plot::{Figure, PlotError, numbers};
@@ -43,13 +43,13 @@ fn draw(runs: &Runs<'_>) -> Result<Svg, PlotError> {
     let maps = each(runs, NAME, |place, drainage| {
         let duration = drainage.record.scene.time.duration;
         let shown = runs.times.unwrap_or(SHOWN.map(|share| share * duration));
-        shown.map(|time| Map::new(drainage, time, place.clone()))
+        shown.map(|time| PackingPicture::new(drainage, time, place.clone()))
     })?;
     draw_maps(runs, maps.as_flattened())
 }
 
 /// Packing fractions of a state in the plane y = 0.
-struct Map {
+struct PackingPicture {
     head: Vec<String>,
     /// Half of the width, and the height (diameters).
     extent: [f64; 2],
@@ -59,9 +59,9 @@ struct Map {
     values: Vec<Option<f64>>,
 }
 
-impl Map {
+impl PackingPicture {
     /// Of the state nearest to a time.
-    fn new(drainage: &Drainage<'_>, time: f64, mut head: Vec<String>) -> Self {
+    fn new(drainage: &MeasuredDrainage<'_>, time: f64, mut head: Vec<String>) -> Self {
         let away = |state: &&Snapshot| (drainage.since_opening(state.time) - time).abs();
         let states = drainage.states().iter();
         let nearest = states.min_by(|one, other| away(one).total_cmp(&away(other)));
@@ -117,14 +117,14 @@ impl Map {
     }
 }
 
-fn draw_maps(runs: &Runs<'_>, maps: &[Map]) -> Result<Svg, PlotError> {
+fn draw_maps(runs: &Runs<'_>, maps: &[PackingPicture]) -> Result<Svg, PlotError> {
     let extent = maps.iter().fold([0.0; 2], |most: [f64; 2], map| {
         [0, 1].map(|axis| most[axis].max(map.extent[axis]))
     });
-    let frame = |map: &Map| Frame {
+    let frame = |map: &PackingPicture| PanelFrame {
         head: map.head.clone(),
-        x: Span::linear((-map.extent[0], map.extent[0])),
-        y: Span::linear((0.0, map.extent[1])),
+        x: AxisSpan::linear((-map.extent[0], map.extent[0])),
+        y: AxisSpan::linear((0.0, map.extent[1])),
     };
     let label = "local packing fraction".to_owned();
     let bar = ColorBar::new(RANGE.into_iter(), false, label);
@@ -135,7 +135,7 @@ fn draw_maps(runs: &Runs<'_>, maps: &[Map]) -> Result<Svg, PlotError> {
          place at $y$ = 0."
     )];
     let page_beside = |bar: &ColorBar| {
-        Page::new(Plan {
+        FigurePage::new(PagePlan {
             title: runs.origin.title,
             common: &runs.common,
             frames: maps.iter().map(frame).collect(),
@@ -145,7 +145,7 @@ fn draw_maps(runs: &Runs<'_>, maps: &[Map]) -> Result<Svg, PlotError> {
             aside: bar.width(),
             labels: ["$x$ / $d$", "height $z$ / $d$"].map(str::to_owned),
             notes: &notes,
-            ..Plan::default()
+            ..PagePlan::default()
         })
     };
     let tall = bar.clone().fitted(height / 2);

@@ -1,9 +1,9 @@
 //! The downward velocity across a box at several heights, and how fast the flow widens upwards.
 
-use super::{Drainage, each, of_drainages};
+use super::{MeasuredDrainage, each, of_drainages};
 use crate::compare::{DRAWN_HEIGHTS, flow_spread_of, profile_at};
 use crate::measure::flow_width;
-use crate::plot::chart::{self, Bar, Chart, Line, Panel};
+use crate::plot::chart::{self, Bar, Chart, ChartLine, ChartPanel};
 use crate::plot::page::columns;
 use crate::plot::runs::Runs;
 use crate::plot::style::px;
@@ -59,7 +59,7 @@ fn draw(runs: &Runs<'_>) -> Result<Svg, PlotError> {
     .draw(&runs.origin)
 }
 
-fn panel(mut head: Vec<String>, drainage: &Drainage<'_>) -> Panel {
+fn panel(mut head: Vec<String>, drainage: &MeasuredDrainage<'_>) -> ChartPanel {
     let diameter = drainage.filled_box.diameter;
     let walls = Some(drainage.filled_box.half_width);
     if let Some(spread) = flow_spread_of(drainage) {
@@ -84,12 +84,12 @@ fn panel(mut head: Vec<String>, drainage: &Drainage<'_>) -> Panel {
                 .map(|x| (x, fit.velocity(x * diameter, walls) / diameter))
                 .collect()
         });
-        lines.push(Line {
+        lines.push(ChartLine {
             points: points.unwrap_or_default(),
             color,
         });
     }
-    Panel::new(head, (-end, end), lines)
+    ChartPanel::new(head, (-end, end), lines)
         .with_bars(bars)
         .down_to_zero()
 }

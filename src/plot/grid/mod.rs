@@ -10,7 +10,7 @@ pub(super) use axis::{GridAxis, strip};
 
 /// One of the small multiples; its cells hold points of a sweep, or of something else.
 #[derive(Clone, Debug)]
-pub(super) struct Panel<P = Point> {
+pub(super) struct GridPanel<P = Point> {
     /// What stands above it.
     pub(super) head: Option<String>,
     /// Values of the axes it is for, on `columns` and `rows` of the grid.
@@ -22,7 +22,7 @@ pub(super) struct Panel<P = Point> {
 
 /// The axes of a figure and the points in its cells.
 #[derive(Clone, Debug)]
-pub(super) struct Grid<P = Point> {
+pub(super) struct PanelGrid<P = Point> {
     pub(super) x: GridAxis,
     pub(super) y: Option<GridAxis>,
     /// Axis of the small multiples.
@@ -30,10 +30,10 @@ pub(super) struct Grid<P = Point> {
     /// A second such axis.
     pub(super) rows: Option<GridAxis>,
     /// Panels, row by row.
-    pub(super) panels: Vec<Panel<P>>,
+    pub(super) panels: Vec<GridPanel<P>>,
 }
 
-impl Grid {
+impl PanelGrid {
     /// Chooses the axes as the sweep's plot settings say and sorts the table into cells.
     pub(super) fn new(source: &Source<'_>) -> Result<Self, PlotError> {
         let (sweep, table) = (source.sweep, source.table);
@@ -60,7 +60,7 @@ impl Grid {
         let columns: Vec<Option<f64>> = values(&self.columns);
         for row in values(&self.rows) {
             self.panels.extend(columns.iter().map(|&column| {
-                Panel {
+                GridPanel {
                     head: self
                         .columns
                         .as_ref()
@@ -90,7 +90,7 @@ impl Grid {
     }
 }
 
-impl<P> Grid<P> {
+impl<P> PanelGrid<P> {
     /// Number of cells of a panel, horizontally and vertically.
     pub(super) fn cells(&self) -> (usize, usize) {
         let vertical = self.y.as_ref().map_or(1, |axis| axis.values.len());

@@ -6,9 +6,9 @@
 mod view;
 
 use super::axes::Plot;
-use super::page::{Frame, Page, Plan};
-use super::scale::Span;
-use super::style::{Drawn, Sheet, px};
+use super::page::{FigurePage, PagePlan, PanelFrame};
+use super::scale::AxisSpan;
+use super::style::{Drawn, FigureSheet, px};
 use super::svg::Svg;
 use super::{Figure, PlotError, palette};
 use crate::record::RunRecord;
@@ -132,29 +132,29 @@ impl Tracks<'_> {
         surfaces.chain(centres).fold(0.0, f64::max)
     }
 
-    fn page(&self) -> Page {
+    fn page(&self) -> FigurePage {
         let [across, up] = self.sight.ranges;
         let (height, aspect) = match self.view {
             View::Time { .. } => (OVER_TIME, None),
             View::Plane { .. } => (HEIGHT, Some((across.1 - across.0) / (up.1 - up.0))),
         };
-        Page::new(Plan {
+        FigurePage::new(PagePlan {
             title: self.record.scene.title.as_deref(),
-            frames: vec![Frame {
+            frames: vec![PanelFrame {
                 head: Vec::new(),
-                x: Span::linear(across),
-                y: Span::linear(up),
+                x: AxisSpan::linear(across),
+                y: AxisSpan::linear(up),
             }],
             columns: 1,
             height,
             aspect,
             labels: self.view.labels(),
             notes: &[self.caption()],
-            ..Plan::default()
+            ..PagePlan::default()
         })
     }
 
-    fn draw_sphere(&self, sheet: &Sheet<'_>, plot: &Plot<'_>, sphere: usize) -> Drawn {
+    fn draw_sphere(&self, sheet: &FigureSheet<'_>, plot: &Plot<'_>, sphere: usize) -> Drawn {
         let color = palette::DISTINCT[sphere % palette::DISTINCT.len()];
         let last = self.record.trajectory.len() - 1;
         let radius = 1e3 * self.record.radius[sphere];
@@ -265,7 +265,12 @@ fn distance(point: (i32, i32), from: (i32, i32), to: (i32, i32)) -> f64 {
 }
 
 /// An arrow around a centre, counter-clockwise or clockwise.
-fn draw_turn(sheet: &Sheet<'_>, centre: (i32, i32), radius: f64, counter_clockwise: bool) -> Drawn {
+fn draw_turn(
+    sheet: &FigureSheet<'_>,
+    centre: (i32, i32),
+    radius: f64,
+    counter_clockwise: bool,
+) -> Drawn {
     const PARTS: i32 = 40;
     let sense = if counter_clockwise { 1.0 } else { -1.0 };
     let at = |degrees: f64, radius: f64| {

@@ -31,7 +31,7 @@ pub fn read_states(path: &Path) -> Result<Vec<WrittenState>, StoreError> {
 /// The states of a dump of LAMMPS or of an extended XYZ file.
 fn text_states(path: &Path) -> Result<Vec<WrittenState>, StoreError> {
     let content = text::read(path).map_err(|error| StoreError::reading(path, error))?;
-    let mut lines = Lines {
+    let mut lines = FileLines {
         path,
         lines: content.lines(),
         number: 0,
@@ -57,14 +57,14 @@ fn line_at(text: &str, place: usize) -> u64 {
 }
 
 /// The lines of a file, counted.
-struct Lines<'a> {
+struct FileLines<'a> {
     path: &'a Path,
     lines: std::str::Lines<'a>,
     /// Of the latest line, from 1.
     number: u64,
 }
 
-impl<'a> Lines<'a> {
+impl<'a> FileLines<'a> {
     fn next(&mut self, wanted: &str) -> Result<&'a str, StoreError> {
         self.number += 1;
         let line = self.lines.next();

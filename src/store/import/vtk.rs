@@ -42,7 +42,7 @@ pub(super) fn read(path: &Path, bytes: &[u8]) -> Result<NumberedCentres, StoreEr
         StoreError::text(path, error.pos().row.into(), reason)
     })?;
     let root = document.root_element();
-    let file = File::new(path, root, appended).map_err(|reason| refuse(path, root, &reason))?;
+    let file = VtkFile::new(path, root, appended).map_err(|reason| refuse(path, root, &reason))?;
     let (mut centres, mut numbers, mut are_numbered) = (Vec::new(), Vec::new(), true);
     for piece in file.grid.children().filter(|it| it.has_tag_name("Piece")) {
         let (own, numbers_there) = file.points(piece)?;
@@ -75,7 +75,7 @@ fn split(bytes: &[u8]) -> (Cow<'_, [u8]>, &[u8]) {
 }
 
 /// A file: its kind of numbers, and where they are.
-struct File<'a> {
+struct VtkFile<'a> {
     path: &'a Path,
     grid: Node<'a, 'a>,
     appended: &'a [u8],
@@ -85,7 +85,7 @@ struct File<'a> {
     compressor: Option<&'a str>,
 }
 
-impl<'a> File<'a> {
+impl<'a> VtkFile<'a> {
     fn new(path: &'a Path, root: Node<'a, 'a>, appended: &'a [u8]) -> Result<Self, String> {
         let attribute = |name: &str| root.attribute(name).unwrap_or_default();
         let kind = attribute("type");

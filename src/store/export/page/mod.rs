@@ -26,7 +26,7 @@ const FINENESS: f64 = 1.0 / 300.0;
 
 /// What the script is told.
 #[derive(Serialize)]
-struct Run {
+struct PageRun {
     title: String,
     /// What is seen: least x and z, largest x and z (m).
     window: [f64; 4],
@@ -83,7 +83,7 @@ pub fn write_page(record: &RunRecord, states: &[&Snapshot], path: &Path) -> Resu
     write_atomic(path, &[PAGE_SIGNATURE, page.as_bytes()].concat())
 }
 
-fn describe(record: &RunRecord, states: &[&Snapshot]) -> Run {
+fn describe(record: &RunRecord, states: &[&Snapshot]) -> PageRun {
     let scene = &record.scene;
     let scenery = Scenery::new(scene, &record.milestones);
     let window = window(record, &scenery, states);
@@ -104,7 +104,7 @@ fn describe(record: &RunRecord, states: &[&Snapshot]) -> Run {
         spheres.iter().map(circle).collect()
     };
     let color = |color: Rgb| flat::hex(color);
-    Run {
+    PageRun {
         title: scene.title.clone().unwrap_or_else(|| "A run".to_owned()),
         window: joined(&window),
         colors: Colors {
