@@ -24,7 +24,7 @@ const PARTS: u32 = 200;
 /// * b: how fast the flow widens upwards, sigma^2 = 2 b z
 /// * w = b Pe / d: a spot that steps sqrt(2 b dz) aside moves spheres by a w-th of it, so that they
 ///   diffuse with the length b / w while they drop
-/// * r_s: the length of the velocity correlation, which is that of the common volume of two spots
+/// * r_s: velocities are correlated over the distance at which two spots still overlap
 /// * lambda = Q w V_p / (phi V_s): Q spheres leave per time, and a spot carries a w-th of the
 ///   volume of the spheres in it, with the volume V_s of a spot within the walls, V_p of a sphere,
 ///   and the packing fraction phi of the flow
@@ -36,7 +36,7 @@ const PARTS: u32 = 200;
 pub struct SpotFit {
     /// Diffusion length b (m).
     pub diffusion_length: Estimate,
-    /// Displacement of a spot over that of the spheres that it moves, w.
+    /// Displacement of a spot over the displacement of the spheres that it moves, w.
     pub displacement_ratio: Estimate,
     /// Radius r_s (m).
     pub radius: Estimate,

@@ -1,4 +1,4 @@
-//! Drainages beside each other: what is measured of their records, and how it differs.
+//! Comparison of drainages: what is measured of their records, and how it differs.
 //!
 //! Records of the discrete element model and of the spot model go through the same measures.
 

@@ -18,11 +18,11 @@ pub struct DrainageQuantity {
     /// Whether it describes the flow, so that its error counts where drainages are compared.
     pub is_of_flow: bool,
     /// Measures it, with its interval of 95 % over states or blocks of time, infinite where nothing
-    /// tells its scatter. None where it is undefined.
+    /// tells its scatter. `None` if it is undefined.
     pub measure: fn(&MeasuredDrainage<'_>) -> Option<Estimate>,
 }
 
-/// Name of the time that a run took, whose seconds are not those of its scene.
+/// Name of the time that a run took: seconds of a processor, not of its scene.
 pub(super) const PROCESSOR_TIME: &str = "processor time";
 
 /// All of them.

@@ -13,7 +13,7 @@ pub struct ComparisonRow {
     pub name: String,
     /// Its unit.
     pub unit: String,
-    /// Its values, in the order of the records; none where it is undefined.
+    /// Its values, in the order of the records; `None` if undefined.
     pub values: Vec<Option<Estimate>>,
 }
 
@@ -26,8 +26,8 @@ impl ComparisonRow {
         }
     }
 
-    /// The second value less the first, of two; the interval is infinite if that of one is. Of one
-    /// run beside itself the interval is zero: nothing scatters.
+    /// The second of two values less the first. The interval is infinite if either is, and zero for
+    /// a run compared with itself: nothing scatters.
     pub fn difference(&self, is_of_one_run: bool) -> Option<Estimate> {
         let [Some(first), Some(second)] = self.values[..] else {
             return None;
@@ -52,15 +52,14 @@ pub struct DrainageComparison {
     pub windows: Vec<[f64; 2]>,
 }
 
-/// Whether the second of two columns is that of the same run: all numbers but the processor time
-/// are the same.
+/// Whether two columns are of the same run: all numbers but the processor time are the same.
 pub fn are_of_one_run(rows: &[ComparisonRow]) -> bool {
     let mut measured = rows.iter().filter(|row| row.name != PROCESSOR_TIME);
     measured.all(|row| matches!(row.values[..], [one, other] if one == other))
 }
 
 impl DrainageComparison {
-    /// Measures records, one or more; `times` as of [`MeasuredDrainage::new`].
+    /// Measures records, one or more; `times` as in [`MeasuredDrainage::new`].
     ///
     /// # Errors
     /// What a record lacks, and its place among them.

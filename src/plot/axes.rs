@@ -21,7 +21,7 @@ pub(super) struct Axes<'s, 'c> {
 
 impl<'s, 'c> Axes<'s, 'c> {
     /// A panel with its upper left corner at `corner`, `ticks` being the room for tick labels left
-    /// of it and below; none where that is zero.
+    /// of it and below; zero for no labels.
     pub(super) fn new(
         sheet: &'s FigureSheet<'c>,
         (left, top): (i32, i32),

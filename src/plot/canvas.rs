@@ -185,7 +185,7 @@ impl DrawingBackend for Canvas<'_> {
         if !lacking.is_empty() {
             self.body.unwritten.push((plain(text), lacking));
         }
-        // Top means the top of capitals (.73 em), bottom that of the descenders (.24 em).
+        // Top is the top of capitals (.73 em), bottom the end of descenders (.24 em).
         let baseline = match style.anchor().v_pos {
             VPos::Top => 0.73,
             VPos::Center => 0.365,

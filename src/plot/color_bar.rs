@@ -30,7 +30,7 @@ pub(super) struct ColorBar {
 }
 
 impl ColorBar {
-    /// The bar for these values; none without any. A `signed` quantity gets a map with zero in the
+    /// The bar for these values; `None` if empty. A `signed` quantity gets a map with zero in the
     /// middle, even if all values have one sign.
     pub(super) fn new(
         values: impl Iterator<Item = f64>,

@@ -127,7 +127,7 @@ fn fixed(source: &Source<'_>) -> Vec<String> {
         .collect()
 }
 
-/// The radii of the figure (m): those of the sweep, or else around that of the scene.
+/// The radii of the figure (m): the range of the sweep, or else around the radius of the scene.
 pub(super) fn radii(source: &Source<'_>) -> (f64, f64) {
     let sweep = source.sweep;
     let axis = sweep.axes.iter().find(|axis| axis.key == "spheres.radius");

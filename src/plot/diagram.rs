@@ -121,7 +121,7 @@ pub(super) struct Diagram<'a, P = Point> {
     pub(super) look: &'a dyn Fn(&P) -> Option<Look>,
     /// What a cell without a value is called.
     pub(super) empty: String,
-    /// Entries of the legend, before those of the curve and of empty cells.
+    /// First entries of the legend; the curve and empty cells follow.
     pub(super) legend: Vec<LegendEntry>,
     pub(super) bar: Option<ColorBar>,
 }
@@ -188,7 +188,7 @@ impl<P> Diagram<'_, P> {
     fn frames(&self, columns: usize) -> Vec<PanelFrame> {
         let panels = self.grid.panels.iter().enumerate();
         let frame = |(index, panel): (usize, &GridPanel<P>)| PanelFrame {
-            // Where rows have heads too, those of columns stand above the first row alone.
+            // If rows have heads too, columns have theirs above the first row only.
             head: match &panel.head {
                 Some(head) if index < columns || self.grid.rows.is_none() => vec![head.clone()],
                 _ => Vec::new(),

@@ -31,7 +31,7 @@ pub(super) enum Draw {
         default: &'static DefaultRuns,
         /// Whether it can show or measure the states of a stretch of time alone.
         takes_times: bool,
-        /// Whether it shows curves of other sources beside those of the runs.
+        /// Whether it shows curves of other sources with the runs.
         takes_data: bool,
         draw: Box<dyn Fn(&Runs<'_>) -> Result<Svg, PlotError> + Send + Sync>,
     },
@@ -174,14 +174,14 @@ impl Figure {
         let name = self.name;
         if has_times && !takes_times {
             return Err(PlotError::request(format_args!(
-                "the figure `{name}` looks at whole runs, so it takes no times; those of \
-                 drainages do"
+                "the figure `{name}` looks at whole runs, so it takes no times; only \
+                 figures of drainages take them"
             )));
         }
         if has_data && !takes_data {
             return Err(PlotError::request(format_args!(
-                "the figure `{name}` shows no data beside runs; figures of drainages do in which \
-                 each run is a line, such as `outflow` and `cross-profile`"
+                "the figure `{name}` shows no data beside runs; figures of drainages with a line \
+                 per run do, such as `outflow` and `cross-profile`"
             )));
         }
         Ok(())

@@ -59,7 +59,7 @@ impl MeasureMap {
         }
     }
 
-    /// The bar of the mean of values of several runs; none without any.
+    /// The bar of the mean over several runs; `None` without values.
     pub(super) fn bar(&self, x: f64, values: &[f64], color: RGBColor) -> Option<Bar> {
         let Estimate { value, half_width } = Estimate::of_mean(values)?;
         let bar = Bar::about((x, value), half_width, color);

@@ -17,7 +17,7 @@ use crate::theory::unshielded_lift;
 /// Name of the figure.
 const NAME: &str = "net-force";
 
-/// Rotations that are shown, over that of the scene.
+/// Rotations that are shown, over the rotation of the scene.
 const ROTATIONS: [f64; 3] = [0.5, 0.75, 1.0];
 
 pub(super) fn figure() -> Figure {

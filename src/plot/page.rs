@@ -44,7 +44,7 @@ pub(super) struct PagePlan<'a> {
     pub(super) row_heads: Vec<String>,
     /// Height of a panel; the greatest one if it has an aspect.
     pub(super) height: i32,
-    /// Width of a panel over its height; none where it is as wide as there is room.
+    /// Width of a panel over its height; `None` if it takes all the width there is.
     pub(super) aspect: Option<f64>,
     /// Width of what is drawn right of the panels, such as a colour bar; zero for none.
     pub(super) aside: i32,

@@ -62,7 +62,7 @@ fn has_majority(point: &Point) -> bool {
 
 pub(super) fn fill(label: Label) -> Fill {
     match label {
-        // Its colour is that of the critical rotation.
+        // The colour of the critical rotation.
         Label::UNSTABLE => Fill::CrossHatch,
         _ => Fill::Color(palette::state(label)),
     }
@@ -71,7 +71,7 @@ pub(super) fn fill(label: Label) -> Fill {
 fn look(point: &Point, is_unsteady: bool) -> Look {
     if has_majority(point) {
         Look {
-            // In grey a pale colour may be that of another label: the mark says that it is pale.
+            // In grey print a pale colour may look like another label; the mark says it is pale.
             fill: match fill(point.label) {
                 Fill::Color(color) => {
                     let color = palette::faded(color, point.agreement);

@@ -15,7 +15,7 @@ pub(super) struct Runs<'a> {
     pub(super) origin: Origin<'a>,
     /// First and last time (s) of the states that figures of drainages show or measure.
     pub(super) times: Option<[f64; 2]>,
-    /// Curves of other sources beside those of the runs.
+    /// Curves of other sources, shown with the runs.
     pub(super) data: &'a [DataSet],
     /// The parts of their names that all of several runs share, with markup.
     pub(super) common: Vec<String>,
@@ -26,7 +26,7 @@ pub(super) struct Runs<'a> {
 
 /// A run that is shown.
 pub(super) struct ShownRun<'a> {
-    /// The parts of its name that not all runs share, with markup: `$r$ = 4 mm` and `$Ω$ = 8 rad/s`.
+    /// The parts of its name that not all runs share, with markup, such as `$r$ = 4 mm`.
     pub(super) name: Vec<String>,
     /// Its label and measures.
     pub(super) verdict: Cow<'a, Verdict>,

@@ -29,7 +29,7 @@ pub(super) struct AxisSpan {
     pub(super) high: f64,
     pub(super) spacing: AxisSpacing,
     pub(super) ticks: Ticks,
-    /// Size of the letters of its labels, where it is not that of small ones.
+    /// Size of the letters of its labels, if not the usual small one.
     pub(super) letters: Option<i32>,
 }
 

@@ -24,7 +24,7 @@ pub struct Svg {
     warnings: Vec<String>,
 }
 
-/// A picture, and its upper left corner in units of the canvas. Its pixels are those of the PNG.
+/// A picture, and its upper left corner in units of the canvas. Its pixels are pixels of the PNG.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Placed {
     pub(super) image: Image,

@@ -8,7 +8,7 @@ use crate::markup::words;
 use plotters::style::{FontDesc, FontFamily, FontStyle, register_font};
 use std::sync::OnceLock;
 
-/// Size of a subscript over that of its line.
+/// Size of a subscript over the size of its line.
 pub(super) const SUBSCRIPT_SIZE: f64 = 0.72;
 
 /// Fonts measured by plotters: size means ascent plus descent there, the em here.

@@ -24,7 +24,7 @@ pub struct CaseError {
     pub ratio: f64,
 }
 
-/// Least and largest ratio that is told apart, as powers of ten.
+/// Ends of the axis of ratios, as powers of ten; ratios beyond are drawn at its ends.
 const DECADES: (i32, i32) = (-6, 1);
 /// Height of a row.
 const ROW: i32 = px(15);

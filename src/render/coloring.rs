@@ -41,7 +41,7 @@ pub enum ColorBy {
         /// The layer of every sphere that was there at the start.
         of: Vec<Option<usize>>,
     },
-    /// Packing fraction: volume of the sphere over that of its Voronoi cell, from
+    /// Packing fraction: volume of the sphere over the volume of its Voronoi cell, from
     /// [`LOOSEST`](Self::LOOSEST) to [`DENSEST`](Self::DENSEST).
     PackingFraction {
         /// Where cells end.
@@ -49,7 +49,7 @@ pub enum ColorBy {
     },
 }
 
-/// Colours of layers, by turns (those of Okabe and Ito, 2008).
+/// Colours of layers, in turn (Okabe and Ito, 2008).
 const LAYERS: [Rgb; 2] = [[0xf0, 0xe4, 0x42], [0x56, 0xb4, 0xe9]];
 /// How far cells reach from centres at a free surface, in diameters.
 const FARTHEST: f64 = 0.75;

@@ -4,7 +4,7 @@ use super::{Image, Rgb};
 
 /// Bits of a channel that tell colours apart.
 const BITS: u32 = 5;
-/// Number of colours that are told apart.
+/// Number of different colours in a palette.
 const CELLS: usize = 1 << (3 * BITS);
 
 /// The colours of pictures, and which of them stands for which colour.

@@ -14,7 +14,7 @@ const GAP: f64 = 0.03;
 
 /// Views of cameras, at one scale.
 ///
-/// Units of `radius` and meaning of `color` are those of [`picture`].
+/// Units of `radius` and meaning of `color` are as in [`picture`].
 pub(super) fn views(
     snapshot: &Snapshot,
     radius: &[f64],
@@ -35,7 +35,7 @@ pub(super) fn views(
     views
 }
 
-/// The flat view; without colours, spheres have that of grains.
+/// The flat view; without colours, spheres have the colour of grains.
 pub(super) fn flat_view(
     snapshot: &Snapshot,
     radius: &[f64],

@@ -133,8 +133,8 @@ impl Stage {
         self
     }
 
-    /// The stage no taller than `ratio` times its width: within a tank its upper part is not seen,
-    /// without one more is seen beside the spheres.
+    /// The stage no taller than `ratio` times its width: a tank loses its upper part; without a
+    /// tank, more is seen at the sides of the spheres.
     #[must_use]
     pub fn no_taller(mut self, ratio: f64) -> Self {
         let [low, high] = self.seen;
@@ -167,7 +167,7 @@ impl Stage {
         points
     }
 
-    /// Point by point around the rim of the walls at height `z`; none without any.
+    /// Points around the rim of the walls at height `z`; none without walls.
     pub(super) fn rim(&self, z: f64) -> Vec<Vector> {
         const CORNERS: usize = 180;
         let Some(radius) = self.radius else {

@@ -101,7 +101,7 @@ pub fn read_labels(path: &Path) -> Result<LabelTable, StoreError> {
     for (row, line) in rows.iter().zip(2..) {
         if let Some(first) = lines.insert(&row.id, line) {
             let reason = format!(
-                "a second row of run {}, beside line {first}; remove one",
+                "duplicate row of run {}, already on line {first}; remove one",
                 row.id
             );
             return Err(StoreError::text(path, line as u64, reason));
@@ -151,7 +151,7 @@ fn read_header(header: &StringRecord) -> Result<LabelColumns, String> {
             format!("of a {} {columns}", family.name)
         });
         format!(
-            "the header line is not that of a table of labels, which is {}; make the table again \
+            "this is not the header line of a table of labels, which is {}; make the table again \
              with `phase classify`",
             known.join(", or ")
         )

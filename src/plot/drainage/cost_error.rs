@@ -1,4 +1,4 @@
-//! Error against cost: how far the measures of each drainage are from those of the first, over the
+//! Error against cost: how much the measures of each drainage differ from the first one's, over the
 //! processor time that it takes.
 
 use super::overlay::{GUIDES, color};
@@ -142,7 +142,7 @@ struct QuantityErrors {
     floor: f64,
     /// Cost of the reference.
     cost: f64,
-    /// Cost of each run, and its error; none where there is none.
+    /// Cost and error of each run; `None` without an error above zero.
     points: Vec<Option<(f64, Estimate)>>,
 }
 

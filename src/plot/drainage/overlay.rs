@@ -42,7 +42,7 @@ pub(super) fn none(_: &MeasuredDrainage<'_>) -> Vec<Guide> {
 pub(super) struct OverlayPanel {
     /// What stands above it.
     pub(super) head: &'static str,
-    /// Ends of the horizontal axis; those of the lines where there are none.
+    /// Ends of the horizontal axis; `None` for an axis as long as its lines.
     pub(super) x: Option<(f64, f64)>,
     pub(super) y: PanelScale,
 }

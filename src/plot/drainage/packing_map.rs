@@ -55,7 +55,7 @@ struct PackingPicture {
     extent: [f64; 2],
     /// Cells along the width and the height.
     cells: [usize; 2],
-    /// Row by row from below; none where there are no spheres.
+    /// Row by row from below; `None` where there are no spheres.
     values: Vec<Option<f64>>,
 }
 

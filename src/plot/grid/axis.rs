@@ -31,7 +31,7 @@ pub(in crate::plot) struct GridAxis {
 }
 
 impl GridAxis {
-    /// The axis of that index among those of the sweep.
+    /// The axis of this index in the sweep.
     pub(in crate::plot) fn new(index: usize, sweep: &Sweep, table: &LabelTable) -> Self {
         let values = table.rows.iter().map(|row| row.values[index]);
         Self::over(index, &sweep.axes, &sweep.scene, values).with(&sweep.plot)
@@ -192,7 +192,7 @@ impl GridAxis {
         spacing.along(fraction, low, high)
     }
 
-    /// Which of the values is that of a point of the grid.
+    /// Which of the values a point of the grid has.
     pub(in crate::plot) fn position(&self, values: &[f64]) -> Option<usize> {
         let value = values[self.index];
         self.values.iter().position(|&other| other == value)

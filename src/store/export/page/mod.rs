@@ -1,8 +1,8 @@
 //! One page that plays a whole run in a browser: no other file, no network.
 //!
 //! The page (`page.html`) holds the run as JSON and the script (`page.js`) that draws it. Positions
-//! are rounded to a quantum far below what an eye sees, and written as bytes in base64; what the
-//! bytes mean is told in `bytes.rs`.
+//! are rounded to a quantum far below what an eye sees, and written as bytes in base64; `bytes.rs`
+//! says what the bytes mean.
 
 mod bytes;
 
@@ -24,7 +24,7 @@ pub const PAGE_SIGNATURE: &[u8] = b"<!doctype html>\n<!-- phase: a run -->\n";
 /// The quantum is at most this share of the least radius.
 const FINENESS: f64 = 1.0 / 300.0;
 
-/// What the script is told.
+/// What the script reads.
 #[derive(Serialize)]
 struct PageRun {
     title: String,
