@@ -1,45 +1,25 @@
-//! The command line: one file per subcommand.
+//! The command line: what commands share, and `commands`, one file each.
 
-mod ablate;
-mod accuracy;
 mod builds;
-mod check;
-mod classify;
-mod compare;
-mod completions;
+mod commands;
 mod console;
-mod cost;
 mod exit;
-mod export;
-mod fit;
 mod folders;
 mod format;
 mod interrupt;
 mod job;
 mod kind;
-mod man;
-mod neighbours;
-mod new;
 mod overlaps;
-mod plot;
 mod progress;
-mod reference;
 mod refined;
-mod run;
 mod runs;
-mod schema;
-mod stability;
-mod status;
-mod study;
-mod sweep;
 mod time_step;
-mod verify;
-mod view;
+mod values;
 
-use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{Args, CommandFactory, FromArgMatches, Parser};
+use commands::Command;
 use console::Console;
 use exit::Exit;
-use phase::scene::LARGEST_SEED;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
@@ -82,79 +62,12 @@ struct Verbosity {
     verbose: bool,
 }
 
-#[derive(Subcommand)]
-enum Command {
-    Sweep(sweep::Arguments),
-    Classify(classify::Arguments),
-    Plot(plot::Arguments),
-    Run(run::Arguments),
-    Export(export::Arguments),
-    View(view::Arguments),
-    Check(check::Arguments),
-    Cost(cost::Arguments),
-    Neighbours(neighbours::Arguments),
-    Compare(compare::Arguments),
-    Fit(fit::Arguments),
-    Stability(stability::Arguments),
-    Accuracy(accuracy::Arguments),
-    Ablate(ablate::Arguments),
-    Status(status::Arguments),
-    Verify(verify::Arguments),
-    New(new::Arguments),
-    Schema(schema::Arguments),
-    Reference(reference::Arguments),
-    Completions(completions::Arguments),
-    Man(man::Arguments),
-}
-
-impl Command {
-    /// Whether the result is for a program.
-    fn wants_json(&self) -> bool {
-        match self {
-            Self::Sweep(arguments) => arguments.json,
-            Self::Classify(arguments) => arguments.json,
-            Self::Plot(arguments) => arguments.json,
-            Self::Run(arguments) => arguments.json,
-            Self::Export(arguments) => arguments.json,
-            Self::View(arguments) => arguments.json,
-            Self::Check(arguments) => arguments.json,
-            Self::Cost(arguments) => arguments.json,
-            Self::Neighbours(arguments) => arguments.json,
-            Self::Compare(arguments) => arguments.json,
-            Self::Fit(arguments) => arguments.json,
-            Self::Stability(arguments) => arguments.options.json,
-            Self::Accuracy(arguments) => arguments.options.json,
-            Self::Ablate(arguments) => arguments.options.json,
-            Self::Status(arguments) => arguments.json,
-            Self::Verify(arguments) => arguments.json,
-            _ => false,
-        }
-    }
-}
-
 /// Parses the command line. A number may be negative: commands that do not accept one say so.
 fn parse() -> CommandLine {
     let command = CommandLine::command();
     let command = command.mut_subcommands(|command| command.allow_negative_numbers(true));
     let parsed = CommandLine::from_arg_matches(&command.get_matches());
     parsed.unwrap_or_else(|error| error.exit())
-}
-
-/// Parses a seed.
-fn seed(text: &str) -> Result<u64, String> {
-    match text.parse() {
-        Ok(seed) if seed <= LARGEST_SEED => Ok(seed),
-        _ => Err(format!("must be a whole number from 0 to {LARGEST_SEED}")),
-    }
-}
-
-/// Parses two times (s), the earlier first.
-fn times(text: &str) -> Result<[f64; 2], String> {
-    let numbers: Option<Vec<f64>> = text.split(',').map(|it| it.trim().parse().ok()).collect();
-    match numbers.as_deref() {
-        Some(&[from, to]) if 0.0 <= from && from < to && to.is_finite() => Ok([from, to]),
-        _ => Err("give two times in seconds, the earlier first, such as 40,200".to_owned()),
-    }
 }
 
 /// Parses the command line and does what it says.
@@ -171,29 +84,7 @@ pub(crate) fn main() -> ExitCode {
         );
         return Exit::Refused.into();
     }
-    let result = match command {
-        Command::Sweep(arguments) => sweep::main(&arguments, &console),
-        Command::Classify(arguments) => classify::main(&arguments, &console),
-        Command::Plot(arguments) => plot::main(&arguments, &console),
-        Command::Run(arguments) => run::main(&arguments, &console),
-        Command::Export(arguments) => export::main(&arguments, &console),
-        Command::View(arguments) => view::main(&arguments, &console),
-        Command::Check(arguments) => check::main(&arguments, &console),
-        Command::Cost(arguments) => cost::main(&arguments, &console),
-        Command::Neighbours(arguments) => neighbours::main(&arguments, &console),
-        Command::Compare(arguments) => compare::main(&arguments, &console),
-        Command::Fit(arguments) => fit::main(&arguments, &console),
-        Command::Stability(arguments) => stability::main(&arguments, &console),
-        Command::Accuracy(arguments) => accuracy::main(&arguments, &console),
-        Command::Ablate(arguments) => ablate::main(&arguments, &console),
-        Command::Status(arguments) => status::main(&arguments, &console),
-        Command::Verify(arguments) => verify::main(&arguments, &console),
-        Command::New(arguments) => new::main(&arguments, &console),
-        Command::Schema(arguments) => schema::main(&arguments, &console),
-        Command::Reference(arguments) => reference::main(&arguments, &console),
-        Command::Completions(arguments) => completions::main(&arguments, &console),
-        Command::Man(arguments) => man::main(&arguments, &console),
-    };
+    let result = command.execute(&console);
     match result.and_then(|exit| console.check_output().map(|()| exit)) {
         Ok(exit) => exit.into(),
         Err(failure) => {

@@ -1,7 +1,7 @@
 //! What each way to find neighbours costs (Remmers, 2009, assignments 7 and 8).
 
 use crate::cpu_time;
-use crate::dem::{BuildError, Simulation};
+use crate::dem::{DemBuildError, DemSimulation};
 use crate::document::Problem;
 use crate::record::Instability;
 use crate::scene::{DemScene, Neighbours, Radii, Scene, Start, StartSphere};
@@ -28,7 +28,7 @@ pub enum StudyError {
     },
     /// The scene cannot be built.
     #[error(transparent)]
-    Build(#[from] BuildError),
+    Build(#[from] DemBuildError),
     /// A guard ended the run on the way to the state to measure in.
     #[error("the scene is unstable: {0}")]
     Unstable(#[from] Instability),
@@ -79,7 +79,7 @@ impl Moment {
         if let Some(problem) = scene.problems().into_iter().next() {
             return Err(StudyError::Problem { count, problem });
         }
-        let mut simulation = Simulation::new(&scene)?;
+        let mut simulation = DemSimulation::new(&scene)?;
         let steps = |time: f64| ((time / scene.time.dt).round() as u64).max(1);
         while simulation.particles().len() - simulation.particles().fixed < count {
             if simulation.time() > scene.time.duration {
@@ -132,7 +132,7 @@ impl Moment {
     pub fn measure(&self, searches: &[Neighbours]) -> Result<(Vec<Cost>, bool), StudyError> {
         let mut runs = Vec::new();
         for &neighbours in searches {
-            let mut simulation = Simulation::new(&Scene {
+            let mut simulation = DemSimulation::new(&Scene {
                 dem: DemScene {
                     neighbours,
                     ..self.scene.dem.clone()
@@ -167,7 +167,7 @@ impl Moment {
 
 /// A simulation whose steps are timed.
 struct Run {
-    simulation: Simulation,
+    simulation: DemSimulation,
     /// Steps of one measurement.
     steps: u64,
     /// Times of a step (s).
@@ -202,7 +202,7 @@ impl Run {
     }
 }
 
-fn bits(simulation: &Simulation) -> Vec<u64> {
+fn bits(simulation: &DemSimulation) -> Vec<u64> {
     let particles = simulation.particles();
     let vectors = particles.position.iter().chain(&particles.velocity);
     vectors

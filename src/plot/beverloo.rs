@@ -95,7 +95,7 @@ impl VariedOutlet {
 
 /// The law fitted to the runs of one line of the figure.
 #[derive(Clone, Debug)]
-pub struct FittedLine {
+pub struct FittedLaw {
     /// Values on the axes besides the opening, such as `μ = 0.2`; empty without such axes.
     pub name: String,
     /// The bed of these runs at rest, mean over all.
@@ -161,7 +161,7 @@ fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
 ///
 /// # Errors
 /// Those of drawing the figure.
-pub fn fitted_lines(source: &Source<'_>) -> Result<Vec<FittedLine>, PlotError> {
+pub fn fitted_lines(source: &Source<'_>) -> Result<Vec<FittedLaw>, PlotError> {
     let (outlet, axis) = VariedOutlet::of(source)?;
     let (lines, _) = series::lines(source, &axis)?;
     lines
@@ -194,7 +194,7 @@ fn fitted(
     source: &Source<'_>,
     outlet: &VariedOutlet,
     line: &PointSeries,
-) -> Result<FittedLine, PlotError> {
+) -> Result<FittedLaw, PlotError> {
     let name = super::text::plain(&line.name);
     let fail = |reason: String| {
         let line = if name.is_empty() { "the fit" } else { &name };
@@ -212,7 +212,7 @@ fn fitted(
     });
     let measured: Vec<Discharge> = measured.collect();
     let fit = beverloo::fit(&measured, &bed).map_err(|error| fail(error.to_string()))?;
-    Ok(FittedLine {
+    Ok(FittedLaw {
         without_rate: runs(source, line).count() - measured.len(),
         name,
         bed,
@@ -238,7 +238,7 @@ fn bed(source: &Source<'_>, outlet: &VariedOutlet, line: &PointSeries) -> Option
 }
 
 /// The fitted law up to `end` of the axis; `width`: width of an opening over its value there.
-fn curve(fitted: &FittedLine, line: &PointSeries, width: f64, end: f64) -> ChartLine {
+fn curve(fitted: &FittedLaw, line: &PointSeries, width: f64, end: f64) -> ChartLine {
     let constants = [fitted.fit.c.value, fitted.fit.k.value];
     // From the width at which the rate is zero, as the axis shows it.
     let from = fitted.bed.diameter * constants[1].max(0.0) / width;
@@ -285,7 +285,7 @@ fn entry(name: &str, fit: &Fit) -> String {
     }
 }
 
-fn notes(lines: &[FittedLine], outlet: &VariedOutlet, units: Units) -> Vec<String> {
+fn notes(lines: &[FittedLaw], outlet: &VariedOutlet, units: Units) -> Vec<String> {
     let fitted: usize = lines.iter().map(|line| line.fit.discharges).sum();
     let without: usize = lines.iter().map(|line| line.without_rate).sum();
     let left_out = match without {

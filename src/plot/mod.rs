@@ -53,7 +53,7 @@ mod tracks;
 pub mod verification;
 mod words;
 
-pub use beverloo::{FittedLine, fitted_lines};
+pub use beverloo::{FittedLaw, fitted_lines};
 pub use error::{PlotError, PlotErrorKind};
 pub use figure::{Figure, figures};
 pub use records::{RecordSet, captions, differences};

@@ -3,7 +3,7 @@
 use crate::made_up::{self, axis, source};
 use crate::support::texts;
 use phase::classify::{DRAINAGE, Label, LabelTable, Verdict};
-use phase::plot::{self, FittedLine, Source, fitted_lines};
+use phase::plot::{self, FittedLaw, Source, fitted_lines};
 use phase::record::Program;
 use phase::scene::Scene;
 use phase::sweep::Sweep;
@@ -44,7 +44,7 @@ fn with<T>(sweep: &Sweep, table: &LabelTable, action: impl Fn(&Source<'_>) -> T)
 }
 
 /// The only line that is fitted, and the text of the figure.
-fn fitted((sweep, table): &(Sweep, LabelTable)) -> (FittedLine, String) {
+fn fitted((sweep, table): &(Sweep, LabelTable)) -> (FittedLaw, String) {
     with(sweep, table, |source| {
         let mut lines = fitted_lines(source).unwrap();
         let svg = plot::draw("beverloo", source).unwrap();

@@ -1,7 +1,7 @@
 //! Maps of the local packing fraction (Rycroft, Wong and Bazant, 2010, figure 4).
 
 use super::{MeasuredDrainage, each, of_drainages};
-use crate::measure::{CellGrid, Centres, Walls, local_packing_fraction, voronoi_cells};
+use crate::measure::{CellBounds, CellGrid, Centres, local_packing_fraction, voronoi_cells};
 use crate::observe::Snapshot;
 use crate::particles::vector::Vector;
 use crate::plot::canvas::SNAP;
@@ -76,7 +76,7 @@ impl PackingPicture {
             drainage.filled_box.half_depth,
             drainage.filled_box.floor,
         ];
-        let walls = Walls {
+        let walls = CellBounds {
             low: [-width, -depth, floor],
             high: [width, depth, floor + drainage.filled_box.filled + diameter],
             farthest: FARTHEST * diameter,

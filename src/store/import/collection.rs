@@ -3,7 +3,7 @@
 use super::line_at;
 use super::vtk;
 use crate::document::{advice, text};
-use crate::replay::{Moment, WrittenState};
+use crate::replay::{StateTime, WrittenState};
 use crate::store::StoreError;
 use roxmltree::{Document, Node};
 use std::fs;
@@ -67,7 +67,7 @@ pub(super) fn states(path: &Path) -> Result<Vec<WrittenState>, StoreError> {
         })?;
         let spheres = vtk::read(&named, &bytes)?;
         Ok(WrittenState {
-            moment: Moment::Time(file.time),
+            moment: StateTime::Time(file.time),
             are_numbered: spheres.are_numbered,
             spheres: spheres.all,
         })
@@ -95,7 +95,7 @@ fn named_file<'a>(data_set: Node<'a, '_>, line: u64) -> Result<NamedFile<'a>, St
 
 #[cfg(test)]
 mod tests {
-    use crate::replay::{Moment, WrittenState};
+    use crate::replay::{StateTime, WrittenState};
     use crate::store::read_states;
     use std::fs;
 
@@ -142,7 +142,7 @@ mod tests {
     fn collections_give_the_states_by_time() {
         let states = pvd(THREE).unwrap();
         let state = |time: f64, x: &[f64]| WrittenState {
-            moment: Moment::Time(time),
+            moment: StateTime::Time(time),
             are_numbered: x.is_empty(),
             spheres: x.iter().map(|x| (0, [*x, 0.0, 0.0])).collect(),
         };

@@ -1,0 +1,138 @@
+//! The labels and measures of two sweeps beside each other.
+
+use super::{Answer, Arguments, Entry, in_columns, table, written};
+use crate::cli::console::Console;
+use crate::cli::exit::{Exit, Failure};
+use phase::classify::{Agreement, MeasureDifference};
+use phase::compare::ComparisonRow;
+use phase::statistics::Estimate;
+use phase::store;
+use phase::sweep::Folder;
+
+pub(super) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
+    let [one, other] = &arguments.paths[..] else {
+        return Err(Failure::refused(
+            "folders of sweeps are compared two by two: give two of them, and nothing else",
+        ));
+    };
+    let unused = [
+        (arguments.times.is_some(), "--times"),
+        (arguments.scene.is_some(), "--scene"),
+    ];
+    if let Some((_, option)) = unused.iter().find(|(given, _)| *given) {
+        return Err(Failure::refused(format_args!(
+            "{option} is for records: of folders the labels are compared"
+        )));
+    }
+    let read = |path: &std::path::PathBuf| {
+        let labels = Folder::new(path).labels();
+        store::read_labels(&labels).map_err(Failure::refused)
+    };
+    let agreement = Agreement::of(&read(one)?, &read(other)?).map_err(|differ| {
+        Failure::refused(format_args!(
+            "{} and {} cannot be compared: {differ}",
+            one.display(),
+            other.display()
+        ))
+    })?;
+    let names = [one, other].map(|path| path.display().to_string());
+    for (letter, name) in ["A", "B"].iter().zip(&names) {
+        console.result(format_args!("{letter}  {name}"));
+    }
+    console.result(sentence(&agreement));
+    let head = ["", "A", "B", "B - A"].map(str::to_owned);
+    let lines = agreement.measures.iter().map(line);
+    let lines: Vec<[String; 4]> = std::iter::once(head).chain(lines).collect();
+    for line in in_columns(&lines) {
+        console.result(line);
+    }
+    let rows = rows(&agreement);
+    if let Some(path) = &arguments.out {
+        table::write(path, &rows, &names)?;
+        console.file(path);
+    }
+    console.answer(&Answer {
+        records: names.to_vec(),
+        rows: rows
+            .iter()
+            .map(|row| Entry::of_pairs(row, &agreement))
+            .collect(),
+        files: console.files(),
+    });
+    Ok(Exit::Done)
+}
+
+fn sentence(agreement: &Agreement) -> String {
+    let (share, [low, high]) = agreement.share();
+    let what = match agreement.by_runs {
+        true => "runs of one point and seed",
+        false => "points, by the label of most seeds",
+    };
+    let percent = |share: f64| format!("{:.1}", 100.0 * share);
+    let alone = match agreement.alone {
+        [0, 0] => String::new(),
+        [one, other] => format!("; {one} are in A alone, {other} in B"),
+    };
+    format!(
+        "{} of {} {what} have one label: {} % (95 %: {} to {} %){alone}",
+        agreement.equal,
+        agreement.pairs,
+        percent(share),
+        percent(low),
+        percent(high),
+    )
+}
+
+fn line(measure: &MeasureDifference) -> [String; 4] {
+    let unit = match measure.unit {
+        "" => String::new(),
+        unit => format!(" ({unit})"),
+    };
+    let mean = |value: f64| {
+        written(Estimate {
+            value,
+            half_width: f64::INFINITY,
+        })
+    };
+    [
+        format!("{}{unit}", measure.name),
+        mean(measure.means[0]),
+        mean(measure.means[1]),
+        written(measure.difference),
+    ]
+}
+
+/// The share of equal labels, and the measures.
+fn rows(agreement: &Agreement) -> Vec<ComparisonRow> {
+    let exact = |value: f64| {
+        Some(Estimate {
+            value,
+            half_width: f64::INFINITY,
+        })
+    };
+    let (share, _) = agreement.share();
+    let labels = ComparisonRow {
+        name: "share of equal labels".to_owned(),
+        unit: String::new(),
+        values: vec![exact(1.0), exact(share)],
+    };
+    let measure = |it: &MeasureDifference| ComparisonRow {
+        name: it.name.to_owned(),
+        unit: it.unit.to_owned(),
+        values: it.means.map(exact).to_vec(),
+    };
+    let measures = agreement.measures.iter().map(measure);
+    std::iter::once(labels).chain(measures).collect()
+}
+
+impl Entry {
+    /// The same with the interval of paired differences.
+    fn of_pairs(row: &ComparisonRow, agreement: &Agreement) -> Self {
+        let own = agreement.measures.iter().find(|it| it.name == row.name);
+        let half_width = own.map(|it| it.difference.half_width);
+        Self {
+            difference_half_width: half_width.filter(|it| it.is_finite()),
+            ..Self::new(row, false)
+        }
+    }
+}

@@ -1,0 +1,366 @@
+//! `phase export`: writes the spheres of records for other programs, browsers among them.
+
+use super::plot::ANOTHER_FOLDER;
+use crate::cli::console::Console;
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::values;
+use crate::cli::{folders, format};
+use phase::observe::Snapshot;
+use phase::record::{RunRecord, States};
+use phase::store::{self, DumpName, StoreError};
+use serde::Serialize;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+/// Write the spheres of records for other programs.
+///
+/// Takes every frame of the trajectory if the record has one, else its snapshots, and says which.
+/// `phase run --trajectory` makes a record with every frame.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Formats:
+  xyz   NAME.xyz, extended XYZ for OVITO and ASE: radius, mass, velocity (velo), spin (omega)
+  vtk   NAME.pvd and NAME/frame_*.vtp for ParaView: points with radius, mass, velocity, spin
+  npy   NAME/*.npy for NumPy: time, position, velocity, spin, radius, mass
+  csv   NAME.csv, one row per state and sphere; NAME-observations.csv, one row per frame
+  svg   NAME/frame_*.svg, a picture per state for browsers and documents: walls red, door green,
+        grains blue, to scale; of a tank the view from the side
+  page  NAME.html, one page that plays the run in a browser, without any other file
+  dump  dump_r..._p..._f....npy, the thesis's own: frames x spheres x 4 of x, y, z (m) and
+        energy (J); the name says radius, density and Omega, and the seed unless it is 1
+
+Where spheres come and go, xyz, vtk and csv hold those that are in, by their id, and npy says NaN of
+those that are not. Fixed spheres go to NAME-fixed.xyz, NAME-fixed.csv, walls.npy and door.npy, and
+to further parts of a ParaView series.
+
+Example: one frame in ten for ParaView
+  phase export spout.h5 --to vtk --every 10
+
+Example: a silo as pictures for every second, and as a page that plays it
+  phase export silo.h5 --to svg
+  phase run sweeps/scenes/silo.toml --snapshot-interval 0.1 --out silo.h5
+  phase export silo.h5 --to page
+
+Example: dumps of a whole sweep that was run with output.trajectory
+  phase export results/tank/records/*.h5 --to dump --out dumps")]
+pub(crate) struct Arguments {
+    /// The records (HDF5).
+    #[arg(required = true, value_name = "RECORD")]
+    records: Vec<PathBuf>,
+    /// The format to write.
+    #[arg(long, value_name = "FORMAT")]
+    to: Format,
+    /// The folder to write into, made if it is not there; or, of a single record, the .xyz, .pvd,
+    /// .csv, .html or .npy file [default: beside the record].
+    #[arg(short, long, value_name = "PATH")]
+    out: Option<PathBuf>,
+    /// Write one state in N, from the first on.
+    #[arg(long, value_name = "N", value_parser = values::at_least_one)]
+    every: Option<usize>,
+    /// Print the files written as one JSON object (docs/json.md) instead of text.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+/// A format to write.
+#[derive(Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+enum Format {
+    /// Extended XYZ.
+    Xyz,
+    /// VTP files and a PVD series.
+    Vtk,
+    /// NumPy arrays.
+    Npy,
+    /// Tables of spheres and of observables.
+    Csv,
+    /// Pictures, one per state.
+    Svg,
+    /// A page that plays the run.
+    Page,
+    /// The thesis's own dump.
+    Dump,
+}
+
+impl Format {
+    /// What the file that stands for the whole is, and what it begins with, if that is always so.
+    fn signature(self) -> (&'static str, &'static [u8]) {
+        match self {
+            Self::Xyz | Self::Npy | Self::Svg => ("", b""),
+            Self::Page => ("a page of a run", store::PAGE_SIGNATURE),
+            Self::Vtk => (
+                "a ParaView series of this command",
+                store::VTK_SIGNATURE.as_bytes(),
+            ),
+            Self::Csv => ("a table of spheres", store::SPHERES_SIGNATURE),
+            Self::Dump => ("a dump", b"\x93NUMPY"),
+        }
+    }
+
+    /// Refuses to replace what is no export of this format.
+    fn check(self, target: &Path) -> Result<(), Failure> {
+        let (kind, signature) = self.signature();
+        if target.exists() && !signature.is_empty() {
+            folders::refuse_to_replace(target, kind, signature)?;
+        }
+        let names = ["observations", "fixed"];
+        let files = match self {
+            Self::Xyz => vec![target.to_owned(), self.beside(target, "fixed")],
+            Self::Csv => names.map(|name| self.beside(target, name)).to_vec(),
+            _ => Vec::new(),
+        };
+        folders::refuse_foreign(Path::new(""), files, ANOTHER_FOLDER)?;
+        match self {
+            Self::Npy => refuse_foreign_arrays(target),
+            _ => Ok(()),
+        }
+    }
+
+    /// A file beside that of the states, with this at the end of its name.
+    fn beside(self, target: &Path, name: &str) -> PathBuf {
+        let mut stem = target.file_stem().unwrap_or_default().to_owned();
+        stem.push(format!("-{name}.{}", self.extension()));
+        target.with_file_name(stem)
+    }
+
+    /// Extension of the file that stands for the whole.
+    fn extension(self) -> &'static str {
+        match self {
+            Self::Xyz => "xyz",
+            Self::Vtk => "pvd",
+            Self::Csv => "csv",
+            Self::Page => "html",
+            Self::Npy | Self::Svg => "",
+            Self::Dump => "npy",
+        }
+    }
+}
+
+/// Refuses to replace arrays in a folder that holds some of the arrays of a run and not all: an
+/// array does not say what wrote it.
+fn refuse_foreign_arrays(folder: &Path) -> Result<(), Failure> {
+    let is_there = |name: &&str| folder.join(name).exists();
+    match store::ARRAYS.into_iter().find(is_there) {
+        Some(name) if !store::ARRAYS.iter().all(is_there) => Err(Failure::refused(format_args!(
+            "{}: this array is not of an export, which would replace it; {ANOTHER_FOLDER}, or \
+                 move it away",
+            folder.join(name).display()
+        ))),
+        _ => Ok(()),
+    }
+}
+
+pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
+    if arguments.to == Format::Dump && arguments.every.is_some() {
+        return Err(Failure::refused(
+            "a dump holds every frame, as the sieves need them: leave out --every",
+        ));
+    }
+    let mut failed = Vec::new();
+    for (path, target) in arguments.records.iter().zip(targets(arguments)?) {
+        let exported = target.and_then(|target| export(path, &target, arguments, console));
+        match exported {
+            Ok(()) => {}
+            // One record that cannot be exported does not stop the others.
+            Err(failure) if arguments.records.len() > 1 => {
+                console.error(&failure.message);
+                failed.push(FailedRecord {
+                    record: path.display().to_string(),
+                    reason: failure.message,
+                });
+            }
+            Err(failure) => return Err(failure),
+        }
+    }
+    let exit = match failed.is_empty() {
+        true => Exit::Done,
+        false => Exit::Failed,
+    };
+    console.answer(&Answer {
+        failed,
+        files: console.files(),
+    });
+    Ok(exit)
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Answer {
+    /// Of several records those that could not be exported.
+    failed: Vec<FailedRecord>,
+    /// The files written.
+    files: Vec<String>,
+}
+
+/// A record that could not be exported, and why.
+#[derive(Serialize)]
+struct FailedRecord {
+    record: String,
+    reason: String,
+}
+
+/// Where each record goes, or why it goes nowhere. Refuses records that would go to one place.
+fn targets(arguments: &Arguments) -> Result<Vec<Result<PathBuf, Failure>>, Failure> {
+    let extension = arguments.to.extension();
+    if let Some(out) = arguments.out.as_ref().filter(|out| !out.is_dir())
+        && out.extension().is_some_and(|it| it != extension)
+    {
+        return Err(Failure::refused(format_args!(
+            "{}: give a folder, or of a single record a file that ends in .{extension}",
+            out.display()
+        )));
+    }
+    let mut written: HashMap<PathBuf, &Path> = HashMap::new();
+    let mut targets = Vec::new();
+    for path in &arguments.records {
+        let target = target(arguments, path).map_err(Failure::refused);
+        if let Ok(target) = &target
+            && let Some(other) = written.insert(target.clone(), path)
+        {
+            return Err(Failure::refused(format_args!(
+                "{} and {} would both be written to {}; export them one by one, each to its own \
+                 --out",
+                other.display(),
+                path.display(),
+                target.display()
+            )));
+        }
+        targets.push(target.and_then(|target| arguments.to.check(&target).map(|()| target)));
+    }
+    Ok(targets)
+}
+
+/// Where an export goes: the file that stands for it, or the folder of its arrays.
+fn target(arguments: &Arguments, record_path: &Path) -> Result<PathBuf, StoreError> {
+    // Whether it is a record at all shows before anything is written.
+    store::read_record_header(record_path)?;
+    let extension = arguments.to.extension();
+    let beside = record_path.parent().unwrap_or(Path::new(""));
+    let folder = match &arguments.out {
+        Some(out)
+            if arguments.records.len() == 1
+                && !extension.is_empty()
+                && out.extension().is_some_and(|it| it == extension) =>
+        {
+            return Ok(out.clone());
+        }
+        Some(folder) => folder.as_path(),
+        None => beside,
+    };
+    let stem = record_path.file_stem().unwrap_or("record".as_ref());
+    Ok(match arguments.to {
+        // The name of a dump says what the record holds.
+        Format::Dump => {
+            let record = store::read_record(record_path)?;
+            folder.join(DumpName::of_record(&record).to_string())
+        }
+        Format::Npy | Format::Svg => folder.join(stem),
+        _ => folder.join(stem).with_added_extension(extension),
+    })
+}
+
+fn export(
+    path: &Path,
+    target: &Path,
+    arguments: &Arguments,
+    console: &Console,
+) -> Result<(), Failure> {
+    let record = &store::read_record(path).map_err(Failure::failed)?;
+    let states = record.states();
+    let every = arguments.every.unwrap_or(1);
+    let all = match arguments.to {
+        // Pictures have no place for numbers that mean nothing.
+        Format::Svg | Format::Page => record.sound_states(),
+        _ => states.all(),
+    };
+    let chosen: Vec<&Snapshot> = all.iter().step_by(every).collect();
+    if chosen.is_empty() {
+        return Err(Failure::failed(format_args!(
+            "{}: the record holds no states of the spheres; run it again with --snapshot-interval",
+            path.display()
+        )));
+    }
+    console.note(format_args!(
+        "{}: {states}: {}",
+        path.display(),
+        format::count(chosen.len(), "state")
+    ));
+    if arguments.to == Format::Dump && record.scene.has_flow() {
+        return Err(Failure::refused(format_args!(
+            "{}: spheres come and go in this run, for which the thesis's dump has no place; npy \
+             holds the same numbers",
+            path.display()
+        )));
+    }
+    if arguments.to == Format::Dump && matches!(states, States::Snapshots(_)) {
+        console.note(
+            "a dump of snapshots cannot be classified, which takes every frame: run it again with \
+             `phase run --trajectory`",
+        );
+    }
+    if arguments.to == Format::Dump && record.radius.iter().any(|it| *it != record.radius[0]) {
+        console.note(
+            "the name of a dump says one radius, here the mean: `phase classify --scene` needs a \
+             scene that lists the radius of each sphere",
+        );
+    }
+    folders::make_for(target)?;
+    for path in write(record, &chosen, target, arguments.to)? {
+        console.file(&path);
+    }
+    Ok(())
+}
+
+/// Writes states of a record; returns the files, or the folder of many, that stand for them.
+fn write(
+    record: &RunRecord,
+    states: &[&Snapshot],
+    target: &Path,
+    format: Format,
+) -> Result<Vec<PathBuf>, Failure> {
+    match format {
+        Format::Xyz => store::write_xyz(record, states, target),
+        Format::Vtk => {
+            let names = store::vtk_names(states.len());
+            folders::refuse_foreign(&target.with_extension(""), names, ANOTHER_FOLDER)?;
+            store::write_vtk(record, states, target)
+        }
+        Format::Npy => store::write_arrays(record, states, target),
+        Format::Csv => store::write_spheres(record, states, target),
+        Format::Svg => {
+            folders::refuse_other_frames(target, states.len(), "svg")?;
+            store::write_svg(record, states, target)
+        }
+        Format::Page => store::write_page(record, states, target),
+        Format::Dump => store::write_dump(record, states, target),
+    }
+    .map_err(Failure::failed)?;
+    let mut written = vec![target.to_owned()];
+    for (name, write) in more(record, format) {
+        let path = format.beside(target, name);
+        write(record, &path).map_err(Failure::failed)?;
+        written.push(path);
+    }
+    Ok(written)
+}
+
+/// Writes a file about a record.
+type Write = fn(&RunRecord, &Path) -> Result<(), StoreError>;
+
+/// What goes to files beside that of the states: what their names say, and what writes them.
+fn more(record: &RunRecord, format: Format) -> Vec<(&'static str, Write)> {
+    let fixed: Option<Write> = match format {
+        Format::Xyz => Some(store::write_fixed_xyz),
+        Format::Csv => Some(store::write_fixed),
+        _ => None,
+    };
+    let observations: Option<Write> = match format {
+        Format::Csv => Some(store::write_observations),
+        _ => None,
+    };
+    let fixed = fixed.filter(|_| record.scene.dem.geometry.is_some());
+    let named = [("observations", observations), ("fixed", fixed)];
+    let present = named.into_iter();
+    present
+        .filter_map(|(name, write)| Some((name, write?)))
+        .collect()
+}

@@ -1,0 +1,237 @@
+//! `phase status`: how far the sweep of a results folder is.
+
+use crate::cli::console::Console;
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::folders::{self, Entry};
+use crate::cli::job::{self, NamedJob};
+use crate::cli::values;
+use crate::cli::{format, refined};
+use phase::refine::Finish;
+use phase::sweep::{Axis, Folder, Plan, Refining, Status, Sweep, UnderWay, describe, work};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+/// Say how far a sweep is: jobs done, failed and left, how far runs with a checkpoint are, and the
+/// time left.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example: all sweeps in ./results
+  phase status results")]
+pub(crate) struct Arguments {
+    /// A results folder of `phase sweep`, or a folder that holds several.
+    dir: PathBuf,
+    /// Simulations at the same time, to tell the time left [default: all cores].
+    #[arg(short, long, value_name = "N", value_parser = values::at_least_one)]
+    jobs: Option<usize>,
+    /// Print the result as one JSON object (docs/json.md) instead of text.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
+    let workers = arguments.jobs.unwrap_or_else(work::default_workers);
+    let found = Folder::find(&arguments.dir).map_err(Failure::refused)?;
+    let folders = folders::go_through(&arguments.dir, found, console, |folder| {
+        Ok(FolderAnswer::of(folder, workers, console)?)
+    })?;
+    let exit = Entry::exit(&folders, |_| true);
+    console.answer(&Answer { folders });
+    Ok(exit)
+}
+
+impl FolderAnswer {
+    /// That of a folder; prints it for people.
+    fn of(folder: &Folder, workers: usize, console: &Console) -> Result<Self, Failure> {
+        let sweep = folder.read_sweep().map_err(Failure::failed)?;
+        let refining = folder.read_refining(&sweep).map_err(Failure::failed)?;
+        let jobs = sweep
+            .jobs_so_far(refining.as_ref())
+            .map_err(Failure::failed)?;
+        let plan = Plan::new(folder, jobs, work::default_workers()).map_err(Failure::failed)?;
+        let status = Status::of(folder, &plan).map_err(Failure::failed)?;
+        console.result(format_args!(
+            "{}: {}",
+            folder.root().display(),
+            text(&status, &sweep.axes, workers)
+        ));
+        for line in describe_refined(&sweep, refining.as_ref(), &status, workers) {
+            console.result(line);
+        }
+        Ok(Self {
+            folder: folder.root().display().to_string(),
+            jobs: status.jobs,
+            done: status.done,
+            unstable: status.unstable,
+            failed: NamedJob::all(&sweep.axes, &status.failures),
+            to_redo: status.bad,
+            left: status.left,
+            under_way: UnderWayAnswer::all(&status.under_way, &sweep.axes),
+            workers: workers.min(status.left.max(1)),
+            seconds_left: seconds_left(&status, workers),
+            running: status.running,
+            refined: refined::Answer::new(
+                &sweep,
+                refining.as_ref(),
+                status.done + status.failures.len(),
+            ),
+        })
+    }
+}
+
+/// How far a refined sweep is, and how well its borders are known.
+fn describe_refined(
+    sweep: &Sweep,
+    refining: Option<&Refining>,
+    status: &Status,
+    workers: usize,
+) -> Vec<String> {
+    let (Some(settings), Some(refining)) = (&sweep.refine, refining) else {
+        return Vec::new();
+    };
+    let runs = status.done + status.failures.len();
+    let budget = settings.budget;
+    let mut lines = vec![format!(
+        "  refined    {} of at most {budget}, {}",
+        format::count(runs, "run"),
+        format::count(refining.widths.len(), "border")
+    )];
+    // A larger budget may stand in the file by now, but has not been spent.
+    let end = refining
+        .end
+        .filter(|end| *end != Finish::Budget || runs >= budget);
+    lines.extend(end.map(|end| format!("  ended      {}", refined::describe_end(settings, end))));
+    let more = match end {
+        Some(_) => 0,
+        None => budget.saturating_sub(runs),
+    };
+    if let Some(seconds) = status.cpu_seconds_per_job.filter(|_| more > 0) {
+        let workers = workers.min(more);
+        lines.push(format!(
+            "  budget     about {} with {}, if all of it is spent",
+            format::duration(seconds * more as f64 / workers as f64),
+            format::count(workers, "worker")
+        ));
+    }
+    let borders = refined::describe_borders(sweep, refining).into_iter();
+    lines.extend(borders.map(|border| format!("  border     {border}")));
+    lines
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Answer {
+    folders: Vec<Entry<FolderAnswer>>,
+}
+
+/// How far the sweep of one folder is.
+#[derive(Serialize)]
+struct FolderAnswer {
+    folder: String,
+    jobs: usize,
+    done: usize,
+    unstable: usize,
+    failed: Vec<NamedJob>,
+    to_redo: usize,
+    left: usize,
+    under_way: Vec<UnderWayAnswer>,
+    workers: usize,
+    seconds_left: Option<f64>,
+    running: bool,
+    /// How well borders are known; none if the whole grid is run.
+    refined: Option<refined::Answer>,
+}
+
+/// A run that goes on from its checkpoint.
+#[derive(Serialize)]
+struct UnderWayAnswer {
+    id: String,
+    point: BTreeMap<String, f64>,
+    seed: u64,
+    frame: u64,
+    frames: u64,
+}
+
+impl UnderWayAnswer {
+    fn all(runs: &[UnderWay], axes: &[Axis]) -> Vec<Self> {
+        let answer = |run: &UnderWay| Self {
+            id: run.id.clone(),
+            point: job::point(axes, &run.values),
+            seed: run.seed,
+            frame: run.frame,
+            frames: run.frames,
+        };
+        runs.iter().map(answer).collect()
+    }
+}
+
+/// Time for the jobs left with that many workers (s), if any job is done to judge by.
+fn seconds_left(status: &Status, workers: usize) -> Option<f64> {
+    // More workers than jobs are of no use.
+    let workers = workers.min(status.left.max(1));
+    status
+        .cpu_seconds_left
+        .map(|seconds| seconds / workers as f64)
+}
+
+fn text(status: &Status, axes: &[Axis], workers: usize) -> String {
+    let Status {
+        jobs,
+        done,
+        unstable,
+        failures,
+        bad,
+        left,
+        under_way,
+        running,
+        ..
+    } = status;
+    let mut text = format!(
+        "{}, {done} done, {} failed, {left} left",
+        format::count(*jobs, "job"),
+        failures.len()
+    );
+    if *unstable > 0 {
+        text += &format!("\n  unstable   {unstable} of those done");
+    }
+    if *bad > 0 {
+        text += &format!(
+            "\n  to redo    {}, damaged or of other settings",
+            format::count(*bad, "record")
+        );
+    }
+    if *left > 0 {
+        let time = match seconds_left(status, workers) {
+            Some(seconds) => format!(
+                "about {} with {}",
+                format::duration(seconds),
+                format::count(workers.min(*left), "worker")
+            ),
+            None => "not known before a job is done; `phase check` forecasts it".to_owned(),
+        };
+        text += &format!("\n  time left  {time}");
+    }
+    text += if *running {
+        "\n  running    yes"
+    } else {
+        "\n  running    no"
+    };
+    for run in under_way {
+        text += &format!(
+            "\n  under way  {} (job {}): checkpoint at frame {} of {}, {}",
+            describe(axes, &run.values, run.seed),
+            run.id,
+            run.frame,
+            run.frames,
+            format::percent(run.frame as usize, run.frames as usize)
+        );
+    }
+    for failure in failures {
+        let name = describe(axes, &failure.values, failure.seed);
+        text += &format!(
+            "\n  failed     {name} (job {}): {}",
+            failure.id, failure.reason
+        );
+    }
+    text
+}

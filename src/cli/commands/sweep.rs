@@ -1,0 +1,423 @@
+//! `phase sweep`: runs the jobs of a sweep, labels them, draws the figures.
+
+mod refining;
+mod rounds;
+
+use super::{classify, plot};
+use crate::cli::console::Console;
+use crate::cli::exit::{Exit, Failure};
+use crate::cli::job::NamedJob;
+use crate::cli::values;
+use crate::cli::{folders, format, interrupt, overlaps, refined, time_step};
+use phase::classify::Family;
+use phase::resume::DEFAULT_INTERVAL;
+use phase::store;
+use phase::sweep::{
+    Access, Folder, FolderError, Job, Plan, Sweep, differing_keys, refuse_to_lose_labels, work,
+};
+use rounds::{Rounds, Run};
+use serde::Serialize;
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+/// Run the simulations of a sweep, label them, draw the phase diagram.
+///
+/// Jobs whose record is already in the results folder are not run again: a sweep that was stopped
+/// goes on where it was, and long runs that were under way from their latest checkpoint.
+#[derive(clap::Args)]
+#[command(after_help = "\
+Example: the 9 x 9 grid on four cores, results in ./results/quick
+  phase sweep sweeps/quick.toml -j 4
+
+The results folder holds sweep.json (the sweep as run), records/ (one HDF5 file per run),
+labels.csv (one row per run), points.csv (one row per point of the grid), the figures as SVG
+and PNG, and, if any job failed, failed.csv. That of a refined sweep holds refined.csv (the
+probability of each label at each point) and borders.csv (the borders with their bands) too.")]
+pub(crate) struct Arguments {
+    /// The sweep file (TOML).
+    file: PathBuf,
+    /// The results folder [default: results/NAME, the sweep file's name without .toml].
+    #[arg(short, long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Simulations at the same time [default: all cores].
+    #[arg(short, long, value_name = "N", value_parser = values::at_least_one)]
+    jobs: Option<usize>,
+    /// Run every job again, whatever the results folder holds.
+    #[arg(short, long)]
+    force: bool,
+    /// Seeds in place of the file's; may be given several times.
+    #[arg(short, long, value_name = "SEED", value_delimiter = ',', value_parser = values::seed)]
+    seed: Vec<u64>,
+    /// Run a coarse grid, then only what the labels need (docs/refine.md). The file's table
+    /// [refine] says how; without one a tenth of the grid's jobs is run at most.
+    #[arg(long)]
+    refine: bool,
+    /// Time between two checkpoints of a run (s), from which it goes on when the sweep is run again
+    /// [default: 120].
+    #[arg(long, value_name = "SECONDS", value_parser = values::seconds)]
+    checkpoint_interval: Option<Duration>,
+    /// Only run the simulations: no labels, no figures.
+    #[arg(long)]
+    no_classify: bool,
+    /// Count runs that have a label in labels.csv as done, even if their records are gone, as of
+    /// published results.
+    #[arg(long, conflicts_with = "force")]
+    keep_labels: bool,
+    /// Draw no figures.
+    #[arg(long)]
+    no_plot: bool,
+    /// Print the result as one JSON object (docs/json.md) instead of text.
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Failure> {
+    let mut sweep = phase::sweep::load(&arguments.file).map_err(Failure::refused)?;
+    choose_runs(&mut sweep, arguments)?;
+    let workers = arguments.jobs.unwrap_or_else(work::default_workers);
+    let jobs = sweep.jobs().map_err(Failure::refused)?;
+    if !arguments.no_classify {
+        sweep.check_sieves(&jobs).map_err(classify::cannot_label)?;
+    }
+    let folder = folder_of(&sweep, arguments)?;
+    let stop = interrupt::stop_on_signal(console)?;
+
+    folder.create().map_err(Failure::failed)?;
+    let access = enter(&folder, &sweep, arguments)?;
+    refuse_another_file(&folder, &sweep, arguments)?;
+    if !arguments.no_classify {
+        let again = jobs_made_again(&folder, &sweep);
+        let kept = jobs.iter().chain(&again).map(|job| job.id.as_str());
+        refuse_to_lose_labels(&folder, kept).map_err(classify::cannot_write)?;
+    }
+    tell_of_other_sweep(&folder, &sweep, console);
+    time_step::tell_of_jobs(&jobs, &sweep.axes, console);
+    overlaps::warn_of_jobs(&jobs, &sweep.axes, console);
+    if !arguments.no_classify {
+        warn_of_windows(&sweep, &jobs, console);
+    }
+    if matches!(access, Access::Alone(_)) {
+        folder
+            .note_source(&arguments.file)
+            .map_err(Failure::failed)?;
+    }
+    let _lock = match arguments.force {
+        true => access,
+        false => Access::Shared(folder.open(access, &sweep).map_err(Failure::failed)?),
+    };
+    let rounds = Rounds {
+        folder: &folder,
+        workers,
+        stop,
+        checkpoint_interval: arguments.checkpoint_interval.unwrap_or(DEFAULT_INTERVAL),
+        force: arguments.force,
+        draws: !arguments.no_plot,
+        console,
+    };
+    let (plan, run, refinement) = match sweep.refine {
+        None => {
+            let (plan, run) = rounds.run(&sweep, jobs)?;
+            (plan, run, None)
+        }
+        Some(_) => {
+            let (plan, run, refinement) = rounds.refine(&sweep)?;
+            (plan, run, Some(refinement))
+        }
+    };
+    run.print(&plan, &sweep, console)?;
+    let jobs: Vec<Job> = plan.jobs.iter().map(|(job, _)| job.clone()).collect();
+    let mut answer = Answer::new(&folder, &plan, &sweep, &run);
+    answer.refined =
+        refinement.and_then(|it| refined::Answer::new(&sweep, Some(it.refining()), it.runs()));
+
+    if stop.load(Ordering::Relaxed) {
+        console.note(format_args!(
+            "interrupted; {} left. Go on with the same command",
+            format::count(run.report.left, "job")
+        ));
+        answer.interrupted = true;
+        console.answer(&answer);
+        return Ok(Exit::Interrupted);
+    }
+    if let Some(error) = &run.report.halted {
+        console.answer(&answer);
+        return Err(Failure::failed(error));
+    }
+    if leaves_rest_to_others(&folder, &plan, console) {
+        console.answer(&answer);
+        return Ok(Exit::Done);
+    }
+    let mut failed = !run.report.failures.is_empty();
+    if !arguments.no_classify {
+        let labelled = classify::label_folder(&folder, &sweep, &jobs, workers, console);
+        let labelled = labelled.inspect_err(|_| console.answer(&answer))?;
+        failed |= !labelled.problems.is_empty();
+        if !arguments.no_plot {
+            let problems = plot::draw_default_figures(&folder, &sweep, &labelled.table, console);
+            failed |= !problems.is_empty();
+            answer.problems = problems;
+        }
+        tell_of_earlier_borders(&folder, &sweep, console);
+        answer.labels = Some(classify::Summary::new(&folder, &labelled));
+    }
+    answer.files = console.files();
+    console.answer(&answer);
+    Ok(if failed { Exit::Failed } else { Exit::Done })
+}
+
+/// The results folder, in which no file of another program is in the way.
+fn folder_of(sweep: &Sweep, arguments: &Arguments) -> Result<Folder, Failure> {
+    let root = arguments.out.clone();
+    let mut folder = Folder::new(root.unwrap_or_else(|| default_folder(&arguments.file)));
+    if arguments.keep_labels {
+        check_kept_labels(&folder, sweep)?;
+        folder = folder.keeping_labels();
+    }
+    refuse_foreign(&folder, sweep, arguments)?;
+    Ok(folder)
+}
+
+/// Refuses the folder that the name of the file gives if another file of that name has other runs
+/// there.
+fn refuse_another_file(
+    folder: &Folder,
+    sweep: &Sweep,
+    arguments: &Arguments,
+) -> Result<(), Failure> {
+    let (Some(source), Ok(stored)) = (folder.source(), folder.read_sweep()) else {
+        return Ok(());
+    };
+    let is_same = arguments.file.canonicalize().is_ok_and(|it| it == source);
+    let is_namesake = !is_same && arguments.file.file_name() == source.file_name();
+    if arguments.out.is_some() || !is_namesake || stored.keys_of_other_runs(sweep).is_empty() {
+        return Ok(());
+    }
+    Err(Failure::refused(format_args!(
+        "{}: this folder has the results of {}, another sweep of the same name; choose another \
+         folder with --out",
+        folder.root().display(),
+        source.display()
+    )))
+}
+
+/// Says which files of the folder are not of this sweep.
+fn tell_of_earlier_borders(folder: &Folder, sweep: &Sweep, console: &Console) {
+    if sweep.refine.is_none() && folder.borders().exists() {
+        console.note(format_args!(
+            "{} and `refined` are of an earlier, refined sweep in this folder",
+            folder.borders().display()
+        ));
+    }
+}
+
+/// Whether other processes still make runs of the plan: then they write tables and figures.
+fn leaves_rest_to_others(folder: &Folder, plan: &Plan, console: &Console) -> bool {
+    let is_made = |job: &Job| folder.is_made_elsewhere(&job.id);
+    let others = plan.jobs.iter().filter(|(job, _)| is_made(job)).count();
+    if others > 0 {
+        console.note(format_args!(
+            "another process is making {}, and writes tables and figures when it is done",
+            format::count(others, "job")
+        ));
+    }
+    others > 0
+}
+
+/// Takes the right to run a sweep into a folder, beside other processes that run the same one
+/// unless everything is to be run again.
+fn enter(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Result<Access, Failure> {
+    let access = match arguments.force {
+        true => folder.lock().map(Access::Alone),
+        false => folder.enter(sweep),
+    };
+    access.map_err(|error| match error {
+        FolderError::Locked(_) => Failure::refused(error),
+        _ => Failure::failed(error),
+    })
+}
+
+/// Refuses to keep labels that cannot be read, or that other thresholds gave.
+fn check_kept_labels(folder: &Folder, sweep: &Sweep) -> Result<(), Failure> {
+    if !folder.labels().exists() {
+        return Ok(());
+    }
+    store::read_labels(&folder.labels()).map_err(|error| {
+        Failure::refused(format_args!(
+            "{error}\nlabels are to be kept, and this table of them cannot be read: mend it, or \
+             leave out --keep-labels"
+        ))
+    })?;
+    let stored = folder.read_sweep().map_err(Failure::refused)?;
+    match stored.sieves == sweep.sieves {
+        true => Ok(()),
+        false => Err(Failure::refused(format_args!(
+            "{}: other thresholds ([sieves]) gave these labels, which cannot be kept; leave out \
+             --keep-labels, or use the thresholds of {}",
+            folder.labels().display(),
+            folder.sweep().display()
+        ))),
+    }
+}
+
+/// Refuses a folder in which files of another program are in the way. One with the sweep.json of a
+/// sweep is a results folder, whatever it holds.
+fn refuse_foreign(folder: &Folder, sweep: &Sweep, arguments: &Arguments) -> Result<(), Failure> {
+    let root = folder.root();
+    if folder.sweep().exists() {
+        return folders::refuse_foreign(root, ["sweep.json"], plot::ANOTHER_FOLDER);
+    }
+    let mut names = vec![PathBuf::from("failed.csv")];
+    if !arguments.no_classify {
+        names.extend(["labels.csv", "points.csv"].map(PathBuf::from));
+        let refined = sweep
+            .refine
+            .iter()
+            .flat_map(|_| ["refined.csv", "borders.csv"]);
+        names.extend(refined.map(PathBuf::from));
+        if !arguments.no_plot && !sweep.axes.is_empty() {
+            let figures = plot::figures_of_sweep(sweep, Family::of(&sweep.scene));
+            names.extend(folders::files_of_figures(figures));
+        }
+    }
+    folders::refuse_foreign(root, names, plot::ANOTHER_FOLDER)
+}
+
+/// The jobs of the sweep that the folder keeps, if this one makes the same, and those that a
+/// refined sweep takes as given. Those of rounds follow from the labels, so that the thresholds
+/// count too.
+fn jobs_made_again(folder: &Folder, sweep: &Sweep) -> Vec<Job> {
+    let given = sweep.jobs_given_by(folder).unwrap_or_default();
+    let stored = folder.read_sweep().ok();
+    let stored = stored.filter(|stored| {
+        stored.sieves == sweep.sieves && stored.keys_of_other_runs(sweep).is_empty()
+    });
+    let jobs = stored.and_then(|stored| {
+        let refining = folder.read_refining(&stored).ok()?;
+        stored.jobs_so_far(refining.as_ref()).ok()
+    });
+    given.into_iter().chain(jobs.unwrap_or_default()).collect()
+}
+
+/// Takes the seeds of the command line, and refines the sweep if that is asked for.
+fn choose_runs(sweep: &mut Sweep, arguments: &Arguments) -> Result<(), Failure> {
+    if !arguments.seed.is_empty() {
+        let seeds = distinct(&arguments.seed)?;
+        if let Some(settings) = &sweep.refine {
+            refining::check(settings, &seeds)?;
+            sweep.refine_from_seed(seeds[0]).map_err(Failure::refused)?;
+        } else {
+            sweep.seeds = seeds;
+        }
+    }
+    if arguments.refine && sweep.refine.is_none() {
+        sweep.refine_by_default().map_err(Failure::refused)?;
+    }
+    if arguments.no_classify && sweep.refine.is_some() {
+        return Err(Failure::refused(
+            "refining needs labels; leave out --no-classify",
+        ));
+    }
+    Ok(())
+}
+
+/// Warns of sieves that find nothing in some runs, or in all, as these are too short.
+pub(super) fn warn_of_windows(sweep: &Sweep, jobs: &[Job], console: &Console) {
+    for sieve in sweep.sieves_without_room(jobs) {
+        let (name, window, longest) = (sieve.sieve, sieve.window, sieve.longest);
+        let which = match sieve.runs == jobs.len() {
+            true => format!("the runs, {longest} s: it finds nothing in any of them"),
+            false => format!(
+                "{} of {}, which last {longest} s at most: it finds nothing in these",
+                sieve.runs,
+                format::count(jobs.len(), "run")
+            ),
+        };
+        console.warning(format_args!(
+            "the window of the sieve {name}, {window} s, is longer than {which}; lengthen \
+             time.duration, or shorten `window` in [sieves.{name}]"
+        ));
+    }
+}
+
+/// Seeds, each of which is there once.
+fn distinct(seeds: &[u64]) -> Result<Vec<u64>, Failure> {
+    let mut seen = HashSet::new();
+    match seeds.iter().find(|seed| !seen.insert(**seed)) {
+        None => Ok(seeds.to_vec()),
+        Some(seed) => Err(Failure::refused(format_args!(
+            "--seed {seed} is there twice, and would count its runs twice; give it once"
+        ))),
+    }
+}
+
+/// `results/<stem of the sweep file>`.
+pub(super) fn default_folder(file: &Path) -> PathBuf {
+    Path::new("results").join(file.file_stem().unwrap_or("sweep".as_ref()))
+}
+
+/// Says in what an earlier sweep of the same folder differed.
+fn tell_of_other_sweep(folder: &Folder, sweep: &Sweep, console: &Console) {
+    let Ok(earlier) = folder.read_sweep() else {
+        return;
+    };
+    let keys = differing_keys(&earlier, sweep);
+    if !keys.is_empty() {
+        console.note(format_args!(
+            "the sweep has changed since it was last run into {} ({}); records it still needs are \
+             kept, others stay in the folder unused",
+            folder.root().display(),
+            keys.join(", ")
+        ));
+    }
+}
+
+/// What `--json` prints.
+#[derive(Serialize)]
+struct Answer {
+    folder: PathBuf,
+    jobs: usize,
+    done_before: usize,
+    run_now: usize,
+    resumed: usize,
+    left: usize,
+    unstable: Vec<NamedJob>,
+    failed: Vec<NamedJob>,
+    interrupted: bool,
+    workers: usize,
+    seconds: f64,
+    cpu_seconds: f64,
+    sphere_steps: u64,
+    labels: Option<classify::Summary>,
+    /// How well borders are known; none if the whole grid is run.
+    refined: Option<refined::Answer>,
+    /// Figures that could not be drawn, and why.
+    problems: Vec<String>,
+    /// The files written, but for the records.
+    files: Vec<String>,
+}
+
+impl Answer {
+    fn new(folder: &Folder, plan: &Plan, sweep: &Sweep, run: &Run) -> Self {
+        Self {
+            folder: folder.root().to_owned(),
+            jobs: plan.jobs.len(),
+            done_before: run.done_before,
+            run_now: run.report.finished,
+            resumed: run.report.resumed,
+            left: run.report.left,
+            unstable: NamedJob::all(&sweep.axes, &run.unstable),
+            failed: NamedJob::all(&sweep.axes, &run.report.failures),
+            interrupted: false,
+            workers: run.workers,
+            seconds: run.seconds,
+            cpu_seconds: run.report.cpu_seconds,
+            sphere_steps: run.report.work,
+            labels: None,
+            refined: None,
+            problems: Vec::new(),
+            files: Vec::new(),
+        }
+    }
+}

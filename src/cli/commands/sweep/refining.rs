@@ -1,0 +1,155 @@
+//! The rounds of a refined sweep, as people see them.
+
+use super::rounds::{Part, Rounds, Run, tell_of_plan};
+use crate::cli::commands::plot;
+use crate::cli::exit::Failure;
+use crate::cli::{format, refined};
+use phase::refine::{Finish, Settings};
+use phase::sweep::{
+    Plan, Pool, PoolError, Refinement, RefinementError, Report, RoundsError, Sweep, WatchRounds,
+};
+use std::time::{Duration, Instant};
+
+/// Time between two notes while rounds are chosen.
+const BETWEEN_NOTES: Duration = Duration::from_secs(5);
+
+impl Rounds<'_> {
+    /// Runs the rounds. Gives the plan of all jobs, what was run, and how far refining is.
+    pub(super) fn refine(&self, sweep: &Sweep) -> Result<(Plan, Run, Refinement), Failure> {
+        let mut watcher = Watcher {
+            rounds: self,
+            run: None,
+            told: Instant::now(),
+        };
+        let done = self.with_pool(sweep, |pool| pool.refine(&mut watcher))?;
+        self.tell_of_end(sweep, &done.refinement, done.end);
+        let report = done.report;
+        let done_before = done.plan.labelled().count();
+        let run = Run {
+            done_before: done_before.saturating_sub(report.finished),
+            report,
+            ..watcher.run.unwrap_or_default()
+        };
+        Ok((done.plan, run, done.refinement))
+    }
+
+    /// What the progress of a round is part of.
+    fn part(&self, sweep: &Sweep, refinement: &Refinement) -> Part {
+        let (Some(settings), true) = (&sweep.refine, refinement.rounds() > 0) else {
+            return Part::default();
+        };
+        let widest = match refinement.rounds() {
+            1 => "coarse grid".to_owned(),
+            _ => refined::describe_widest(sweep, refinement.refining()),
+        };
+        Part {
+            head: format!("round {}, {widest}", refinement.rounds()),
+            jobs: Some(settings.budget),
+        }
+    }
+
+    fn tell_of_end(&self, sweep: &Sweep, refinement: &Refinement, end: Option<Finish>) {
+        let (Some(end), Some(settings)) = (end, &sweep.refine) else {
+            return;
+        };
+        self.console.result(format_args!(
+            "refined with {}: {}; {}",
+            format::count(refinement.runs(), "run"),
+            refined::describe_end(settings, end),
+            refined::describe_widest(sweep, refinement.refining())
+        ));
+        if let Some(gap) = refinement.gap().filter(|gap| gap.radius > 0.0) {
+            self.console.note(refined::describe_gap(sweep, &gap));
+        }
+    }
+}
+
+/// Shows rounds to people.
+struct Watcher<'a> {
+    rounds: &'a Rounds<'a>,
+    /// What was run so far, but for the report.
+    run: Option<Run>,
+    /// When the choosing of rounds was told last.
+    told: Instant,
+}
+
+impl WatchRounds for Watcher<'_> {
+    type Error = Failure;
+
+    fn run(
+        &mut self,
+        pool: &Pool<'_>,
+        plan: &Plan,
+        refinement: &Refinement,
+    ) -> Result<Report, Failure> {
+        if self.run.is_none() {
+            tell_of_plan(plan, self.rounds.console);
+        }
+        let part = self.rounds.part(pool.sweep, refinement);
+        let mut round = self.rounds.run_part(plan, pool, part)?;
+        let report = std::mem::take(&mut round.report);
+        round.seconds += self.run.take().map_or(0.0, |before| before.seconds);
+        self.run = Some(round);
+        Ok(report)
+    }
+
+    /// Says now and then how far the choosing of rounds is whose runs are there already.
+    fn known(&mut self, refinement: &Refinement) {
+        if self.told.elapsed() >= BETWEEN_NOTES {
+            self.told = Instant::now();
+            self.rounds.console.note(format_args!(
+                "round {} chosen again: {}",
+                refinement.rounds(),
+                format::count(refinement.runs(), "run")
+            ));
+        }
+    }
+
+    /// Says what a round has told, and draws the figure anew.
+    fn learnt(&mut self, pool: &Pool<'_>, refinement: &Refinement) -> Result<(), Failure> {
+        if let Some(settings) = &pool.sweep.refine {
+            self.rounds.console.note(format_args!(
+                "round {}: {} of at most {}; {}",
+                refinement.rounds(),
+                format::count(refinement.runs(), "run"),
+                settings.budget,
+                refined::describe_widest(pool.sweep, refinement.refining())
+            ));
+        }
+        if self.rounds.draws && refinement.runs() > 0 {
+            plot::draw_round(pool.folder, pool.sweep, refinement.table())?;
+        }
+        Ok(())
+    }
+}
+
+impl From<PoolError> for Failure {
+    fn from(error: PoolError) -> Self {
+        match error {
+            PoolError::Foreign(_) => Self::refused(error),
+            _ => Self::failed(error),
+        }
+    }
+}
+
+impl From<RoundsError> for Failure {
+    fn from(error: RoundsError) -> Self {
+        match error {
+            RoundsError::Pool(error) => error.into(),
+            RoundsError::Refinement(RefinementError::Threads(_)) => Self::failed(error),
+            RoundsError::Refinement(_) => Self::refused(error),
+            RoundsError::Folder(_) | RoundsError::Store(_) => Self::failed(error),
+        }
+    }
+}
+
+/// Refuses what does not go with refining.
+pub(super) fn check(settings: &Settings, seeds: &[u64]) -> Result<(), Failure> {
+    if seeds.len() > 1 {
+        return Err(Failure::refused(format_args!(
+            "a refined sweep takes one --seed, the first; each point has at most {} from there on",
+            format::count(settings.replicates as usize, "seed")
+        )));
+    }
+    Ok(())
+}
