@@ -121,7 +121,7 @@ fn states(source: &Source<'_>) -> Result<Vec<usize>, PlotError> {
         let point = nearest_to_middle(source, &candidates)?;
         point.rows.iter().copied().find(|&row| has(row, label))
     };
-    let labels = source.table.family.labels.iter().copied();
+    let labels = source.table.family.labels().into_iter();
     Ok(labels
         .filter(|label| *label != Label::UNSTABLE)
         .filter_map(typical)
@@ -165,8 +165,8 @@ fn nearest_to_middle<'p>(source: &Source<'_>, points: &[&'p Point]) -> Option<&'
     Some(points[nearest])
 }
 
-/// The place of a run in the sweep, with markup: `$r$ = 4 mm` and `$Ω$ = 8 rad/s`. The seed is named
-/// only if a point asks for one.
+/// The place of a run in the sweep, with markup, such as `$r$ = 4 mm` and `$Ω$ = 8 rad/s`. The seed
+/// is named only if a point asks for one.
 pub(super) fn place(source: &Source<'_>, row: &LabelRow) -> Vec<String> {
     let axes = source.sweep.axes.iter().zip(&row.values);
     let mut parts: Vec<String> = axes

@@ -2,6 +2,7 @@
 
 use super::style;
 use crate::refine::RefineError;
+use crate::refusal::Refusal;
 use crate::sweep::SelectError;
 use std::fmt::{self, Display};
 
@@ -93,9 +94,10 @@ impl PlotError {
     pub fn kind(&self) -> PlotErrorKind {
         self.kind
     }
+}
 
-    /// Whether the request is at fault: a figure, point or effect that does not exist here.
-    pub fn is_of_request(&self) -> bool {
+impl Refusal for PlotError {
+    fn is_refusal(&self) -> bool {
         self.kind == PlotErrorKind::Request
     }
 }

@@ -33,10 +33,10 @@ fn draw(source: &Source<'_>) -> Result<Svg, PlotError> {
         let mut points = points.iter();
         points.any(|point| has_majority(point) && point.label == *label)
     };
-    let labels = source.table.family.labels.iter();
+    let labels = source.table.family.labels().into_iter();
     let mut legend: Vec<LegendEntry> = labels
         .filter(|label| occurs(label))
-        .map(|label| LegendEntry::new(LegendKey::Fill(fill(*label)), &label.name.replace('-', " ")))
+        .map(|label| LegendEntry::new(LegendKey::Fill(fill(label)), &label.name.replace('-', " ")))
         .collect();
     legend.extend(of_disagreement(&points));
     let is_unsteady = |point: &Point| source.table.is_unsteady(point);

@@ -3,9 +3,7 @@
 use crate::record::{Program, RunRecord};
 use crate::resume::{Checkpoints, DEFAULT_INTERVAL};
 use crate::store::StoreError;
-use crate::sweep::{
-    Backend, BackendError, Batch, Claim, Failure, Folder, Job, Report, Results, Wishes,
-};
+use crate::sweep::{Backend, Batch, Folder, Job, Report, Results, Wishes};
 use std::collections::{BTreeMap, HashMap};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -81,23 +79,16 @@ impl<'a, T: Table> Rows<'a, T> {
     }
 
     /// Has a backend make the runs whose row is not known, and returns all rows.
-    ///
-    /// # Errors
-    /// Those of the backend.
-    pub(super) fn complete(
-        self,
-        backend: &dyn Backend,
-        wishes: Wishes<'_>,
-    ) -> Result<Completed<T::Row>, BackendError> {
+    pub(super) fn complete(self, backend: &dyn Backend, wishes: Wishes<'_>) -> Completed<T::Row> {
         let known: Vec<bool> = self.lock().rows.iter().map(Option::is_some).collect();
         let pending = self.jobs.iter().zip(known).filter(|(_, known)| !known);
         let batch = Batch::new(pending.map(|(job, _)| job), &self, wishes);
-        let mut report = batch.run_on(backend)?;
+        let mut report = batch.run_on(backend);
         let written = self.write(&self.lock());
-        report.halted = report.halted.or(written.err());
+        report.halted = report.halted.or(written.err().map(Into::into));
         let state = self.state.into_inner();
         let rows = state.unwrap_or_else(PoisonError::into_inner).rows;
-        Ok(Completed { rows, report })
+        Completed { rows, report }
     }
 
     fn write(&self, state: &State<T::Row>) -> Result<(), StoreError> {
@@ -114,11 +105,6 @@ impl<T: Table> Results for Rows<'_, T> {
     fn have_own_files(&self) -> bool {
         // They are rows of one table.
         false
-    }
-
-    fn claim(&self, _: &Job) -> Result<Option<Claim>, StoreError> {
-        // The folder of a study has one process at a time.
-        Ok(Some(Claim::Alone))
     }
 
     fn keep(&self, job: &Job, record: &RunRecord) -> Result<(), StoreError> {
@@ -138,10 +124,5 @@ impl<T: Table> Results for Rows<'_, T> {
 
     fn checkpoints(&self, job: &Job) -> Checkpoints {
         self.folder.checkpoints(&job.id, DEFAULT_INTERVAL)
-    }
-
-    fn note_failures(&self, _: &[&Failure]) -> Result<(), StoreError> {
-        // They have no row, so that the same command tries them again.
-        Ok(())
     }
 }

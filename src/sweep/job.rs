@@ -42,6 +42,8 @@ pub struct PointError {
     pub problems: Vec<Problem>,
 }
 
+crate::refusal::always!(true: PointError);
+
 impl Sweep {
     /// All jobs. The first axis varies slowest; the seeds of a point follow each other. Of a
     /// refined sweep those of the coarse grid, by point and seed: others

@@ -1,5 +1,6 @@
 //! Sweeps: a scene, the axes it is varied over, and the jobs that follow.
 
+mod access;
 mod axis;
 mod backend;
 mod dumps;
@@ -11,6 +12,7 @@ mod labelling;
 mod load;
 mod plan;
 mod pool;
+mod records;
 mod refining;
 mod seeds;
 mod select;
@@ -19,15 +21,17 @@ mod status;
 pub mod work;
 
 pub use crate::document::differing_keys;
+pub use access::Access;
 pub use axis::Axis;
 pub(crate) use axis::AxisEntry;
 pub use backend::{
-    Backend, BackendError, Batch, Begin, Claim, Event, LocalThreads, Report, Results, Wishes,
+    Backend, BackendError, Batch, Begin, Claim, Event, Halt, LocalThreads, Permit, Report, Results,
+    Wishes,
 };
 pub use dumps::find_dumps;
 pub use failure::{Failure, describe};
-pub use failures::{read_failures, write_failures};
-pub use folder::{Access, Folder, FolderError};
+pub use failures::read_failures;
+pub use folder::{Folder, FolderError};
 pub use job::{Job, PointError};
 pub(crate) use job::{PointScenes, grid, points};
 pub use labelling::{

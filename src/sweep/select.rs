@@ -51,6 +51,8 @@ pub enum SelectError {
     },
 }
 
+crate::refusal::always!(true: SelectError);
+
 /// Reads the values of a point, such as `radius=0.003,omega=6`, and its seed, if it has one.
 ///
 /// # Errors

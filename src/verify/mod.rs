@@ -2,8 +2,8 @@
 //!
 //! A [`Case`] is a row of data: a set-up, the expected numbers, a tolerance, a source. A family is
 //! a kind of set-up with its parameters: a file that simulates and measures it, and a table of
-//! cases. A new case is a new row; a new family is a file, its table, and a line each in [`CaseSetup`]
-//! and `TABLES`.
+//! cases. A new case is a new row; a new family is a file, its table, and a line each in
+//! [`CaseSetup`] and `TABLES`.
 //!
 //! ```
 //! use phase::{scene::Integrator, verify};

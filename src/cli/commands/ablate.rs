@@ -1,9 +1,10 @@
 //! `phase ablate`: which effects a scene needs.
 
+use super::accuracy;
 use super::study::{Options, Place, Tally};
-use super::{accuracy, plot};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::figures;
 use crate::cli::format;
 use phase::plot::ablation as figure;
 use phase::record::Program;
@@ -152,7 +153,7 @@ impl Done {
             let sweep = &self.ablation.comparison.settings[0].sweep;
             let drawn = figure::draw(&self.ablated, &cost, sweep, &Program::current());
             let drawn = drawn.map_err(Failure::failed)?;
-            plot::write(
+            figures::write(
                 &drawn,
                 |end| place.file(&format!("ablation.{end}")),
                 console,

@@ -1,9 +1,9 @@
 //! `phase accuracy`: what settings of a scene cost, and how wrong they are.
 
-use super::plot;
 use super::study::{self, Options, Place, Tally};
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::figures as drawn_figures;
 use crate::cli::format;
 use phase::plot::accuracy as figures;
 use phase::record::{Program, RunRecord};
@@ -194,7 +194,7 @@ fn conclude(
     for (name, figure) in drawn {
         let figure = figure.map_err(Failure::failed);
         let path = |end: &str| place.file(&format!("{name}.{end}"));
-        let now = figure.and_then(|figure| plot::write(&figure, path, console));
+        let now = figure.and_then(|figure| drawn_figures::write(&figure, path, console));
         // One that cannot be drawn does not stop the others.
         written = written.and(now);
     }

@@ -1,10 +1,10 @@
 //! `phase neighbours`: what each way to find neighbours costs in a scene.
 
-use super::plot;
-use super::plot::ANOTHER_FOLDER;
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::figures;
 use crate::cli::folders;
+use crate::cli::folders::ANOTHER_FOLDER;
 use phase::cost::neighbours::{Cost, Moment, StudyError};
 use phase::plot::step_time::{self, Against, StepTimes};
 use phase::record::Program;
@@ -36,9 +36,6 @@ pub(crate) struct Arguments {
     /// Folder for the tables (CSV) and figures (SVG, PNG) [default: print only].
     #[arg(short, long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 /// Sides of the cells that are measured, over the least that is valid.
@@ -224,7 +221,7 @@ impl Study {
                 Against::Length => vec![self.by_length()],
             };
             let figure = step_time::draw(&lines, against, scene, &Program::current());
-            plot::write(&figure.map_err(Failure::failed)?, place, console)?;
+            figures::write(&figure.map_err(Failure::failed)?, place, console)?;
         }
         Ok(())
     }

@@ -1,10 +1,10 @@
 //! `phase stability`: where integrators are stable over two keys of a scene.
 
-use super::plot;
 use super::study::{self, Place, Tally};
 use crate::cli::builds;
 use crate::cli::console::Console;
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::figures;
 use phase::plot::stability as figure;
 use phase::record::{Program, RunRecord};
 use phase::scene::Integrator;
@@ -206,7 +206,7 @@ fn run(trials: &Trials<'_>, known: Vec<Row>, console: &Console) -> Result<(Repor
 
 fn draw(study: &Study, rows: &[Row], place: &Place, console: &Console) -> Result<(), Failure> {
     let figure = figure::draw(study, rows, &Program::current()).map_err(Failure::failed)?;
-    plot::write(
+    figures::write(
         &figure,
         |end| place.file(&format!("stability.{end}")),
         console,

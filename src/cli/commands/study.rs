@@ -1,16 +1,16 @@
 //! What commands of studies share: their folder, their runs with progress, their failures.
 
-use super::plot::ANOTHER_FOLDER;
 use crate::cli::console::{Console, name_first};
 use crate::cli::exit::{Exit, Failure};
+use crate::cli::folders::ANOTHER_FOLDER;
+use crate::cli::options::Workers;
 use crate::cli::progress::{Progress, Work};
-use crate::cli::values;
 use crate::cli::{folders, format, interrupt, job};
 use phase::cost::{Forecast, Leaves, forecast};
 use phase::record::RunRecord;
 use phase::store::{self, Lock};
 use phase::study::comparison::Comparison;
-use phase::sweep::{self as sweeps, Axis, Event, Folder, FolderError, Job, Wishes, describe, work};
+use phase::sweep::{self as sweeps, Axis, Event, Folder, FolderError, Job, Wishes, describe};
 use serde::Serialize;
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -24,24 +24,20 @@ pub(super) struct Options {
     /// that of the file without .toml].
     #[arg(short, long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
-    /// Runs at the same time [default: all cores].
-    #[arg(short, long, value_name = "N", value_parser = values::at_least_one)]
-    pub(super) jobs: Option<usize>,
+    #[command(flatten)]
+    workers: Workers,
     /// Make every run again, whatever the table holds.
     #[arg(short, long)]
     pub(super) force: bool,
     /// Draw no figure.
     #[arg(long)]
     pub(super) no_plot: bool,
-    /// Print the result as one JSON object (docs/json.md) instead of text.
-    #[arg(long)]
-    pub(super) json: bool,
 }
 
 impl Options {
     /// Number of runs at the same time.
     pub(super) fn workers(&self) -> usize {
-        self.jobs.unwrap_or_else(work::default_workers)
+        self.workers.count()
     }
 }
 

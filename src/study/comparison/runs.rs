@@ -5,7 +5,7 @@ use crate::classify::Label;
 use crate::record::{Program, RunRecord};
 use crate::store::StoreError;
 use crate::study::rows::{Completed, Rows, Table};
-use crate::sweep::{Backend, BackendError, Failure, Folder, Job, Wishes};
+use crate::sweep::{Backend, Failure, Folder, Halt, Job, Wishes};
 use std::collections::{BTreeMap, HashMap};
 use std::path::PathBuf;
 
@@ -41,12 +41,9 @@ pub struct Report {
 /// Why a comparison was given up.
 #[derive(Debug, thiserror::Error)]
 pub enum ComparingError {
-    /// The table cannot be written.
+    /// No more runs can be made.
     #[error(transparent)]
-    Store(#[from] StoreError),
-    /// No run can be made.
-    #[error(transparent)]
-    Backend(#[from] BackendError),
+    Halt(#[from] Halt),
 }
 
 impl Comparing<'_> {
@@ -61,7 +58,7 @@ impl Comparing<'_> {
         let rows: Vec<Option<RunRow>> = jobs.iter().map(|job| known.remove(&job.id)).collect();
         let count = rows.iter().flatten().count();
         let rows = Rows::new(self, jobs, self.folder.clone(), rows, BTreeMap::new());
-        let Completed { rows, report } = rows.complete(self.backend, self.wishes)?;
+        let Completed { rows, report } = rows.complete(self.backend, self.wishes);
         if let Some(error) = report.halted {
             return Err(error.into());
         }

@@ -6,7 +6,7 @@ use crate::record::{Guard, Outcome, Program, RunRecord};
 use crate::scene::Integrator;
 use crate::store::StoreError;
 use crate::study::rows::{Completed, Rows, Table};
-use crate::sweep::{Backend, BackendError, Failure, Folder, Job, Wishes};
+use crate::sweep::{Backend, Failure, Folder, Halt, Job, Wishes};
 use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
@@ -52,9 +52,9 @@ pub enum TrialsError {
     /// The table cannot be written.
     #[error(transparent)]
     Store(#[from] StoreError),
-    /// No run can be made.
+    /// No more runs can be made.
     #[error(transparent)]
-    Backend(#[from] BackendError),
+    Halt(#[from] Halt),
 }
 
 /// How, where and with which callbacks a study is run.
@@ -88,7 +88,7 @@ impl Trials<'_> {
         makers.retain(|id, _| rows.iter().flatten().any(|row| row.id == *id));
         let folder = Folder::new(self.table.parent().unwrap_or(Path::new("")));
         let rows = Rows::new(self, self.jobs, folder, rows, makers);
-        let Completed { rows, report } = rows.complete(self.backend, self.wishes)?;
+        let Completed { rows, report } = rows.complete(self.backend, self.wishes);
         if let Some(error) = report.halted {
             return Err(error.into());
         }

@@ -1,8 +1,9 @@
 //! Figures of the records of single runs.
 
-use super::{Arguments, name_all, write};
+use super::{Arguments, name_all};
 use crate::cli::console::Console;
 use crate::cli::exit::Failure;
+use crate::cli::figures::write;
 use crate::cli::{folders, runs};
 use phase::classify::{DRAINAGE, Family};
 use phase::plot::{self, Figure, PlotError, PlotErrorKind, RecordSet};
@@ -11,7 +12,7 @@ use phase::store::{self, DataSet};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// The figures that are drawn of a drainage if none is asked for; of other runs those of one record.
+/// The default figures of a drainage; the default figures of other runs are those of one record.
 const DEFAULT_OF_DRAINAGE: [&str; 2] = ["surface-angle", "radial-distribution"];
 
 /// The figure that any record of discrete elements has, whatever its family.
@@ -35,7 +36,7 @@ fn known(record: &RunRecord) -> Vec<&'static Figure> {
 
 /// The figures that can be drawn of a record: a try succeeds.
 pub(super) fn drawable(path: &Path) -> Result<Vec<&'static Figure>, Failure> {
-    let record = store::read_record(path).map_err(Failure::refused)?;
+    let record = store::read_record(path)?;
     let records = std::slice::from_ref(&record);
     let mut figures = known(&record);
     figures.retain(|figure| plot::draw(figure.name, RecordSet::of(records)).is_ok());
@@ -52,15 +53,15 @@ pub(super) fn draw(
 ) -> Result<Vec<String>, Failure> {
     if let Some(point) = arguments.points.first() {
         return Err(Failure::refused(format_args!(
-            "--point {point} is for a results folder: a record is of one run"
+            "--point {point} is for a results folder; a record holds one run"
         )));
     }
-    let records: Vec<RunRecord> = runs::read(paths, arguments.scene.as_deref())?;
+    let records: Vec<RunRecord> = runs::read(paths, arguments.measured.scene.as_deref())?;
     let (Some(first), Some(record)) = (paths.first(), records.first()) else {
         return Ok(Vec::new());
     };
     let data = arguments.data.iter().map(|path| store::read_data_set(path));
-    let data: Vec<DataSet> = data.collect::<Result<_, _>>().map_err(Failure::refused)?;
+    let data: Vec<DataSet> = data.collect::<Result<_, _>>()?;
     let names = names(record, arguments)?;
     let beside = first.parent().unwrap_or(Path::new(""));
     let folder = arguments.out.as_deref().unwrap_or(beside);
@@ -79,22 +80,16 @@ pub(super) fn draw(
     folders::refuse_foreign(
         folder,
         files,
-        "choose another folder or name with --out or --name",
+        "choose another folder with --out or another name with --name",
     )?;
-    let failed = |error: PlotError| {
-        let text = format!("{}: {error}", first.display());
-        match error.is_of_request() {
-            true => Failure::refused(text),
-            false => Failure::failed(text),
-        }
-    };
+    let failed = |error: PlotError| Failure::from(error).at(first);
     let mut missing = None;
     let mut failures = Vec::new();
     for name in &names {
         let input = RecordSet {
             records: &records,
-            labels: &arguments.labels,
-            times: arguments.times,
+            labels: &arguments.measured.labels,
+            times: arguments.measured.window.times,
             data: &data,
         };
         let written = match plot::draw(name, input) {

@@ -274,7 +274,7 @@ fn wrong_bytes_are_refused() {
             raw,
             b"header_type",
             b"compressor=\"vtkZLibDataCompressor\" header_type",
-            "array `Points`: it is compressed (`vtkZLibDataCompressor`), which cannot be read; save",
+            "array `Points`: it is compressed (`vtkZLibDataCompressor`), which cannot be read",
         ),
         (
             raw,
