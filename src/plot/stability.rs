@@ -2,9 +2,9 @@
 //! with the theoretical limit of the time step over it.
 
 use super::contour::{Nodes, Piece};
-use super::diagram::{Curve, Diagram, Look, Stroke};
-use super::grid::{Grid, GridAxis, Panel};
-use super::legend::{Entry, Key};
+use super::diagram::{Diagram, Look, PanelCurve, Stroke};
+use super::grid::{GridAxis, GridPanel, PanelGrid};
+use super::legend::{LegendEntry, LegendKey};
 use super::style::Fill;
 use super::svg::Svg;
 use super::{PlotError, palette};
@@ -26,8 +26,8 @@ pub fn draw(study: &Study, rows: &[Row], program: &Program) -> Result<Svg, PlotE
     let panel = |&integrator: &Integrator| panel(study, rows, integrator, &x, &y);
     let panels = study.integrators.iter().map(panel).collect();
     let theory = |&integrator: &Integrator| curves(study, integrator, &x, &y);
-    let curves: Vec<Vec<Curve>> = study.integrators.iter().map(theory).collect();
-    let grid = Grid {
+    let curves: Vec<Vec<PanelCurve>> = study.integrators.iter().map(theory).collect();
+    let grid = PanelGrid {
         x: x.clone(),
         y: Some(y.clone()),
         columns: None,
@@ -36,7 +36,7 @@ pub fn draw(study: &Study, rows: &[Row], program: &Program) -> Result<Svg, PlotE
     };
     let occurs = |label: &Label| rows.iter().any(|row| row.label == *label);
     let legend = Label::ALL.into_iter().filter(occurs);
-    let legend = legend.map(|label| Entry::new(Key::Fill(fill(label)), words(label)));
+    let legend = legend.map(|label| LegendEntry::new(LegendKey::Fill(fill(label)), words(label)));
     let diagram = Diagram {
         name: "stability",
         grid: &grid,
@@ -48,7 +48,7 @@ pub fn draw(study: &Study, rows: &[Row], program: &Program) -> Result<Svg, PlotE
     let body = diagram.body(
         study.title.as_deref(),
         &curves,
-        Curve::entries(&curves, LIMITS),
+        PanelCurve::entries(&curves, LIMITS),
     )?;
     let scene = Scene {
         title: study.title.clone(),
@@ -76,14 +76,14 @@ fn panel(
     integrator: Integrator,
     x: &GridAxis,
     y: &GridAxis,
-) -> Panel<Label> {
+) -> GridPanel<Label> {
     let mut cells = vec![None; x.values.len() * y.values.len()];
     for row in rows.iter().filter(|row| row.integrator == integrator) {
         if let (Some(column), Some(line)) = (x.position(&row.values), y.position(&row.values)) {
             cells[column + line * x.values.len()] = Some(row.label);
         }
     }
-    Panel {
+    GridPanel {
         head: (study.integrators.len() > 1).then(|| integrator.name().to_owned()),
         column: None,
         row: None,
@@ -92,7 +92,7 @@ fn panel(
 }
 
 /// The limit that decides, and that of twelve contacts.
-fn curves(study: &Study, integrator: Integrator, x: &GridAxis, y: &GridAxis) -> Vec<Curve> {
+fn curves(study: &Study, integrator: Integrator, x: &GridAxis, y: &GridAxis) -> Vec<PanelCurve> {
     let (across, up) = (nodes(x), nodes(y));
     let theories: Vec<Option<(f64, Theory)>> = across
         .iter()
@@ -120,11 +120,11 @@ fn curves(study: &Study, integrator: Integrator, x: &GridAxis, y: &GridAxis) -> 
         .contour()
     };
     vec![
-        Curve {
+        PanelCurve {
             pieces: of(|theory| theory.twelve_contacts),
             stroke: Stroke::Dashed,
         },
-        Curve {
+        PanelCurve {
             pieces: of(|theory| theory.decisive),
             stroke: Stroke::Full,
         },

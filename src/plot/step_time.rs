@@ -1,7 +1,7 @@
 //! The time of a step with each way to find neighbours, against the number of spheres or the side
 //! of a cell (Remmers, 2009, assignments 7 and 8).
 
-use super::chart::{self, Chart, Line, Panel};
+use super::chart::{self, Chart, ChartLine, ChartPanel};
 use super::style::px;
 use super::svg::Svg;
 use super::{PlotError, palette};
@@ -36,18 +36,18 @@ pub fn draw(
     program: &Program,
 ) -> Result<Svg, PlotError> {
     let colors = palette::LINES.into_iter().cycle();
-    let line = |(line, color): (&StepTimes, _)| Line {
+    let line = |(line, color): (&StepTimes, _)| ChartLine {
         points: line.points.clone(),
         color,
     };
-    let lines: Vec<Line> = times.iter().zip(colors).map(line).collect();
+    let lines: Vec<ChartLine> = times.iter().zip(colors).map(line).collect();
     let legend = lines.iter().zip(times);
     let legend = legend
         .map(|(line, time)| (line.color, time.name.clone()))
         .collect();
     let largest = times.iter().flat_map(|line| &line.points);
     let largest = largest.map(|point| point.0).fold(0.0, f64::max);
-    let mut panels = vec![Panel::new(Vec::new(), (0.0, largest), lines).down_to_zero()];
+    let mut panels = vec![ChartPanel::new(Vec::new(), (0.0, largest), lines).down_to_zero()];
     let unit = chart::scaled("s", &mut panels);
     let chart = Chart {
         name: match against {

@@ -75,8 +75,6 @@ pub(crate) fn source<'a>(
         record: &|id| panic!("a figure of a table read the record {id}"),
         points: &[],
         times: None,
-        captions: &[],
-        data: &[],
         program,
     }
 }

@@ -3,8 +3,8 @@
 mod changes;
 mod work_precision;
 
-use super::PlotError;
 use super::svg::Svg;
+use super::{PlotError, PlotErrorKind};
 use crate::record::Program;
 use crate::study::accuracy::{AccuracyStudy, Evaluation};
 use crate::study::comparison::Comparison;
@@ -28,7 +28,9 @@ pub fn draw_all(
         let drawn = changes::draw(study, comparison, evaluation, program);
         figures.push((NAMES[1], drawn));
     }
-    figures.retain(|(_, figure)| !matches!(figure, Err(PlotError::NoMeasures { .. })));
+    figures.retain(
+        |(_, figure)| !matches!(figure, Err(error) if error.kind() == PlotErrorKind::Nothing),
+    );
     figures
 }
 

@@ -10,7 +10,7 @@ pub(super) use axis::{GridAxis, strip};
 
 /// One of the small multiples; its cells hold points of a sweep, or of something else.
 #[derive(Clone, Debug)]
-pub(super) struct Panel<P = Point> {
+pub(super) struct GridPanel<P = Point> {
     /// What stands above it.
     pub(super) head: Option<String>,
     /// Values of the axes it is for, on `columns` and `rows` of the grid.
@@ -22,7 +22,7 @@ pub(super) struct Panel<P = Point> {
 
 /// The axes of a figure and the points in its cells.
 #[derive(Clone, Debug)]
-pub(super) struct Grid<P = Point> {
+pub(super) struct PanelGrid<P = Point> {
     pub(super) x: GridAxis,
     pub(super) y: Option<GridAxis>,
     /// Axis of the small multiples.
@@ -30,10 +30,10 @@ pub(super) struct Grid<P = Point> {
     /// A second such axis.
     pub(super) rows: Option<GridAxis>,
     /// Panels, row by row.
-    pub(super) panels: Vec<Panel<P>>,
+    pub(super) panels: Vec<GridPanel<P>>,
 }
 
-impl Grid {
+impl PanelGrid {
     /// Chooses the axes as the sweep's plot settings say and sorts the table into cells.
     pub(super) fn new(source: &Source<'_>) -> Result<Self, PlotError> {
         let (sweep, table) = (source.sweep, source.table);
@@ -41,7 +41,7 @@ impl Grid {
         let places = places(sweep)?;
         let axis = |place: usize| places[place].map(|index| GridAxis::new(index, sweep, table));
         let mut grid = Self {
-            x: axis(0).ok_or(PlotError::NoAxis)?,
+            x: axis(0).ok_or_else(PlotError::no_axis)?,
             y: axis(1),
             columns: axis(2),
             rows: axis(3),
@@ -60,7 +60,7 @@ impl Grid {
         let columns: Vec<Option<f64>> = values(&self.columns);
         for row in values(&self.rows) {
             self.panels.extend(columns.iter().map(|&column| {
-                Panel {
+                GridPanel {
                     head: self
                         .columns
                         .as_ref()
@@ -90,7 +90,7 @@ impl Grid {
     }
 }
 
-impl<P> Grid<P> {
+impl<P> PanelGrid<P> {
     /// Number of cells of a panel, horizontally and vertically.
     pub(super) fn cells(&self) -> (usize, usize) {
         let vertical = self.y.as_ref().map_or(1, |axis| axis.values.len());
@@ -116,18 +116,22 @@ impl<P> Grid<P> {
 pub(super) fn check(sweep: &Sweep, table: &LabelTable) -> Result<(), PlotError> {
     let names: Vec<&str> = sweep.axes.iter().map(|axis| axis.name.as_str()).collect();
     if names != table.axes {
-        return Err(PlotError::OtherAxes {
-            sweep: names.join(", "),
-            table: table.axes.join(", "),
-        });
+        return Err(PlotError::file(format_args!(
+            "the table has the axes {}, but the sweep has {}; classify it again",
+            table.axes.join(", "),
+            names.join(", ")
+        )));
     }
     if table.rows.is_empty() {
-        return Err(PlotError::EmptyTable);
+        return Err(PlotError::empty_table());
     }
     for row in &table.rows {
         let finite = row.values.iter().all(|value| value.is_finite());
         if row.values.len() != names.len() || !finite {
-            return Err(PlotError::BadRow { id: row.id.clone() });
+            return Err(PlotError::file(format_args!(
+                "run {}: its row does not hold one finite value per axis; classify it again",
+                row.id
+            )));
         }
     }
     Ok(())
@@ -143,7 +147,9 @@ pub(super) fn places(sweep: &Sweep) -> Result<[Option<usize>; 4], PlotError> {
         let Some(name) = name else { continue };
         let index = find(&sweep.axes, name)?;
         if places.contains(&Some(index)) {
-            return Err(PlotError::AxisTwice { name: name.clone() });
+            return Err(PlotError::file(format_args!(
+                "[plot] uses the axis `{name}` twice; x, y and panels must differ"
+            )));
         }
         places[place] = Some(index);
     }
@@ -155,7 +161,9 @@ pub(super) fn places(sweep: &Sweep) -> Result<[Option<usize>; 4], PlotError> {
         }
     }
     match others.next() {
-        Some(_) => Err(PlotError::TooManyAxes),
+        Some(_) => Err(PlotError::file(
+            "a figure shows at most four axes: x, y, and two of small multiples",
+        )),
         None => Ok(places),
     }
 }
@@ -165,9 +173,9 @@ fn find(axes: &[Axis], name: &str) -> Result<usize, PlotError> {
     let found = positions.position(|axis| axis.name == name || axis.key == name);
     found.ok_or_else(|| {
         let known: Vec<&str> = axes.iter().map(|axis| axis.name.as_str()).collect();
-        PlotError::UnknownAxis {
-            name: name.to_owned(),
-            known: known.join(", "),
-        }
+        PlotError::file(format_args!(
+            "[plot] names the axis `{name}`, but the axes of this sweep are {}",
+            known.join(", ")
+        ))
     })
 }

@@ -132,8 +132,6 @@ impl Tank {
             record: &record,
             points: &points,
             times: None,
-            captions: &[],
-            data: &[],
             program: &Program::current(),
         };
         plot::draw(name, &source)
