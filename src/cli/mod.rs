@@ -5,6 +5,7 @@ mod commands;
 mod console;
 mod exit;
 mod folders;
+mod forecast;
 mod format;
 mod interrupt;
 mod job;

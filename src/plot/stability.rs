@@ -8,10 +8,12 @@ use super::legend::{Entry, Key};
 use super::style::Fill;
 use super::svg::Svg;
 use super::{PlotError, palette};
-use crate::dem::timestep::Limit;
+use crate::classify::{Label, NUMERICS};
+use crate::dem::timestep::{Limit, limits};
 use crate::record::Program;
-use crate::scene::{Integrator, Scene};
-use crate::study::stability::{Label, Row, Study, Theory};
+use crate::scene::Scene;
+use crate::study::comparison::{RunRow, Setting};
+use crate::study::stability::StabilityStudy;
 
 /// What the legend calls the full and the dashed curves.
 const LIMITS: [&str; 2] = ["limit of the time step", "advised limit of twelve contacts"];
@@ -20,96 +22,96 @@ const LIMITS: [&str; 2] = ["limit of the time step", "advised limit of twelve co
 ///
 /// # Errors
 /// [`PlotError`] if the figure cannot be drawn.
-pub fn draw(study: &Study, rows: &[Row], program: &Program) -> Result<Svg, PlotError> {
-    let axis = |index| GridAxis::over(index, &study.axes, &study.scene, std::iter::empty());
+pub fn draw(
+    study: &StabilityStudy,
+    rows: &[Option<RunRow>],
+    program: &Program,
+) -> Result<Svg, PlotError> {
+    let sweep = &study.comparison.settings[0].sweep;
+    let axis = |index| GridAxis::over(index, &sweep.axes, &sweep.scene, std::iter::empty());
     let (x, y) = (axis(0), axis(1));
-    let panel = |&integrator: &Integrator| panel(study, rows, integrator, &x, &y);
-    let panels = study.integrators.iter().map(panel).collect();
-    let theory = |&integrator: &Integrator| curves(study, integrator, &x, &y);
-    let curves: Vec<Vec<Curve>> = study.integrators.iter().map(theory).collect();
+    let settings = study.comparison.settings.iter();
+    let curves = settings.map(|it| curves(study, it, &x, &y));
+    let curves: Vec<Vec<Curve>> = curves.collect();
     let grid = Grid {
-        x: x.clone(),
-        y: Some(y.clone()),
+        panels: panels(study, rows, &x, &y),
+        x,
+        y: Some(y),
         columns: None,
         rows: None,
-        panels,
     };
-    let occurs = |label: &Label| rows.iter().any(|row| row.label == *label);
-    let legend = Label::ALL.into_iter().filter(occurs);
-    let legend = legend.map(|label| Entry::new(Key::Fill(fill(label)), words(label)));
+    let occurs = |label: &Label| rows.iter().flatten().any(|row| row.label == *label);
+    let legend = NUMERICS.labels.iter().filter(|label| occurs(label));
+    let legend =
+        legend.map(|label| Entry::new(Key::Fill(fill(*label)), &label.name.replace('-', " ")));
     let diagram = Diagram {
         name: "stability",
         grid: &grid,
-        look: &|label: &Label| Some(Look::new(fill(*label), Some(*label as i8))),
+        look: &|label: &Label| Some(Look::new(fill(*label), Some(label.code))),
         empty: "not run".to_owned(),
         legend: legend.collect(),
         bar: None,
     };
-    let body = diagram.body(
-        study.title.as_deref(),
-        &curves,
-        Curve::entries(&curves, LIMITS),
-    )?;
+    let entries = Curve::entries(&curves, LIMITS);
+    let body = diagram.body(sweep.title.as_deref(), &curves, entries)?;
     let scene = Scene {
-        title: study.title.clone(),
-        ..study.scene.clone()
+        title: sweep.title.clone(),
+        ..sweep.scene.clone()
     };
     Ok(Svg::of_scene(diagram.name, &scene, program, &body))
 }
 
-fn words(label: Label) -> &'static str {
-    match label {
-        Label::Stable => "stable",
-        Label::EnergyGain => "energy gain",
-        Label::LostSphere => "lost sphere",
-        Label::NotANumber => "not a number",
-    }
-}
-
 fn fill(label: Label) -> Fill {
-    Fill::Color(palette::stability(label))
+    Fill::Color(palette::state(label))
 }
 
-fn panel(
-    study: &Study,
-    rows: &[Row],
-    integrator: Integrator,
+/// A panel for each integrator.
+fn panels(
+    study: &StabilityStudy,
+    rows: &[Option<RunRow>],
     x: &GridAxis,
     y: &GridAxis,
-) -> Panel<Label> {
-    let mut cells = vec![None; x.values.len() * y.values.len()];
-    for row in rows.iter().filter(|row| row.integrator == integrator) {
-        if let (Some(column), Some(line)) = (x.position(&row.values), y.position(&row.values)) {
-            cells[column + line * x.values.len()] = Some(row.label);
+) -> Vec<Panel<Label>> {
+    let settings = &study.comparison.settings;
+    let panel = |(place, setting): (usize, &Setting)| {
+        let mut cells = vec![None; x.values.len() * y.values.len()];
+        let runs = study.comparison.sample(place, rows).points;
+        for (values, runs) in setting.sweep.grid().zip(runs) {
+            if let (Some(column), Some(line)) = (x.position(&values), y.position(&values)) {
+                let run = runs.first().copied().flatten();
+                cells[column + line * x.values.len()] = run.map(|run| run.label);
+            }
         }
-    }
-    Panel {
-        head: (study.integrators.len() > 1).then(|| integrator.name().to_owned()),
-        column: None,
-        row: None,
-        cells,
-    }
+        Panel {
+            head: (settings.len() > 1).then(|| setting.name.clone()),
+            column: None,
+            row: None,
+            cells,
+        }
+    };
+    settings.iter().enumerate().map(panel).collect()
 }
 
-/// The limit that decides, and that of twelve contacts.
-fn curves(study: &Study, integrator: Integrator, x: &GridAxis, y: &GridAxis) -> Vec<Curve> {
+/// The limit that decides, and the advised one of a sphere with twelve contacts, which there is not
+/// with sub-steps or without contacts.
+fn curves(study: &StabilityStudy, setting: &Setting, x: &GridAxis, y: &GridAxis) -> Vec<Curve> {
     let (across, up) = (nodes(x), nodes(y));
-    let theories: Vec<Option<(f64, Theory)>> = across
+    let at_nodes = across
         .iter()
-        .flat_map(|&x_value| up.iter().map(move |&y_value| [x_value, y_value]))
+        .flat_map(|&x_value| up.iter().map(move |&y_value| [x_value, y_value]));
+    let all: Vec<Option<(f64, Vec<Limit>)>> = at_nodes
         .map(|values| {
-            let scene = study.scene_at(&values, integrator).ok()?;
-            Some((scene.time.dt, Theory::of(&scene)))
+            let scene = study.frames.scene_at(&setting.sweep, &values).ok()?;
+            Some((scene.time.dt, limits(&scene)))
         })
         .collect();
-    let theory = |i: usize, j: usize| theories[j + i * up.len()];
     let shown = |places: &[f64], axis: &GridAxis| -> Vec<f64> {
         places.iter().map(|place| place * axis.factor).collect()
     };
-    let of = |limit: fn(&Theory) -> Option<Limit>| -> Vec<Piece> {
+    let of = |is_meant: fn(&&Limit) -> bool| -> Vec<Piece> {
         let value = |i: usize, j: usize| {
-            let (dt, theory) = theory(i, j)?;
-            Some(dt / limit(&theory)?.seconds - 1.0)
+            let (dt, limits) = all[j + i * up.len()].as_ref()?;
+            Some(dt / limits.iter().find(is_meant)?.seconds - 1.0)
         };
         Nodes {
             x: &shown(&across, x),
@@ -121,11 +123,11 @@ fn curves(study: &Study, integrator: Integrator, x: &GridAxis, y: &GridAxis) -> 
     };
     vec![
         Curve {
-            pieces: of(|theory| theory.twelve_contacts),
+            pieces: of(|limit| limit.name == "twelve contacts"),
             stroke: Stroke::Dashed,
         },
         Curve {
-            pieces: of(|theory| theory.decisive),
+            pieces: of(|limit| limit.decisive),
             stroke: Stroke::Full,
         },
     ]

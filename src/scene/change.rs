@@ -16,7 +16,7 @@ pub struct Change {
 }
 
 /// Keys of which another value makes another table: what else stood there does not belong to it.
-const TAGS: [&str; 2] = ["law", "kind"];
+const TAGS: [&str; 3] = ["law", "kind", "search"];
 
 impl Change {
     /// One key with another value.

@@ -29,9 +29,15 @@ impl Failure {
 
 /// Names a point of the grid with its seed: `radius = 0.003, omega = 6, seed 1`.
 pub fn describe(axes: &[Axis], values: &[f64], seed: u64) -> String {
-    let mut text = String::new();
-    for (axis, value) in axes.iter().zip(values) {
-        text += &format!("{} = {value}, ", axis.name);
+    match describe_point(axes, values) {
+        point if point.is_empty() => format!("seed {seed}"),
+        point => format!("{point}, seed {seed}"),
     }
-    text + &format!("seed {seed}")
+}
+
+/// Names a point of the grid: `radius = 0.003, omega = 6`.
+pub(crate) fn describe_point(axes: &[Axis], values: &[f64]) -> String {
+    let pairs = axes.iter().zip(values);
+    let pairs = pairs.map(|(axis, value)| format!("{} = {value}", axis.name));
+    pairs.collect::<Vec<_>>().join(", ")
 }

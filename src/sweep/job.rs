@@ -96,7 +96,7 @@ impl Sweep {
     }
 
     /// The points of the grid, in order.
-    pub(super) fn grid(&self) -> impl Iterator<Item = Vec<f64>> {
+    pub(crate) fn grid(&self) -> impl Iterator<Item = Vec<f64>> {
         grid(&self.axes)
     }
 

@@ -27,6 +27,9 @@ pub(crate) static SWEEP: LazyLock<Schema> = LazyLock::new(Schema::of::<SweepFile
 /// What a sweep file says.
 #[derive(Deserialize, JsonSchema)]
 pub(crate) struct SweepFile {
+    /// A study of the sweep, which `phase study` makes. Absent: none.
+    #[serde(rename = "study")]
+    _study: Option<StudyOfSweep>,
     /// Free text, the title of figures.
     title: Option<String>,
     /// The scene that every job starts from: the path of its file, relative to this one, or the
@@ -46,6 +49,14 @@ pub(crate) struct SweepFile {
     /// What the phase diagram shows.
     #[serde(default)]
     plot: PlotSettings,
+}
+
+/// A study of a sweep.
+#[derive(Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+enum StudyOfSweep {
+    /// Which effects the scene needs: each is taken away.
+    Ablation,
 }
 
 /// For the key `scene`: the path of a file, or what the schema says.

@@ -25,11 +25,12 @@ pub use backend::{
     Backend, BackendError, Batch, Begin, Claim, Event, LocalThreads, Report, Results, Wishes,
 };
 pub use dumps::find_dumps;
+pub(crate) use failure::describe_point;
 pub use failure::{Failure, describe};
 pub use failures::{read_failures, write_failures};
 pub use folder::{Access, Folder, FolderError};
 pub use job::{Job, PointError};
-pub(crate) use job::{PointScenes, grid, points};
+pub(crate) use job::{PointScenes, grid};
 pub use labelling::{
     Labelled, Labelling, LabellingError, Since, WithoutRoom, refuse_to_lose_labels,
 };

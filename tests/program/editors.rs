@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The commands that answer in JSON are tested below; these are all.
-const COMMANDS: [&str; 21] = [
+const COMMANDS: [&str; 18] = [
     "sweep",
     "classify",
     "plot",
@@ -15,12 +15,9 @@ const COMMANDS: [&str; 21] = [
     "view",
     "check",
     "cost",
-    "neighbours",
     "compare",
     "fit",
-    "stability",
-    "accuracy",
-    "ablate",
+    "study",
     "verify",
     "status",
     "new",
@@ -414,13 +411,13 @@ fn a_study_of_stability_answers_in_json() {
         "study.toml",
         &format!("study = \"stability\"\nscene = \"scene.toml\"\n{axes}"),
     );
-    let study = answer(&place, &["stability", "study.toml"], 0);
+    let study = answer(&place, &["study", "study.toml"], 0);
     assert_eq!(study["folder"], "results/stability/study");
     assert_eq!(
         (&study["runs"], &study["run_now"]),
         (&16.into(), &16.into())
     );
-    let euler = &study["integrators"][0];
+    let euler = &study["finding"]["integrators"][0];
     assert_eq!(euler["integrator"], "symplectic-euler");
     let runs = euler["labels"].as_object().unwrap().values();
     assert_eq!(runs.map(|runs| runs.as_u64().unwrap()).sum::<u64>(), 4);

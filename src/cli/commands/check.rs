@@ -1,7 +1,7 @@
 //! `phase check`: validates a file and says what would run.
 
 mod accuracy;
-mod study;
+mod stability;
 mod walls;
 
 use super::classify;
@@ -59,10 +59,14 @@ pub(crate) fn main(arguments: &Arguments, console: &Console) -> Result<Exit, Fai
         AnyFile::Scene(scene) => (Sweep::of_scene(*scene), FileKind::Scene),
         AnyFile::Sweep(sweep) => (*sweep, FileKind::Sweep),
         AnyFile::Study(AnyStudy::Stability(study)) => {
-            return study::main(&study, arguments, workers, console);
+            return stability::main(&study, arguments, workers, console);
         }
         AnyFile::Study(AnyStudy::Accuracy(study)) => {
             return accuracy::main(&study, arguments, workers, console);
+        }
+        // The file of an ablation is one of a sweep.
+        AnyFile::Study(AnyStudy::Ablation(study)) => {
+            (study.comparison.settings[0].sweep.clone(), FileKind::Sweep)
         }
     };
     let jobs = sweep.jobs().map_err(Failure::refused)?;

@@ -53,6 +53,10 @@ pub(crate) struct AccuracyFile {
     /// How large an error is allowed.
     #[serde(default)]
     pub(super) tolerance: Tolerance,
+    /// Names of axes, or last parts of the keys of ladders: against each a figure shows the
+    /// processor time of a step.
+    #[serde(default)]
+    pub(super) step_time: Vec<String>,
 }
 
 /// The name of this study.

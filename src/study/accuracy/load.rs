@@ -3,9 +3,9 @@
 use super::choices::{Choice, REFERENCE, choices};
 use super::file::{ACCURACY, AccuracyFile, Changes};
 use super::{AccuracyStudy, Subject, cases};
-use crate::document::{Document, LoadError, Problem, number};
+use crate::document::{Document, LoadError, Problem, number, one_of};
 use crate::run;
-use crate::scene::{Change, FileKind, Scene, Start, StartSphere, settings};
+use crate::scene::{Change, FileKind, Scene, Start, StartSphere, leaf, settings};
 use crate::simulation::{BuildError, Snapshot};
 use crate::study::StudyName;
 use crate::study::comparison::{AS_IT_IS, Base, Comparison, Measurement, Setting};
@@ -58,11 +58,39 @@ pub(crate) fn of_document(document: &Document) -> Result<AccuracyStudy, LoadErro
             return Err(document.refuse(&[Problem::new("", message).help(help)]));
         }
     };
+    check_step_time(&file, &subject, document)?;
     Ok(AccuracyStudy {
         title: file.title,
         tolerance: file.tolerance,
         subject,
+        step_time: file.step_time,
     })
+}
+
+/// Times of steps are drawn against what the study varies in numbers.
+fn check_step_time(
+    file: &AccuracyFile,
+    subject: &Subject,
+    document: &Document,
+) -> Result<(), LoadError> {
+    let mut known = Vec::new();
+    if let Subject::Scene(comparison) = subject {
+        known.extend(comparison.axes().iter().map(|axis| axis.name.as_str()));
+        let rungs = comparison.settings.iter().filter_map(|it| it.rung.as_ref());
+        known.extend(rungs.map(|(key, _)| leaf(key)));
+        known.dedup();
+    }
+    let names = file.step_time.iter().enumerate();
+    let unknown = names.filter(|(_, name)| !known.contains(&name.as_str()));
+    let problems = unknown.map(|(index, name)| {
+        let message = format!("the study has no axis or ladder of numbers \"{name}\"");
+        let help = match known.is_empty() {
+            true => "remove it: the study has neither".to_owned(),
+            false => format!("there is {}", one_of(known.iter().copied())),
+        };
+        Problem::new(format!("step_time[{index}]"), message).help(help)
+    });
+    document.accept(&problems.collect::<Vec<_>>())
 }
 
 /// A case has its own known numbers, and no seeds.

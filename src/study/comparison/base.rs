@@ -53,7 +53,8 @@ impl Base {
         }
     }
 
-    fn of_document(document: &Document) -> Result<Self, LoadError> {
+    /// The same of a file that has been read.
+    pub(crate) fn of_document(document: &Document) -> Result<Self, LoadError> {
         if FileKind::of(document).0 != FileKind::Sweep {
             // Also what is neither, which is refused with all that is wrong with it.
             return Ok(Self {
