@@ -49,7 +49,7 @@ fn row_at(source: &Source<'_>, point: &Selection) -> Result<usize, PlotError> {
     })?;
     let written = point.to_string();
     if let Some(open) = chosen.axes.iter().find(|axis| axis.values.len() > 1) {
-        let known: Vec<String> = open.values.iter().map(f64::to_string).collect();
+        let known = open.words();
         return Err(PlotError::OpenAxis {
             point: written,
             name: open.name.clone(),
@@ -210,7 +210,7 @@ impl Run<'_> {
     /// The same as one would write it on the command line.
     fn plainly(&self) -> String {
         let axes = self.source.sweep.axes.iter().zip(&self.row.values);
-        let values = axes.map(|(axis, value)| format!("{} = {value}", axis.name));
+        let values = axes.map(|(axis, value)| format!("{} = {}", axis.name, axis.word(*value)));
         let seed = [format!("seed = {}", self.row.seed)];
         values.chain(seed).collect::<Vec<_>>().join(", ")
     }
@@ -220,6 +220,9 @@ impl Run<'_> {
 /// lengths in millimetres.
 pub(super) fn quantity(source: &Source<'_>, key: &str, name: &str, value: f64) -> String {
     let axes = source.sweep.axes.iter().filter(|axis| axis.key == key);
+    if let Some(variant) = axes.clone().find_map(|axis| axis.variant(value)) {
+        return variant.name.clone();
+    }
     let others: Vec<f64> = axes.flat_map(|axis| axis.values.iter().copied()).collect();
     let Some(notation) = source.sweep.scene.notation(key) else {
         return format!("{name} = {}", numbers::among(value, &others));

@@ -51,7 +51,11 @@ pub(super) fn curves<P>(scene: &Scene, grid: &Grid<P>, panel: &Panel<P>) -> Vec<
             grid.columns.as_ref(),
             grid.rows.as_ref(),
         ];
-        let keys = axes.into_iter().flatten().map(|axis| axis.key.as_str());
+        let numbers = axes
+            .into_iter()
+            .flatten()
+            .filter(|axis| axis.words.is_empty());
+        let keys = numbers.map(|axis| axis.key.as_str());
         let values = keys.filter(|key| *key != OMEGA).filter_map(|key| {
             let value = value(key, place)?;
             // Between whole numbers of spheres there is no scene.
@@ -145,11 +149,7 @@ mod tests {
     /// The curves of all panels of a sweep over these axes, and the shown value over the value of
     /// the horizontal axis.
     fn curves(axes: &[(&str, &[f64])]) -> (Vec<Vec<Piece>>, f64) {
-        let axis = |&(key, values): &(&str, &[f64])| Axis {
-            key: key.to_owned(),
-            name: key.to_owned(),
-            values: values.to_vec(),
-        };
+        let axis = |&(key, values): &(&str, &[f64])| Axis::of_numbers(key, key, values.to_vec());
         let sweep = Sweep {
             title: None,
             scene: scene(),
@@ -168,6 +168,7 @@ mod tests {
         let table = LabelTable {
             family: &TANK,
             axes: axes.iter().map(|(key, _)| (*key).to_owned()).collect(),
+            variants: Vec::new(),
             rows: vec![row],
         };
         let grid = Grid::new(&Source {

@@ -129,10 +129,12 @@ pub(super) struct Diagram<'a, P = Point> {
 impl Diagram<'_> {
     /// Draws it with the curves of the critical rotation.
     pub(super) fn draw(&self, source: &Source<'_>) -> Result<Svg, PlotError> {
-        let scene = &source.sweep.scene;
         let panels = self.grid.panels.iter();
         let curves: Vec<Vec<Curve>> = panels
-            .map(|panel| critical::curves(scene, self.grid, panel))
+            .map(|panel| {
+                let scene = source.sweep.scene_of_variant(self.grid.variant(panel));
+                critical::curves(scene, self.grid, panel)
+            })
             .collect();
         let entries = Curve::entries(&curves, critical::WORDS);
         let title = source.sweep.title.as_deref();

@@ -46,6 +46,7 @@ pub fn draw_records(
     let table = LabelTable {
         family,
         axes: Vec::new(),
+        variants: Vec::new(),
         rows: records.iter().enumerate().map(row).collect(),
     };
     let scenes: Vec<&Scene> = records.iter().map(|it| &it.scene).collect();

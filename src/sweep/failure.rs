@@ -38,6 +38,6 @@ pub fn describe(axes: &[Axis], values: &[f64], seed: u64) -> String {
 /// Names a point of the grid: `radius = 0.003, omega = 6`.
 pub(crate) fn describe_point(axes: &[Axis], values: &[f64]) -> String {
     let pairs = axes.iter().zip(values);
-    let pairs = pairs.map(|(axis, value)| format!("{} = {value}", axis.name));
+    let pairs = pairs.map(|(axis, value)| format!("{} = {}", axis.name, axis.word(*value)));
     pairs.collect::<Vec<_>>().join(", ")
 }

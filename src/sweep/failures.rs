@@ -4,6 +4,7 @@
 
 use super::{Axis, Failure};
 use crate::store::{StoreError, write_atomic};
+use serde::Serialize;
 use std::path::Path;
 
 /// Writes the table of failed jobs of a sweep with these axes.
@@ -23,7 +24,12 @@ pub fn write_failures<'a>(
         .map_err(fail)?;
     for failure in failures {
         table
-            .serialize((&failure.id, &failure.values, failure.seed, &failure.reason))
+            .serialize((
+                &failure.id,
+                cells(axes, &failure.values),
+                failure.seed,
+                &failure.reason,
+            ))
             .map_err(fail)?;
     }
     let bytes = table
@@ -32,11 +38,28 @@ pub fn write_failures<'a>(
     write_atomic(path, &bytes)
 }
 
-/// Reads the table of failed jobs. Where there is no file, no job failed.
+/// The values of a point in a table: numbers, and the names of variants.
+fn cells(axes: &[Axis], values: &[f64]) -> Vec<Cell> {
+    let cell = |(axis, &value): (&Axis, &f64)| match axis.variant(value) {
+        Some(variant) => Cell::Word(variant.name.clone()),
+        None => Cell::Number(value),
+    };
+    axes.iter().zip(values).map(cell).collect()
+}
+
+/// A value in a table.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Cell {
+    Number(f64),
+    Word(String),
+}
+
+/// Reads the table of failed jobs of a sweep with these axes. Where there is no file, no job failed.
 ///
 /// # Errors
 /// If the file cannot be read or is not such a table.
-pub fn read_failures(path: &Path) -> Result<Vec<Failure>, StoreError> {
+pub fn read_failures(axes: &[Axis], path: &Path) -> Result<Vec<Failure>, StoreError> {
     if !path.exists() {
         return Ok(Vec::new());
     }
@@ -46,7 +69,7 @@ pub fn read_failures(path: &Path) -> Result<Vec<Failure>, StoreError> {
     for row in table.records() {
         let row = row.map_err(|error| StoreError::reading(path, error.into()))?;
         let line = row.position().map_or(1, csv::Position::line);
-        failures.push(parse(&row).ok_or_else(|| {
+        failures.push(parse(axes, &row).ok_or_else(|| {
             StoreError::text(
                 path,
                 line,
@@ -57,14 +80,18 @@ pub fn read_failures(path: &Path) -> Result<Vec<Failure>, StoreError> {
     Ok(failures)
 }
 
-fn parse(row: &csv::StringRecord) -> Option<Failure> {
+fn parse(axes: &[Axis], row: &csv::StringRecord) -> Option<Failure> {
     let mut cells: Vec<&str> = row.iter().collect();
     let reason = cells.pop()?.to_owned();
     let seed = cells.pop()?.parse().ok()?;
     let (id, values) = cells.split_first()?;
     let values = values
         .iter()
-        .map(|value| value.parse().ok())
+        .enumerate()
+        .map(|(place, cell)| match axes.get(place) {
+            Some(axis) if axis.is_of_variants() => axis.place_of(cell),
+            _ => cell.parse().ok(),
+        })
         .collect::<Option<_>>()?;
     Some(Failure {
         id: (*id).to_owned(),
@@ -82,12 +109,8 @@ mod tests {
     fn reads_back_what_was_written() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("failed.csv");
-        assert_eq!(read_failures(&path).unwrap(), []);
-        let axis = |name: &str| Axis {
-            key: name.to_owned(),
-            name: name.to_owned(),
-            values: vec![],
-        };
+        let axes = ["radius", "omega"].map(|name| Axis::of_numbers(name, name, vec![]));
+        assert_eq!(read_failures(&axes, &path).unwrap(), []);
         let failure = Failure {
             id: "0123456789abcdef".to_owned(),
             values: vec![0.1 + 0.2, 40.0],
@@ -95,13 +118,13 @@ mod tests {
             reason: "no room, \"really\"\nnone".to_owned(),
         };
         let failures = [failure.clone(), failure];
-        write_failures(&[axis("radius"), axis("omega")], &failures, &path).unwrap();
-        assert_eq!(read_failures(&path).unwrap(), failures);
+        write_failures(&axes, &failures, &path).unwrap();
+        assert_eq!(read_failures(&axes, &path).unwrap(), failures);
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.starts_with("id,radius,omega,seed,reason\n"), "{text}");
 
         std::fs::write(&path, text.replace("40.0", "forty")).unwrap();
-        let message = read_failures(&path).unwrap_err().to_string();
+        let message = read_failures(&axes, &path).unwrap_err().to_string();
         assert!(message.contains("failed.csv:2: "), "{message}");
     }
 }

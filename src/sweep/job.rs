@@ -38,6 +38,8 @@ impl Job {
 pub struct PointError {
     /// The point, such as `radius = 0.003, omega = 6`; empty for a sweep without axes.
     pub point: String,
+    /// Place of its variant, if it has one.
+    pub variant: Option<usize>,
     /// What is wrong there.
     pub problems: Vec<Problem>,
 }
@@ -132,21 +134,42 @@ pub(crate) fn points(axes: &[Axis]) -> usize {
 /// The scenes of the points of a grid.
 pub(crate) struct PointScenes<'a> {
     axes: &'a [Axis],
-    template: Template,
+    /// One for each variant; one alone without variants.
+    templates: Vec<Template>,
 }
 
 impl<'a> PointScenes<'a> {
     /// The scenes of all points, made of `scene`, whose numbers must be in their ranges.
     pub(crate) fn new(scene: &Scene, axes: &'a [Axis]) -> Result<Self, PointError> {
-        let keys: Vec<&str> = axes.iter().map(|axis| axis.key.as_str()).collect();
-        let template = Template::new(scene, &keys)
-            .map_err(|problem| PointError::new(&[], &[], vec![problem]))?;
-        Ok(Self { axes, template })
+        let numbers = axes.iter().filter(|axis| !axis.is_of_variants());
+        let keys: Vec<&str> = numbers.map(|axis| axis.key.as_str()).collect();
+        let template = |scene: &Scene| {
+            let template = Template::new(scene, &keys);
+            template.map_err(|problem| PointError::new(&[], &[], vec![problem]))
+        };
+        let variants = axes.iter().flat_map(|axis| &axis.variants);
+        let mut templates = variants
+            .map(|variant| template(&variant.scene))
+            .collect::<Result<Vec<_>, _>>()?;
+        if templates.is_empty() {
+            templates.push(template(scene)?);
+        }
+        Ok(Self { axes, templates })
     }
 
     /// The scene of a point. Only the ranges of its numbers are checked.
     pub(crate) fn unchecked(&mut self, values: &[f64]) -> Result<Scene, PointError> {
-        let scene = self.template.with(values);
+        let pairs = || self.axes.iter().zip(values);
+        let variant = pairs().find_map(|(axis, &value)| Some((axis.variant(value)?, value)));
+        let factor = |axis: &Axis| {
+            let scale = variant.into_iter().flat_map(|(it, _)| &it.scale);
+            let own = scale.filter(|(name, _)| *name == axis.name);
+            own.map(|(_, factor)| factor).product::<f64>()
+        };
+        let numbers = pairs().filter(|(axis, _)| !axis.is_of_variants());
+        let numbers: Vec<f64> = numbers.map(|(axis, value)| factor(axis) * value).collect();
+        let template = variant.map_or(0, |(_, place)| place as usize);
+        let scene = self.templates[template].with(&numbers);
         scene.map_err(|problems| PointError::new(self.axes, values, problems))
     }
 
@@ -161,11 +184,17 @@ impl PointError {
     /// What is wrong at the point with these values.
     pub(crate) fn new(axes: &[Axis], values: &[f64], problems: Vec<Problem>) -> Self {
         let pairs = axes.iter().zip(values);
+        let mut places = pairs.clone().filter(|(axis, _)| axis.is_of_variants());
+        let variant = places.next().map(|(_, place)| *place as usize);
         let pairs: Vec<String> = pairs
-            .map(|(axis, value)| format!("{} = {}", axis.name, number(*value)))
+            .map(|(axis, &value)| match axis.variant(value) {
+                Some(variant) => format!("{} = {}", axis.name, variant.name),
+                None => format!("{} = {}", axis.name, number(value)),
+            })
             .collect();
         Self {
             point: pairs.join(", "),
+            variant,
             problems,
         }
     }

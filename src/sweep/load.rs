@@ -4,6 +4,7 @@ use super::axis::AxisEntry;
 use super::job::{PointError, PointScenes, points};
 use super::refining::RefineEntry;
 use super::seeds::{SeedsEntry, expand_seeds};
+use super::variant::{SceneTree, VariantEntry, expand_variants};
 use super::{Axis, PlotSettings, Sweep};
 use crate::classify::{ClassifyError, Family, Sieves};
 use crate::document::{Document, LoadError, Problem, Schema, one_of, suggest};
@@ -39,6 +40,10 @@ pub(crate) struct SweepFile {
     /// The axes, four at most. The first varies slowest. None: only the seeds vary.
     #[serde(default)]
     axis: Vec<AxisEntry>,
+    /// Named changes of the scene, which make one more axis: each point runs with each of them.
+    /// The axis varies fastest, and its name is `variant`.
+    #[serde(default)]
+    variant: Vec<VariantEntry>,
     /// Seeds; each point of the grid runs once per seed. Absent: seed 1 alone.
     seeds: Option<SeedsEntry>,
     /// Runs only where labels need them, in place of the whole grid. Absent: the whole grid is run.
@@ -93,8 +98,17 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     let file = SweepFile::deserialize(&tree)
         .map_err(|error| document.refuse(&[Problem::new("", format!("not a sweep: {error}"))]))?;
     let mut scene = base_scene(&file.scene, document, Reading::RUN)?;
-    let axes = expand_axes(&file.axis, &scene, &mut problems);
+    let mut axes = expand_axes(&file.axis, &scene, &mut problems);
     check_steps(&axes, &mut problems);
+    if !file.variant.is_empty() {
+        let source = SceneTree::of_entry(document)?;
+        axes.extend(expand_variants(
+            &file.variant,
+            &source,
+            &axes,
+            &mut problems,
+        ));
+    }
     if axes.iter().any(|axis| axis.key == "time.dt") {
         // The axis has a number for every point.
         scene.time.safety_factor = None;
@@ -113,7 +127,7 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
         sieves: file.sieves,
         plot: file.plot,
     };
-    if file.axis.is_empty() && file.seeds.is_none() {
+    if file.axis.is_empty() && file.variant.is_empty() && file.seeds.is_none() {
         let help = "add [[axis]] with `key` and `values`; a single run needs no sweep";
         problems.push(Problem::new("", "the sweep varies nothing").help(help));
     }
@@ -122,6 +136,12 @@ pub(crate) fn of_document(document: &Document) -> Result<Sweep, LoadError> {
     check_sieves(&sweep, document.tree(), &mut problems);
     document.accept(&problems)?;
     if let Some(refine) = &file.refine {
+        if !file.variant.is_empty() {
+            let message = "a sweep with variants is not refined: they have no order along which \
+                           labels change";
+            let help = "remove [refine], or make a file for each variant";
+            document.accept(&[Problem::new("refine", message).help(help)])?;
+        }
         refine.refine(&mut sweep, &mut problems);
         document.accept(&problems)?;
     }
@@ -226,6 +246,23 @@ fn check_sieves(sweep: &Sweep, tree: &Value, problems: &mut Vec<Problem>) {
         };
         let problem = Problem::new(format!("sieves.{name}"), message);
         problems.push(problem.help(help).at_key());
+    }
+    let variants = sweep.axes.iter().flat_map(|axis| &axis.variants);
+    for (index, variant) in variants.enumerate() {
+        let (own, of_base) = (Family::of(&variant.scene), family);
+        if own != of_base {
+            let message = format!(
+                "with {} the scene is a {}, and no label of it goes with those of a {}",
+                variant.name, own.name, of_base.name
+            );
+            let help = "do not change what makes it one";
+            problems.push(Problem::new(format!("variant[{index}]"), message).help(help));
+        } else if let Err(error) = sweep.sieves.check(&variant.scene)
+            && sweep.sieves.check(&sweep.scene).is_ok()
+        {
+            let message = format!("with {}: {error}", variant.name);
+            problems.push(Problem::new(format!("variant[{index}]"), message));
+        }
     }
     match sweep.sieves.check(&sweep.scene) {
         Err(ClassifyError::NotCounted {
@@ -347,7 +384,7 @@ pub(crate) fn check_points(
     };
     for problem in first.problems {
         let message = format!("at {}{others}: {}", first.point, problem.message);
-        let path = place(&problem.path, axes, tree);
+        let path = place(&problem.path, axes, tree, first.variant);
         problems.push(Problem {
             path,
             message,
@@ -369,16 +406,17 @@ fn advise_for(problem: &mut Problem, other: &PointError) {
     }
 }
 
-/// The place in the file that is shown for the problem of a point: the axis that sets the key, or
-/// the scene.
-fn place(path: &str, axes: &[Axis], tree: &Value) -> String {
+/// The place in the file that is shown for the problem of a point: the axis that sets the key, the
+/// variant, or the scene.
+fn place(path: &str, axes: &[Axis], tree: &Value, variant: Option<usize>) -> String {
     let sets = |axis: &Axis| {
         let rest = path.strip_prefix(&axis.key);
         rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
     };
-    match axes.iter().position(sets) {
-        Some(index) => format!("axis[{index}].key"),
-        None if tree["scene"].is_object() => format!("scene.{path}"),
-        None => "scene".to_owned(),
+    match (axes.iter().position(sets), variant) {
+        (Some(index), _) => format!("axis[{index}].key"),
+        (None, Some(variant)) => format!("variant[{variant}]"),
+        (None, None) if tree["scene"].is_object() => format!("scene.{path}"),
+        (None, None) => "scene".to_owned(),
     }
 }

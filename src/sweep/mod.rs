@@ -16,6 +16,7 @@ mod seeds;
 mod select;
 mod spacing;
 mod status;
+mod variant;
 pub mod work;
 
 pub use crate::document::differing_keys;
@@ -48,6 +49,10 @@ pub use refining::{
 pub(crate) use seeds::{SeedsEntry, expand_seeds};
 pub use select::{SelectError, Selection, parse_point};
 pub use status::{Status, UnderWay};
+pub(crate) use variant::{
+    SceneTree, VariantEntry, check_change, check_variants, nothing_to_leave_out,
+};
+pub use variant::{VARIANT, Variant};
 
 use crate::classify::Sieves;
 use crate::refine::Settings;
@@ -89,6 +94,19 @@ impl Sweep {
             sieves: Sieves::default(),
             plot: PlotSettings::default(),
         }
+    }
+
+    /// Names of the variants; empty without that axis.
+    pub fn variants(&self) -> Vec<String> {
+        let variants = self.axes.iter().flat_map(|axis| &axis.variants);
+        variants.map(|variant| variant.name.clone()).collect()
+    }
+
+    /// The scene of a variant, by its place; without one that from which all points start.
+    pub fn scene_of_variant(&self, place: Option<f64>) -> &Scene {
+        let mut variants = self.axes.iter().filter(|axis| axis.is_of_variants());
+        let variant = place.and_then(|place| variants.next()?.variant(place));
+        variant.map_or(&self.scene, |variant| &variant.scene)
     }
 
     /// The sweep of a scene that takes no time, to test with.

@@ -103,7 +103,7 @@ impl Results for Records<'_> {
     fn note_failures(&self, failures: &[&Failure]) -> Result<(), StoreError> {
         let path = self.folder.failures();
         let ours: HashSet<&str> = failures.iter().map(|it| it.id.as_str()).collect();
-        let noted = read_failures(&path).unwrap_or_default();
+        let noted = read_failures(&self.sweep.axes, &path).unwrap_or_default();
         let others = noted.iter().filter(|other| {
             !ours.contains(other.id.as_str()) && !self.folder.record(&other.id).is_file()
         });
@@ -126,11 +126,8 @@ mod tests {
 
     fn sweep() -> (Sweep, Vec<Job>) {
         let falling = Sweep::of_falling_sphere();
-        let axis = Axis {
-            key: "gravity.acceleration".to_owned(),
-            name: "acceleration".to_owned(),
-            values: vec![1.0, 2.0, 3.0, 4.0],
-        };
+        let values = vec![1.0, 2.0, 3.0, 4.0];
+        let axis = Axis::of_numbers("gravity.acceleration", "acceleration", values);
         let job = |&value: &f64| {
             let mut scene = falling.scene.clone();
             scene.dem.effects.gravity.as_mut().unwrap().acceleration = value;
@@ -192,7 +189,10 @@ mod tests {
                 .reason
                 .contains("the scene has no contact law")
         );
-        assert_eq!(read_failures(&folder.failures()).unwrap(), report.failures);
+        assert_eq!(
+            read_failures(&sweep.axes, &folder.failures()).unwrap(),
+            report.failures
+        );
 
         // The failed ones, and only these, are run again, and then no failure is left.
         let plan = Plan::new(&folder, jobs, 2).unwrap();

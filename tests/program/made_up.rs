@@ -7,11 +7,7 @@ use phase::scene::Scene;
 use phase::sweep::{Axis, PlotSettings, Sweep};
 
 pub(crate) fn axis((key, name): (&str, &str), values: &[f64]) -> Axis {
-    Axis {
-        key: key.to_owned(),
-        name: name.to_owned(),
-        values: values.to_vec(),
-    }
+    Axis::of_numbers(key, name, values.to_vec())
 }
 
 pub(crate) fn sweep(title: &str, scene: Scene, axes: Vec<Axis>, seeds: &[u64]) -> Sweep {
@@ -58,6 +54,7 @@ pub(crate) fn table(
     LabelTable {
         family,
         axes: sweep.axes.iter().map(|axis| axis.name.clone()).collect(),
+        variants: sweep.variants(),
         rows,
     }
 }

@@ -203,7 +203,7 @@ impl Answer {
         let found = Folder::find(dir).map_err(Failure::refused)?;
         self.folders = folders::go_through(dir, found, console, |folder| {
             let sweep = folder.read_sweep().map_err(Failure::failed)?;
-            let table = folder::read_labels(folder)?;
+            let table = folder::read_labels(folder)?.with_variants(sweep.variants());
             for (figure, is_drawn) in is_drawn.iter_mut().filter(|(_, is_drawn)| !is_drawn) {
                 let of_folder = (folder, &sweep, &table);
                 *is_drawn = drawn(figure.name, of_folder, (&[], None)).is_ok();

@@ -9,6 +9,7 @@ use crate::cli::{format, refined};
 use phase::refine::Finish;
 use phase::sweep::{Axis, Folder, Plan, Refining, Status, Sweep, UnderWay, describe, work};
 use serde::Serialize;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -49,7 +50,7 @@ impl FolderAnswer {
             .jobs_so_far(refining.as_ref())
             .map_err(Failure::failed)?;
         let plan = Plan::new(folder, jobs, work::default_workers()).map_err(Failure::failed)?;
-        let status = Status::of(folder, &plan).map_err(Failure::failed)?;
+        let status = Status::of(folder, &sweep.axes, &plan).map_err(Failure::failed)?;
         console.result(format_args!(
             "{}: {}",
             folder.root().display(),
@@ -146,7 +147,7 @@ struct FolderAnswer {
 #[derive(Serialize)]
 struct UnderWayAnswer {
     id: String,
-    point: BTreeMap<String, f64>,
+    point: BTreeMap<String, Value>,
     seed: u64,
     frame: u64,
     frames: u64,

@@ -97,6 +97,14 @@ impl<P> Grid<P> {
         (self.x.values.len(), vertical)
     }
 
+    /// The place of the variant that a panel stands for, if it stands for one.
+    pub(super) fn variant(&self, panel: &Panel<P>) -> Option<f64> {
+        let axes = [(&self.columns, panel.column), (&self.rows, panel.row)];
+        axes.into_iter().find_map(|(axis, value)| {
+            value.filter(|_| axis.as_ref().is_some_and(|it| !it.words.is_empty()))
+        })
+    }
+
     /// How many panels stand side by side.
     pub(super) fn panels_per_row(&self) -> usize {
         match &self.columns {

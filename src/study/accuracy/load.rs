@@ -11,6 +11,7 @@ use crate::study::StudyName;
 use crate::study::comparison::{AS_IT_IS, Base, Comparison, Measurement, Setting};
 use crate::sweep::{
     check_axes, check_jobs, check_number_of_axes, check_steps, expand_axes, expand_seeds,
+    nothing_to_leave_out,
 };
 use serde::Deserialize;
 use std::path::Path;
@@ -242,8 +243,7 @@ fn settings(
 /// Notes what a change leaves out although it is not there: a slip of the pen.
 fn note_absent(base: &Base, path: &str, change: &Change, problems: &mut Vec<Problem>) {
     for absent in base.not_there(change) {
-        let message = format!("the scene has no `{absent}` to leave out");
-        problems.push(Problem::new(path, message).help("check its spelling, or remove it here"));
+        problems.push(nothing_to_leave_out(path, absent));
     }
 }
 

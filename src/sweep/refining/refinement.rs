@@ -213,6 +213,7 @@ impl Known {
             table: LabelTable {
                 family: Family::of(&sweep.scene),
                 axes: sweep.axes.iter().map(|axis| axis.name.clone()).collect(),
+                variants: sweep.variants(),
                 rows: Vec::new(),
             },
         }

@@ -55,7 +55,7 @@ impl Original {
             .select(&point)
             .map_err(|error| refuse(error.to_string()))?;
         if let Some(axis) = chosen.axes.iter().find(|axis| axis.values.len() > 1) {
-            let values: Vec<String> = axis.values.iter().map(f64::to_string).collect();
+            let values = axis.words();
             return Err(refuse(format!(
                 "say which run: add {}=..., one of {}",
                 axis.name,
@@ -96,7 +96,7 @@ impl Original {
     pub(super) fn default_path(&self) -> PathBuf {
         let values = self.axes.iter().zip(&self.job.values);
         let mut name: String = values
-            .map(|(axis, value)| format!("{}-{value}_", axis.name))
+            .map(|(axis, value)| format!("{}-{}_", axis.name, axis.word(*value)))
             .collect();
         name += &format!("seed-{}.h5", self.job.seed);
         self.folder.root().join("runs").join(name)
