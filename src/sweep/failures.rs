@@ -123,6 +123,22 @@ mod tests {
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(text.starts_with("id,radius,omega,seed,reason\n"), "{text}");
 
+        let variant = crate::sweep::Variant {
+            name: "no drag, calm".to_owned(),
+            scale: Vec::new(),
+            scene: crate::sweep::Sweep::of_falling_sphere().scene,
+        };
+        let variants = [axes[0].clone(), Axis::of_variants(vec![variant])];
+        let of_variant = Failure {
+            values: vec![0.1, 0.0],
+            ..failures[0].clone()
+        };
+        let other = folder.path().join("other.csv");
+        write_failures(&variants, [&of_variant], &other).unwrap();
+        let text_of_variant = std::fs::read_to_string(&other).unwrap();
+        assert!(text_of_variant.contains(",\"no drag, calm\","), "{text_of_variant}");
+        assert_eq!(read_failures(&variants, &other).unwrap(), [of_variant]);
+
         std::fs::write(&path, text.replace("40.0", "forty")).unwrap();
         let message = read_failures(&axes, &path).unwrap_err().to_string();
         assert!(message.contains("failed.csv:2: "), "{message}");

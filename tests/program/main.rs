@@ -42,3 +42,4 @@ mod stability_study;
 mod suggestions;
 #[path = "../support/mod.rs"]
 mod support;
+mod variants;
